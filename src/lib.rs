@@ -1,0 +1,3 @@
+//! Microslip friction law for blade contacts.
+#![no_std]
+extern crate std;
