@@ -1,0 +1,96 @@
+//! The C header, made from the Rust source, and the names that it declares.
+
+use std::path::{Path, PathBuf};
+
+use cbindgen::{Bindings, Builder, Config};
+
+/// The directory of the library's package.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Where the header stands in the repository.
+pub fn header_path() -> PathBuf {
+    root().join("include/microslip.h")
+}
+
+/// The text that the header should have.
+pub fn header() -> String {
+    let mut text = Vec::new();
+    bindings().write(&mut text);
+    String::from_utf8(text).expect("cbindgen writes UTF-8")
+}
+
+/// The functions of the interface, in the order of the source.
+pub fn symbols() -> Vec<String> {
+    bindings()
+        .dynamic_symbols_names()
+        .map(str::to_owned)
+        .collect()
+}
+
+/// Compares the committed header with the source; the error is a sentence for a person.
+pub fn check_header() -> Result<(), String> {
+    let path = header_path();
+    let committed =
+        std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let header = header();
+    if committed == header {
+        return Ok(());
+    }
+    let line = committed
+        .lines()
+        .zip(header.lines())
+        .take_while(|(old, new)| old == new)
+        .count();
+    Err(format!(
+        "include/microslip.h is stale from line {}: run `make header` and commit the result",
+        line + 1
+    ))
+}
+
+fn bindings() -> Bindings {
+    let mut config = Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml");
+    config.after_includes = Some(version_macros());
+    // cbindgen also takes in every public constant and every foreign function that the library
+    // calls: what belongs to the interface carries its prefix.
+    let outsiders = outsiders(&generate(&config));
+    config.export.exclude.extend(outsiders);
+    generate(&config)
+}
+
+fn generate(config: &Config) -> Bindings {
+    Builder::new()
+        .with_crate(root())
+        .with_config(config.clone())
+        .generate()
+        .unwrap_or_else(|e| panic!("the source does not make a header: {e}"))
+}
+
+/// The constants and functions without the prefix of the interface.
+fn outsiders(bindings: &Bindings) -> Vec<String> {
+    let mut text = Vec::new();
+    bindings.write(&mut text);
+    let text = String::from_utf8_lossy(&text);
+    let constants = text
+        .lines()
+        .filter_map(|line| Some(line.strip_prefix("#define ")?.split_once(' ')?.0))
+        .filter(|name| !name.starts_with("MSLIP_"));
+    let functions = bindings
+        .dynamic_symbols_names()
+        .filter(|name| !name.starts_with("mslip_"));
+    constants.chain(functions).map(str::to_owned).collect()
+}
+
+/// The package's version, as macros: this crate and the library share one version.
+fn version_macros() -> String {
+    format!(
+        "\n// Version of the library that this header belongs to.\n\
+         #define MSLIP_VERSION_MAJOR {}\n\
+         #define MSLIP_VERSION_MINOR {}\n\
+         #define MSLIP_VERSION_PATCH {}",
+        env!("CARGO_PKG_VERSION_MAJOR"),
+        env!("CARGO_PKG_VERSION_MINOR"),
+        env!("CARGO_PKG_VERSION_PATCH")
+    )
+}
