@@ -1,0 +1,79 @@
+# microslip: build, install, test. `make help` lists the targets.
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+CARGO ?= cargo
+INSTALL ?= install
+
+version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
+archive := target/release/libmicroslip.a
+pcdir := lib/pkgconfig
+cmakedir := lib/cmake/microslip
+files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/microslip.pc \
+	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
+products := $(addprefix dist/,$(files))
+
+.PHONY: all install uninstall demo test header clean help
+.DELETE_ON_ERROR:
+
+## all: build dist/, the tree that `install` copies (the default)
+all: $(products)
+
+# The sources are named here so that `make install`, as another user, need not run cargo again.
+$(archive): $(sources)
+	$(CARGO) build --release --locked --package microslip --target-dir target
+	@touch $@
+
+dist/lib/libmicroslip.a: $(archive) scripts/localise.sh
+	scripts/localise.sh $< $@
+
+dist/include/%: include/%
+	@mkdir -p $(@D)
+	cp $< $@
+
+dist/$(pcdir)/%: packaging/%.in Cargo.toml
+	@mkdir -p $(@D)
+	sed 's/@VERSION@/$(version)/' $< > $@
+
+dist/$(cmakedir)/%: packaging/%
+	@mkdir -p $(@D)
+	cp $< $@
+
+dist/$(cmakedir)/%: packaging/%.in Cargo.toml
+	@mkdir -p $(@D)
+	sed 's/@VERSION@/$(version)/' $< > $@
+
+## install: copy dist/ to $(DESTDIR)$(PREFIX)
+install: all
+	@for file in $(files); do \
+		$(INSTALL) -D -m 644 "dist/$$file" "$(DESTDIR)$(PREFIX)/$$file" || exit 1; \
+	done
+	@echo "microslip $(version) is in $(DESTDIR)$(PREFIX)"
+
+## uninstall: remove what `install` copied
+uninstall:
+	@for file in $(files); do rm -f "$(DESTDIR)$(PREFIX)/$$file"; done
+	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" 2>/dev/null || true
+
+## demo: run the Fortran examples and draw their figures
+demo: all
+	scripts/dependencies.sh demo
+	$(MAKE) -C fortran_examples demo PREFIX="$(CURDIR)/dist"
+
+## test: every test, in Rust, C, C++ and Fortran
+test:
+	scripts/test.sh
+
+## header: make include/microslip.h from the Rust source
+header:
+	$(CARGO) run --quiet --package xtask -- header
+
+## clean: remove everything that was built
+clean:
+	rm -rf dist target
+	$(MAKE) -C fortran_examples clean
+
+## help: list the targets
+help:
+	@sed -n 's/^## //p' $(MAKEFILE_LIST)

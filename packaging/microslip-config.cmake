@@ -1,0 +1,18 @@
+# find_package(microslip): the target microslip::microslip, and the source of the Fortran module.
+#
+# The paths are relative to this file, so the installed tree may be moved.
+
+get_filename_component(_microslip_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+
+# Compile this file with the program that uses it: module files depend on the compiler.
+set(microslip_FORTRAN_MODULE "${_microslip_prefix}/include/microslip.f90")
+
+if(NOT TARGET microslip::microslip)
+  add_library(microslip::microslip STATIC IMPORTED)
+  set_target_properties(microslip::microslip PROPERTIES
+    IMPORTED_LOCATION "${_microslip_prefix}/lib/libmicroslip.a"
+    INTERFACE_INCLUDE_DIRECTORIES "${_microslip_prefix}/include"
+    INTERFACE_LINK_LIBRARIES m)
+endif()
+
+unset(_microslip_prefix)

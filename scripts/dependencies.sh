@@ -1,0 +1,80 @@
+#!/bin/sh
+# dependencies.sh GROUP...: see that the tools of each group are there.
+#
+#   fortran   the compiler
+#   demo      Fortran with LAPACK, and gnuplot
+#   test      all that `make test` uses
+#
+# What is missing is installed when root runs this on Debian or a relative of it, else named.
+set -eu
+
+missing=
+
+# need PACKAGE COMMAND: the package that brings the command.
+need() {
+    command -v "$2" > /dev/null 2>&1 || missing="$missing $1"
+}
+
+# need_library PACKAGE NAME: the package that lets the Fortran compiler link with the library.
+need_library() {
+    for file in "lib$2.so" "lib$2.a"; do
+        # The compiler answers with the bare name when it knows no such file.
+        [ "$(gfortran -print-file-name="$file" 2> /dev/null || echo "$file")" = "$file" ] || return 0
+    done
+    missing="$missing $1"
+}
+
+fortran() {
+    need gfortran gfortran
+}
+
+demo() {
+    fortran
+    need_library liblapack-dev lapack
+    need_library libblas-dev blas
+    need gnuplot-nox gnuplot
+}
+
+rust_component() {
+    cargo "$2" --version > /dev/null 2>&1 || components="$components $1"
+}
+
+tests() {
+    demo
+    need gcc gcc
+    need g++ g++
+    need cmake cmake
+    need pkg-config pkg-config
+    components=
+    rust_component rustfmt fmt
+    rust_component clippy clippy
+    if [ -n "$components" ]; then
+        if ! command -v rustup > /dev/null 2>&1; then
+            echo "$0: install the Rust components$components" >&2
+            exit 1
+        fi
+        # shellcheck disable=SC2086
+        rustup component add $components
+    fi
+}
+
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|test..." >&2; exit 2; }
+for group in "$@"; do
+    case $group in
+        fortran | demo) "$group" ;;
+        test) tests ;;
+        *) echo "$0: no group $group" >&2; exit 2 ;;
+    esac
+done
+
+[ -n "$missing" ] || exit 0
+missing=$(printf '%s\n' $missing | sort -u | tr '\n' ' ')
+if [ "$(id -u)" -eq 0 ] && command -v apt-get > /dev/null 2>&1; then
+    export DEBIAN_FRONTEND=noninteractive
+    apt-get update -q
+    # shellcheck disable=SC2086
+    apt-get install -q -y --no-install-recommends $missing
+else
+    echo "$0: install these packages (Debian's names): $missing" >&2
+    exit 1
+fi

@@ -1,0 +1,36 @@
+#!/bin/sh
+# localise.sh FROM.a TO.a: make an archive that exports the functions of the interface and nothing else.
+#
+# Cargo's archive carries the runtime of the Rust compiler. Its symbols are hidden, but they still bind in a static
+# link: the host's complex division or quadruple precision would come from it. So everything that the interface does
+# not reach is dropped, and what it does reach becomes local to one object.
+set -eu
+
+if [ $# -ne 2 ]; then
+    echo "usage: $0 FROM.a TO.a" >&2
+    exit 2
+fi
+from=$1
+to=$2
+: "${AR:=ar}" "${LD:=ld}" "${NM:=nm}" "${OBJCOPY:=objcopy}"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+$NM --defined-only --extern-only "$from" 2>/dev/null | awk '$3 ~ /^mslip_/ { print $3 }' | sort -u > "$work/keep"
+if [ ! -s "$work/keep" ]; then
+    echo "$0: $from exports no function of microslip" >&2
+    exit 1
+fi
+
+# The names hold no blanks, so they may be split into arguments.
+entry=$(head -n 1 "$work/keep")
+# shellcheck disable=SC2046
+$LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") -o "$work/all.o" "$from"
+$OBJCOPY --keep-global-symbols="$work/keep" --strip-debug "$work/all.o" "$work/local.o"
+$OBJCOPY --strip-unneeded "$work/local.o" "$work/microslip.o"
+
+mkdir -p "$(dirname "$to")"
+rm -f "$to"
+(cd "$work" && $AR rcsD libmicroslip.a microslip.o)
+mv "$work/libmicroslip.a" "$to"
