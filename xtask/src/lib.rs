@@ -23,30 +23,19 @@ pub fn header() -> String {
 
 /// The functions of the interface, in the order of the source.
 pub fn symbols() -> Vec<String> {
-    bindings()
-        .dynamic_symbols_names()
-        .map(str::to_owned)
-        .collect()
+    bindings().dynamic_symbols_names().map(str::to_owned).collect()
 }
 
 /// Compares the committed header with the source; the error is a sentence for a person.
 pub fn check_header() -> Result<(), String> {
     let path = header_path();
-    let committed =
-        std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let committed = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let header = header();
     if committed == header {
         return Ok(());
     }
-    let line = committed
-        .lines()
-        .zip(header.lines())
-        .take_while(|(old, new)| old == new)
-        .count();
-    Err(format!(
-        "include/microslip.h is stale from line {}: run `make header` and commit the result",
-        line + 1
-    ))
+    let line = committed.lines().zip(header.lines()).take_while(|(old, new)| old == new).count();
+    Err(format!("include/microslip.h is stale from line {}: run `make header` and commit the result", line + 1))
 }
 
 fn bindings() -> Bindings {
@@ -76,9 +65,7 @@ fn outsiders(bindings: &Bindings) -> Vec<String> {
         .lines()
         .filter_map(|line| Some(line.strip_prefix("#define ")?.split_once(' ')?.0))
         .filter(|name| !name.starts_with("MSLIP_"));
-    let functions = bindings
-        .dynamic_symbols_names()
-        .filter(|name| !name.starts_with("mslip_"));
+    let functions = bindings.dynamic_symbols_names().filter(|name| !name.starts_with("mslip_"));
     constants.chain(functions).map(str::to_owned).collect()
 }
 
