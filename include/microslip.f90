@@ -174,6 +174,12 @@ module microslip
     module procedure interface_masing_update_in_place, interface_masing_update_separate
   end interface mslip_interface_masing_update
 
+  interface locate
+    ! C address of an array, and whether it has the size it should. Called for those optional arrays only that are
+    ! present: handed on absent, a contiguous one is taken by compilers' sanitizers for a NULL pointer in use.
+    module procedure locate_array, locate_matrix, locate_matrices, locate_flags
+  end interface locate
+
   interface
 
     pure function mslip_abi_version() bind(c, name='mslip_abi_version') result(version)
@@ -488,9 +494,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
     real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(2)
+    logical :: agree
+
+    n = size(x, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(pressure)) call locate(pressure, n, at(1), agree)
+    if (present(shear)) call locate(shear, n, at(2), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(x), pressure, shear)) return
-    status = c_tractions(contact, force, length(x), x, address(pressure), address(shear))
+    if (agree) status = c_tractions(contact, force, n, x, at(1), at(2))
   end subroutine mslip_tractions
 
   subroutine mslip_slip(contact, force, x, status, slip, damage)
@@ -503,9 +517,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: slip(:)  !! Slip, m, at each x; 0 where it sticks.
     real(mslip_real), intent(inout), optional, target, contiguous :: damage(:)  !! Damage parameter, N/m, at each x.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(2)
+    logical :: agree
+
+    n = size(x, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(slip)) call locate(slip, n, at(1), agree)
+    if (present(damage)) call locate(damage, n, at(2), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(x), slip, damage)) return
-    status = c_slip(contact, force, length(x), x, address(slip), address(damage))
+    if (agree) status = c_slip(contact, force, n, x, at(1), at(2))
   end subroutine mslip_slip
 
   subroutine monotonic_displacement_array(contact, force, status, displacement, compliance, stick_half_width)
@@ -521,10 +543,18 @@ contains
       !! Half-width of the stick zone, m, between the half-widths of the flat and of contact; of an elliptical contact
       !! the x semi-axis of the stick ellipse.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(3)
+    logical :: agree
+
+    n = size(force, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(displacement)) call locate(displacement, n, at(1), agree)
+    if (present(compliance)) call locate(compliance, n, at(2), agree)
+    if (present(stick_half_width)) call locate(stick_half_width, n, at(3), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(force), displacement, compliance, stick_half_width)) return
-    status = c_monotonic_displacement(contact, length(force), force, &
-      address(displacement), address(compliance), address(stick_half_width))
+    if (agree) status = c_monotonic_displacement(contact, n, force, at(1), at(2), at(3))
   end subroutine monotonic_displacement_array
 
   subroutine monotonic_displacement_scalar(contact, force, status, displacement, compliance, stick_half_width)
@@ -552,10 +582,18 @@ contains
       !! Derivative of the force by the displacement, N/m.
     real(mslip_real), intent(inout), optional, target, contiguous :: stick_half_width(:)  !! Half-width of the stick zone, m.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(3)
+    logical :: agree
+
+    n = size(displacement, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(force)) call locate(force, n, at(1), agree)
+    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
+    if (present(stick_half_width)) call locate(stick_half_width, n, at(3), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(displacement), force, stiffness, stick_half_width)) return
-    status = c_monotonic_force(contact, length(displacement), displacement, &
-      address(force), address(stiffness), address(stick_half_width))
+    if (agree) status = c_monotonic_force(contact, n, displacement, at(1), at(2), at(3))
   end subroutine monotonic_force_array
 
   subroutine monotonic_force_scalar(contact, displacement, status, force, stiffness, stick_half_width)
@@ -581,7 +619,7 @@ contains
       !! The state; at least `mslip_state_length(0)` numbers. Its size decides how many nested reversals it holds.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or `MSLIP_STATE_TOO_SHORT`.
 
-    status = c_state_init(length(state), address(state))
+    status = c_state_init(size(state, kind=mslip_size), address(state))
   end subroutine mslip_state_init
 
   subroutine masing_update_in_place(contact, state, displacement, status, force, stiffness, dissipated)
@@ -596,7 +634,7 @@ contains
       !! Derivative of the force by the displacement at the end of the step, N/m.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step, J.
 
-    status = c_masing_update(contact, length(state), address(state), displacement, address(state), &
+    status = c_masing_update(contact, size(state, kind=mslip_size), address(state), displacement, address(state), &
       address_scalar(force), address_scalar(stiffness), address_scalar(dissipated))
   end subroutine masing_update_in_place
 
@@ -615,8 +653,8 @@ contains
       !! State after the step; another array than `state`, of the same size.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(state), state_new)) return
-    status = c_masing_update(contact, length(state), address(state), displacement, address(state_new), &
+    if (size(state_new) /= size(state)) return
+    status = c_masing_update(contact, size(state, kind=mslip_size), address(state), displacement, address(state_new), &
       address_scalar(force), address_scalar(stiffness), address_scalar(dissipated))
   end subroutine masing_update_separate
 
@@ -631,10 +669,19 @@ contains
       !! Derivative of the force by the displacement at the end of each step, N/m.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step, J.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(3)
+    logical :: agree
+
+    n = size(displacement, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(force)) call locate(force, n, at(1), agree)
+    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
+    if (present(dissipated)) call locate(dissipated, n, at(3), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(displacement), force, stiffness, dissipated)) return
-    status = c_masing_path(contact, length(state), address(state), length(displacement), displacement, address(state), &
-      address(force), address(stiffness), address(dissipated))
+    if (agree) status = c_masing_path(contact, size(state, kind=mslip_size), address(state), n, displacement, &
+      address(state), at(1), at(2), at(3))
   end subroutine masing_path_in_place
 
   subroutine masing_path_separate(contact, state, displacement, status, force, stiffness, dissipated, state_new)
@@ -650,11 +697,19 @@ contains
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
       !! State after the last step; another array than `state`, of the same size.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(3)
+    logical :: agree
+
+    n = size(displacement, kind=mslip_size)
+    at = c_null_ptr
+    agree = size(state_new) == size(state)
+    if (present(force)) call locate(force, n, at(1), agree)
+    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
+    if (present(dissipated)) call locate(dissipated, n, at(3), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(state), state_new)) return
-    if (.not. of_size(length(displacement), force, stiffness, dissipated)) return
-    status = c_masing_path(contact, length(state), address(state), length(displacement), displacement, &
-      address(state_new), address(force), address(stiffness), address(dissipated))
+    if (agree) status = c_masing_path(contact, size(state, kind=mslip_size), address(state), n, displacement, &
+      address(state_new), at(1), at(2), at(3))
   end subroutine masing_path_separate
 
   subroutine mslip_masing_tractions(contact, state, x, status, pressure, shear)
@@ -666,9 +721,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
     real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(2)
+    logical :: agree
+
+    n = size(x, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(pressure)) call locate(pressure, n, at(1), agree)
+    if (present(shear)) call locate(shear, n, at(2), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(x), pressure, shear)) return
-    status = c_masing_tractions(contact, length(state), address(state), length(x), x, address(pressure), address(shear))
+    if (agree) status = c_masing_tractions(contact, size(state, kind=mslip_size), address(state), n, x, at(1), at(2))
   end subroutine mslip_masing_tractions
 
   ! ---------------------------------------------------------------------------------------------------------------------
@@ -684,8 +747,8 @@ contains
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(displacement), force)) return
-    status = c_hysteresis_loop(contact, amplitude, length(displacement), address(displacement), address(force))
+    if (size(force) /= size(displacement)) return
+    status = c_hysteresis_loop(contact, amplitude, size(force, kind=mslip_size), address(displacement), address(force))
   end subroutine mslip_hysteresis_loop
 
   subroutine dissipated_energy_array(contact, force_amplitude, energy, status)
@@ -696,8 +759,8 @@ contains
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(force_amplitude), energy)) return
-    status = c_dissipated_energy(contact, length(force_amplitude), force_amplitude, address(energy))
+    if (size(energy) /= size(force_amplitude)) return
+    status = c_dissipated_energy(contact, size(energy, kind=mslip_size), force_amplitude, address(energy))
   end subroutine dissipated_energy_array
 
   subroutine dissipated_energy_scalar(contact, force_amplitude, energy, status)
@@ -722,10 +785,19 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude), N/m2.
     real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude), N/m2.
 
+    integer(mslip_size) :: n
+    type(c_ptr) :: at(4)
+    logical :: agree
+
+    n = size(amplitude, kind=mslip_size)
+    at = c_null_ptr
+    agree = .true.
+    if (present(k_real)) call locate(k_real, n, at(1), agree)
+    if (present(k_imag)) call locate(k_imag, n, at(2), agree)
+    if (present(dk_real)) call locate(dk_real, n, at(3), agree)
+    if (present(dk_imag)) call locate(dk_imag, n, at(4), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(amplitude), k_real, k_imag, dk_real, dk_imag)) return
-    status = c_complex_stiffness(contact, length(amplitude), amplitude, &
-      address(k_real), address(k_imag), address(dk_real), address(dk_imag))
+    if (agree) status = c_complex_stiffness(contact, n, amplitude, at(1), at(2), at(3), at(4))
   end subroutine complex_stiffness_array
 
   subroutine complex_stiffness_scalar(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
@@ -771,8 +843,8 @@ contains
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES` or `MSLIP_WORKSPACE_TOO_SHORT`.
 
-    if (length(workspace) > workspace_header) then
-      status = c_harmonic_workspace_init(harmonics, samples, length(workspace) - workspace_header, &
+    if (size(workspace) > workspace_header) then
+      status = c_harmonic_workspace_init(harmonics, samples, size(workspace, kind=mslip_size) - workspace_header, &
         c_loc(workspace(workspace_header + 1)))
     else
       status = c_harmonic_workspace_init(harmonics, samples, 0_mslip_size, c_loc(no_elements))
@@ -799,16 +871,18 @@ contains
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period, J.
 
     integer(mslip_size) :: m
+    type(c_ptr) :: at(2)
+    logical :: agree
 
     call open_workspace(workspace, m, status)
     if (status /= MSLIP_OK) return
+    at = c_null_ptr
+    agree = size(displacement, kind=mslip_size) == m
+    if (present(force)) call locate(force, m, at(1), agree)
+    if (present(jacobian)) call locate(jacobian, [m, m], at(2), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(m, displacement, force)) return
-    if (present(jacobian)) then
-      if (any(shape(jacobian, mslip_size) /= [m, m])) return
-    end if
-    status = c_harmonic_force(contact, c_loc(workspace(workspace_header + 1)), displacement, &
-      address(force), address_matrix(jacobian), address_scalar(dissipated))
+    if (agree) status = c_harmonic_force(contact, c_loc(workspace(workspace_header + 1)), displacement, at(1), at(2), &
+      address_scalar(dissipated))
   end subroutine mslip_harmonic_force
 
   ! ---------------------------------------------------------------------------------------------------------------------
@@ -827,12 +901,19 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! n values of dK''/d(amplitude), N/m2.
 
     integer(mslip_size) :: n
+    type(c_ptr) :: at(5)
+    logical :: agree
 
     n = size(contacts, kind=mslip_size)
+    at = c_null_ptr
+    agree = size(amplitude, kind=mslip_size) == n
+    if (present(active)) call locate(active, n, at(1), agree)
+    if (present(k_real)) call locate(k_real, n, at(2), agree)
+    if (present(k_imag)) call locate(k_imag, n, at(3), agree)
+    if (present(dk_real)) call locate(dk_real, n, at(4), agree)
+    if (present(dk_imag)) call locate(dk_imag, n, at(5), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(n, amplitude, k_real, k_imag, dk_real, dk_imag, active)) return
-    status = c_interface_complex_stiffness(n, contacts, address_flags(active), amplitude, &
-      address(k_real), address(k_imag), address(dk_real), address(dk_imag))
+    if (agree) status = c_interface_complex_stiffness(n, contacts, at(1), amplitude, at(2), at(3), at(4), at(5))
   end subroutine mslip_interface_complex_stiffness
 
   subroutine interface_masing_update_in_place(contacts, states, displacement, status, active, force, stiffness, dissipated)
@@ -849,13 +930,20 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step, J.
 
     integer(mslip_size) :: n
+    type(c_ptr) :: at(5)
+    logical :: agree
 
     n = size(contacts, kind=mslip_size)
+    at = c_null_ptr
+    agree = size(displacement, kind=mslip_size) == n
+    if (present(active)) call locate(active, n, at(1), agree)
+    call locate(states, [size(states, 1, mslip_size), n], at(2), agree)
+    if (present(force)) call locate(force, n, at(3), agree)
+    if (present(stiffness)) call locate(stiffness, n, at(4), agree)
+    if (present(dissipated)) call locate(dissipated, n, at(5), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (size(states, 2, mslip_size) /= n) return
-    if (.not. of_size(n, displacement, force, stiffness, dissipated, flags=active)) return
-    status = c_interface_masing_update(n, contacts, address_flags(active), size(states, 1, mslip_size), address_matrix(states), &
-      displacement, address_matrix(states), address(force), address(stiffness), address(dissipated))
+    if (agree) status = c_interface_masing_update(n, contacts, at(1), size(states, 1, mslip_size), at(2), displacement, &
+      at(2), at(3), at(4), at(5))
   end subroutine interface_masing_update_in_place
 
   subroutine interface_masing_update_separate(contacts, states, displacement, status, active, force, stiffness, &
@@ -875,13 +963,21 @@ contains
       !! (state length, n): the state of each contact after the step; another array than `states`, of the same shape.
 
     integer(mslip_size) :: n
+    type(c_ptr) :: at(6)
+    logical :: agree
 
     n = size(contacts, kind=mslip_size)
+    at = c_null_ptr
+    agree = size(displacement, kind=mslip_size) == n
+    if (present(active)) call locate(active, n, at(1), agree)
+    call locate(states, [size(states, 1, mslip_size), n], at(2), agree)
+    call locate(states_new, shape(states, mslip_size), at(3), agree)
+    if (present(force)) call locate(force, n, at(4), agree)
+    if (present(stiffness)) call locate(stiffness, n, at(5), agree)
+    if (present(dissipated)) call locate(dissipated, n, at(6), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (size(states, 2, mslip_size) /= n .or. any(shape(states_new) /= shape(states))) return
-    if (.not. of_size(n, displacement, force, stiffness, dissipated, flags=active)) return
-    status = c_interface_masing_update(n, contacts, address_flags(active), size(states, 1, mslip_size), address_matrix(states), &
-      displacement, address_matrix(states_new), address(force), address(stiffness), address(dissipated))
+    if (agree) status = c_interface_masing_update(n, contacts, at(1), size(states, 1, mslip_size), at(2), displacement, &
+      at(3), at(4), at(5), at(6))
   end subroutine interface_masing_update_separate
 
   subroutine mslip_interface_harmonic_force(contacts, workspace, displacement, status, active, force, jacobian, dissipated)
@@ -901,21 +997,21 @@ contains
       !! n energies dissipated per period, J.
 
     integer(mslip_size) :: m, n
+    type(c_ptr) :: at(4)
+    logical :: agree
 
     call open_workspace(workspace, m, status)
     if (status /= MSLIP_OK) return
     n = size(contacts, kind=mslip_size)
+    at = c_null_ptr
+    agree = all(shape(displacement, mslip_size) == [m, n])
+    if (present(active)) call locate(active, n, at(1), agree)
+    if (present(force)) call locate(force, [m, n], at(2), agree)
+    if (present(jacobian)) call locate(jacobian, [m, m, n], at(3), agree)
+    if (present(dissipated)) call locate(dissipated, n, at(4), agree)
     status = MSLIP_BAD_ARRAY_SIZE
-    if (any(shape(displacement, mslip_size) /= [m, n])) return
-    if (present(force)) then
-      if (any(shape(force, mslip_size) /= [m, n])) return
-    end if
-    if (present(jacobian)) then
-      if (any(shape(jacobian, mslip_size) /= [m, m, n])) return
-    end if
-    if (.not. of_size(n, dissipated, flags=active)) return
-    status = c_interface_harmonic_force(n, contacts, address_flags(active), c_loc(workspace(workspace_header + 1)), &
-      displacement, address_matrix(force), address_stack(jacobian), address(dissipated))
+    if (agree) status = c_interface_harmonic_force(n, contacts, at(1), c_loc(workspace(workspace_header + 1)), &
+      displacement, at(2), at(3), at(4))
   end subroutine mslip_interface_harmonic_force
 
   ! ---------------------------------------------------------------------------------------------------------------------
@@ -943,8 +1039,9 @@ contains
       !! Largest error of the monotonic force, over `slip_force` of the contact.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (.not. of_size(length(stiffness), slip_force)) return
-    status = c_iwan_equivalent(contact, length(stiffness), address(stiffness), address(slip_force), address_scalar(force_error))
+    if (size(slip_force) /= size(stiffness)) return
+    status = c_iwan_equivalent(contact, size(stiffness, kind=mslip_size), address(stiffness), address(slip_force), &
+      address_scalar(force_error))
   end subroutine mslip_iwan_equivalent
 
   ! ---------------------------------------------------------------------------------------------------------------------
@@ -978,9 +1075,9 @@ contains
 
     m = 0
     status = MSLIP_BAD_WORKSPACE
-    if (length(workspace) <= workspace_header) return
+    if (size(workspace) <= workspace_header) return
     if (transfer(workspace(1), 0_c_int64_t) /= transfer(workspace_mark, 0_c_int64_t)) return
-    if (length(workspace) < nint(workspace(2), mslip_size)) then
+    if (size(workspace, kind=mslip_size) < nint(workspace(2), mslip_size)) then
       status = MSLIP_WORKSPACE_TOO_SHORT
     else
       m = nint(workspace(3), mslip_size)
@@ -988,76 +1085,65 @@ contains
     end if
   end subroutine open_workspace
 
-  pure function length(a) result(n)
-    ! The number of elements, as C takes it.
-    real(mslip_real), intent(in), contiguous :: a(:)
-    integer(mslip_size) :: n
-
-    n = size(a, kind=mslip_size)
-  end function length
-
-  pure function of_size(n, a, b, c, d, e, flags) result(all_are)
-    ! Whether the arrays that are present have n elements each.
-    integer(mslip_size), intent(in) :: n
-    real(mslip_real), intent(in), optional, contiguous :: a(:), b(:), c(:), d(:), e(:)
-    integer(mslip_int), intent(in), optional, contiguous :: flags(:)
-    logical :: all_are
-
-    all_are = .true.
-    if (present(a)) all_are = all_are .and. length(a) == n
-    if (present(b)) all_are = all_are .and. length(b) == n
-    if (present(c)) all_are = all_are .and. length(c) == n
-    if (present(d)) all_are = all_are .and. length(d) == n
-    if (present(e)) all_are = all_are .and. length(e) == n
-    if (present(flags)) all_are = all_are .and. size(flags, kind=mslip_size) == n
-  end function of_size
-
-  function address_scalar(a) result(pointer)
+  function address_scalar(a) result(at)
+    ! C address of an optional number, NULL where it is absent.
     real(mslip_real), intent(in), optional, target :: a
-    type(c_ptr) :: pointer
+    type(c_ptr) :: at
 
-    pointer = c_null_ptr
-    if (present(a)) pointer = c_loc(a)
+    at = c_null_ptr
+    if (present(a)) at = c_loc(a)
   end function address_scalar
 
-  function address(a) result(pointer)
-    real(mslip_real), intent(in), optional, target, contiguous :: a(:)
-    type(c_ptr) :: pointer
+  function address(a) result(at)
+    ! C address of an array.
+    real(mslip_real), intent(in), target, contiguous :: a(:)
+    type(c_ptr) :: at
 
-    pointer = c_null_ptr
-    if (.not. present(a)) return
-    pointer = c_loc(no_elements)
-    if (size(a) > 0) pointer = c_loc(a)
+    at = c_loc(no_elements)
+    if (size(a) > 0) at = c_loc(a)
   end function address
 
-  function address_matrix(a) result(pointer)
-    real(mslip_real), intent(in), optional, target, contiguous :: a(:, :)
-    type(c_ptr) :: pointer
+  subroutine locate_array(a, n, at, agree)
+    real(mslip_real), intent(in), target, contiguous :: a(:)
+    integer(mslip_size), intent(in) :: n
+    type(c_ptr), intent(out) :: at
+    logical, intent(inout) :: agree
 
-    pointer = c_null_ptr
-    if (.not. present(a)) return
-    pointer = c_loc(no_elements)
-    if (size(a) > 0) pointer = c_loc(a)
-  end function address_matrix
+    at = address(a)
+    agree = agree .and. size(a, kind=mslip_size) == n
+  end subroutine locate_array
 
-  function address_stack(a) result(pointer)
-    real(mslip_real), intent(in), optional, target, contiguous :: a(:, :, :)
-    type(c_ptr) :: pointer
+  subroutine locate_matrix(a, extents, at, agree)
+    real(mslip_real), intent(in), target, contiguous :: a(:, :)
+    integer(mslip_size), intent(in) :: extents(2)
+    type(c_ptr), intent(out) :: at
+    logical, intent(inout) :: agree
 
-    pointer = c_null_ptr
-    if (.not. present(a)) return
-    pointer = c_loc(no_elements)
-    if (size(a) > 0) pointer = c_loc(a)
-  end function address_stack
+    at = c_loc(no_elements)
+    if (size(a) > 0) at = c_loc(a)
+    agree = agree .and. all(shape(a, mslip_size) == extents)
+  end subroutine locate_matrix
 
-  function address_flags(a) result(pointer)
-    integer(mslip_int), intent(in), optional, target, contiguous :: a(:)
-    type(c_ptr) :: pointer
+  subroutine locate_matrices(a, extents, at, agree)
+    real(mslip_real), intent(in), target, contiguous :: a(:, :, :)
+    integer(mslip_size), intent(in) :: extents(3)
+    type(c_ptr), intent(out) :: at
+    logical, intent(inout) :: agree
 
-    pointer = c_null_ptr
-    if (.not. present(a)) return
-    pointer = c_loc(no_elements)
-    if (size(a) > 0) pointer = c_loc(a)
-  end function address_flags
+    at = c_loc(no_elements)
+    if (size(a) > 0) at = c_loc(a)
+    agree = agree .and. all(shape(a, mslip_size) == extents)
+  end subroutine locate_matrices
+
+  subroutine locate_flags(a, n, at, agree)
+    integer(mslip_int), intent(in), target, contiguous :: a(:)
+    integer(mslip_size), intent(in) :: n
+    type(c_ptr), intent(out) :: at
+    logical, intent(inout) :: agree
+
+    at = c_loc(no_elements)
+    if (size(a) > 0) at = c_loc(a)
+    agree = agree .and. size(a, kind=mslip_size) == n
+  end subroutine locate_flags
 
 end module microslip
