@@ -50,37 +50,37 @@ module microslip
     !! The displacement is that of a rigid strip: Eq. 10 corrected to three-dimensional contact mechanics.
 
   ! Status codes: the numbers of the C header, fixed for good.
-  integer(mslip_int), parameter, public :: MSLIP_OK = 0
-  integer(mslip_int), parameter, public :: MSLIP_NULL_POINTER = 1
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FLAT_HALF_WIDTH = 2
-  integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3
-  integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6
-  integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7
-  integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8
-  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT_REFERENCE = 9
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11
-  integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12
-  integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
-  integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
-  integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
-  integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22
-  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23
-  integer(mslip_int), parameter, public :: MSLIP_STATE_FULL = 24
-  integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30
-  integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31
-  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32
-  integer(mslip_int), parameter, public :: MSLIP_BAD_POSITION = 33
-  integer(mslip_int), parameter, public :: MSLIP_BAD_AMPLITUDE = 34
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE_AMPLITUDE = 35
-  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37
-  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38
-  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40
-  integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
+  integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Done.
+  integer(mslip_int), parameter, public :: MSLIP_NULL_POINTER = 1  !! Never from this module: an argument of a C function was NULL.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FLAT_HALF_WIDTH = 2  !! `flat_half_width` is to be >= 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3  !! `edge_radius` is to be > 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4  !! `length` is to be > 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5  !! `normal_force` is to be >= 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6  !! `friction_coefficient` is to be >= 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! `young_modulus` is to be > 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! `poisson_ratio` is to be 0 to 0.5.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT_REFERENCE = 9  !! `displacement_reference` is none of those.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10  !! `semi_axis_x` is to be > 0.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11  !! `semi_axis_y` is to be > 0.
+  integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12  !! The length does not suit the half-width of contact.
+  integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13  !! The parameters together give numbers out of range.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20  !! The contact was never prepared.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21  !! The state was never initialised.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22  !! The workspace was never initialised.
+  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23  !! See `mslip_state_length`.
+  integer(mslip_int), parameter, public :: MSLIP_STATE_FULL = 24  !! The state cannot hold one more reversal.
+  integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25  !! See `mslip_harmonic_workspace_length`.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! A force is not finite.
+  integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! A force exceeds `slip_force`.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32  !! A displacement is not finite, or exceeds 1e150.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_POSITION = 33  !! A position is not finite.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_AMPLITUDE = 34  !! An amplitude is to be 0 to 1e150.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE_AMPLITUDE = 35  !! A force amplitude is to be >= 0 and finite.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! At least one harmonic, and an addressable workspace.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37  !! More than twice as many samples as harmonics.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! At least one slider.
+  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Not for this kind of contact, or no equivalent exists.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90  !! Sizes of arrays disagree.
 
   ! A number nobody has set: outside the range of every parameter, so that mslip_contact_init refuses it by name.
   real(mslip_real), parameter :: unset = -2.0_mslip_real
@@ -94,7 +94,9 @@ module microslip
   type, bind(c), public :: mslip_parameters
     !! Flat with rounded edges pressed on a flat (Eq. 1-24). A number left unset is refused by `mslip_contact_init`.
     real(mslip_real) :: flat_half_width = unset  !! Half-width a of the flat, m, >= 0; 0 is a Hertzian cylinder.
-    real(mslip_real) :: edge_radius = unset  !! Radius R of the edges, m, > 0.
+    real(mslip_real) :: edge_radius = unset
+      !! Radius R of the edges, m, > 0. Eq. 1 is taken with twice its printed right-hand side, which alone tends to
+      !! Hertz's cylinder as a tends to 0; passing 2R gives the relation as printed.
     real(mslip_real) :: length = unset
       !! Length L along the line of contact, m; 2L has to exceed the half-width of contact b, and the initial stiffness
       !! has to be positive.
