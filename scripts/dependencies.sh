@@ -68,6 +68,7 @@ for group in "$@"; do
 done
 
 [ -n "$missing" ] || exit 0
+# shellcheck disable=SC2086
 missing=$(printf '%s\n' $missing | sort -u | tr '\n' ' ')
 if [ "$(id -u)" -eq 0 ] && command -v apt-get > /dev/null 2>&1; then
     export DEBIAN_FRONTEND=noninteractive

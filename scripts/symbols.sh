@@ -1,0 +1,68 @@
+#!/bin/sh
+# symbols.sh PREFIX: does the installed archive export exactly the interface, and need only the mathematical library?
+set -eu
+
+prefix=$1
+archive=$prefix/lib/libmicroslip.a
+: "${CC:=cc}" "${NM:=nm}" "${OBJDUMP:=objdump}" "${CARGO:=cargo}"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0
+failed=0
+
+# check SENTENCE COMMAND...
+check() {
+    sentence=$1
+    shift
+    if "$@" > "$work/log" 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "not so: $sentence"
+        cat "$work/log"
+    fi
+}
+
+none() {
+    [ ! -s "$1" ] || { cat "$1"; false; }
+}
+
+# What a mathematical library has, and the four functions that a compiler may call by itself.
+allowed='log log1p log2 log10 exp expm1 exp2 sin cos tan sincos asin acos atan atan2 sqrt cbrt pow hypot
+sinh cosh tanh asinh acosh atanh fma floor ceil trunc round rint fabs fmin fmax fmod
+memcpy memset memmove memcmp _GLOBAL_OFFSET_TABLE_'
+
+$NM --extern-only "$archive" > "$work/nm"
+awk 'NF == 3 { print $3 }' "$work/nm" | sort > "$work/defined"
+awk '$1 == "U" { print $2 }' "$work/nm" | sort > "$work/undefined"
+# shellcheck disable=SC2086
+printf '%s\n' $allowed | sort > "$work/allowed"
+comm -23 "$work/undefined" "$work/allowed" > "$work/foreign"
+
+printf '#include <microslip.h>\n' | $CC -E -P -I"$prefix/include" - |
+    tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sort > "$work/declared"
+$CARGO run --quiet --release --package xtask -- symbols | sort > "$work/source"
+
+$OBJDUMP -t "$archive" > "$work/table"
+grep -E '\.hidden|\.internal|\.protected' "$work/table" > "$work/hidden" || true
+$OBJDUMP -h "$archive" > "$work/sections"
+awk '$2 ~ /^\.(data|bss|tdata|tbss|init_array|ctors)/ && $2 !~ /^\.data\.rel\.ro/ && $3 !~ /^0+$/' "$work/sections" \
+    > "$work/writable"
+
+check 'the archive exports something' test -s "$work/defined"
+check 'the archive exports exactly what the header declares' diff "$work/declared" "$work/defined"
+check 'the header declares exactly what the source exports' diff "$work/source" "$work/declared"
+check 'the archive needs only the mathematical library' none "$work/foreign"
+check 'no symbol is hidden: such ones still bind in a static link' none "$work/hidden"
+check 'the library has no variables' none "$work/writable"
+check 'the object asks for no executable stack' grep -q '\.note\.GNU-stack' "$work/sections"
+
+# The constants of the Fortran module are those of the header.
+sed -n 's/^#define \(MSLIP_[A-Z_]*\) \([0-9][0-9]*\)$/\1 \2/p' "$prefix/include/microslip.h" |
+    grep -v '^MSLIP_VERSION_' | sed 's/^MSLIP_ABI_VERSION/MSLIP_MODULE_ABI_VERSION/' | sort > "$work/c_constants"
+sed -n 's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' "$prefix/include/microslip.f90" |
+    sort > "$work/fortran_constants"
+check 'the Fortran module has the constants of the header' diff "$work/c_constants" "$work/fortran_constants"
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

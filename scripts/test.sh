@@ -1,0 +1,191 @@
+#!/bin/sh
+# test.sh: every test, in Rust and against an installed copy in C, C++ and Fortran. A step that fails is named and the
+# rest still runs; the last line has the counts of all of them.
+# shellcheck disable=SC2046,SC2086  # flags are lists, split on purpose
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}"
+export CARGO CC CXX FC
+unset MAKEFLAGS MFLAGS MAKELEVEL # the make that started this is not the parent of those below
+
+scripts/dependencies.sh test
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/moved
+export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
+passed=0
+failed=0
+
+# step NAME COMMAND...: one step, counted by what it prints, or else as one test. The steps below are functions, in
+# which a failure does not end the shell: they join their commands by &&.
+step() {
+    name=$1
+    shift
+    printf '%-58s' "$name"
+    status=0
+    "$@" > "$work/log" 2>&1 || status=$?
+    awk '/^test result: /                    { passed += $4; failed += $6; ++counts }
+         /^[0-9]+ passed, [0-9]+ failed$/    { passed += $1; failed += $3; ++counts }
+         END                                 { print passed + 0, failed + 0, counts + 0 }' "$work/log" > "$work/counts"
+    read -r good bad counts < "$work/counts"
+    if [ "$counts" -eq 0 ] && [ "$status" -eq 0 ]; then
+        good=1
+    elif [ "$bad" -eq 0 ] && { [ "$status" -ne 0 ] || [ "$good" -eq 0 ]; }; then
+        bad=1 # it broke off, or counted nothing
+    fi
+    passed=$((passed + good))
+    failed=$((failed + bad))
+    if [ "$bad" -eq 0 ]; then
+        echo "$good passed"
+    else
+        echo "FAILED ($good passed, $bad failed)"
+        sed 's/^/    /' "$work/log"
+    fi
+}
+
+# What a client passes to its compiler.
+flags() {
+    pkg-config --cflags --libs --static microslip
+}
+
+# Staged elsewhere and moved: nothing that is installed may know its place.
+install_and_move() {
+    make install PREFIX=/opt/microslip DESTDIR="$work/stage" && mv "$work/stage/opt/microslip" "$prefix"
+}
+
+uninstall() {
+    cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" &&
+        [ -z "$(find "$work/leave" -type f)" ]
+}
+
+# build COMPILER-AND-FLAGS SOURCE PROGRAM
+build() {
+    $1 "$2" -o "$3" $(flags)
+}
+
+strict='-Wall -Wextra -Wpedantic -Werror -O1'
+
+c_driver() {
+    build "$CC -std=c99 $strict" "c_tests/$1.c" "$work/$1" && "$work/$1"
+}
+
+cxx_driver() {
+    build "$CXX -std=c++17 -pthread $strict" "c_tests/$1.cpp" "$work/$1" && "$work/$1"
+}
+
+header_as() {
+    printf '#include <microslip.h>\n#include <microslip.h>\nint main(void) { return mslip_abi_version() != MSLIP_ABI_VERSION; }\n' \
+        > "$work/header.$2"
+    build "$1 $strict" "$work/header.$2" "$work/header" && "$work/header"
+}
+
+cmake_client() {
+    cmake -S c_tests/cmake -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED_VERSION=0.1 &&
+        cmake --build "$work/cmake" && (cd "$work/cmake" && ctest --output-on-failure)
+}
+
+cmake_refuses_other_version() {
+    ! cmake -S c_tests/cmake -B "$work/cmake-other" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED_VERSION=99
+}
+
+# Beside another Rust archive, with its own copy of Rust's runtime, in either order.
+two_archives() {
+    cat > "$work/other.rs" << 'END'
+#[unsafe(no_mangle)]
+pub extern "C" fn other(n: usize) -> usize {
+    (0..n).map(|i| format!("{i}").len()).sum()
+}
+END
+    cat > "$work/both.c" << 'END'
+#include <microslip.h>
+size_t other(size_t n);
+int main(void)
+{
+    return mslip_abi_version() != MSLIP_ABI_VERSION || other(12) != 14;
+}
+END
+    rustc --edition 2024 --crate-type staticlib -O "$work/other.rs" -o "$work/libother.a" &&
+        $CC "$work/both.c" -o "$work/both" $(flags) "$work/libother.a" -lpthread -ldl -lm && "$work/both" &&
+        $CC -I"$prefix/include" "$work/both.c" "$work/libother.a" $(flags) -lpthread -ldl -lm -o "$work/both" &&
+        "$work/both"
+}
+
+# Inside somebody's shared library.
+shared_library() {
+    $CC -shared -Wl,-z,text,-z,defs -o "$work/libclient.so" -Wl,--whole-archive "$prefix/lib/libmicroslip.a" \
+        -Wl,--no-whole-archive -lm
+}
+
+fortran_module() {
+    mkdir -p "$work/module" && $FC $1 -c "$prefix/include/microslip.f90" -J "$work/module" -o "$work/module/microslip.o"
+}
+
+fortran_tests() {
+    rm -rf "$work/fortran" && mkdir "$work/fortran" &&
+        build "$FC $1 -J $work/fortran $prefix/include/microslip.f90" fortran_tests/test_microslip.f90 \
+            "$work/fortran/test" && "$work/fortran/test"
+}
+
+snippet() {
+    case $1 in
+        *.c) build "$CC -std=c99 $strict" "$1" "$work/snippet" ;;
+        *.f90) build "$FC -J $work $prefix/include/microslip.f90" "$1" "$work/snippet" ;;
+    esac && (cd "$work" && ./snippet)
+}
+
+step 'Rust: formatting' "$CARGO" fmt --all --check
+step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+step 'Rust: tests' "$CARGO" test --release --workspace --locked
+step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
+
+step 'install, then move' install_and_move
+if [ ! -e "$prefix/lib/libmicroslip.a" ]; then
+    echo 'Nothing is installed, so the clients cannot be tested.'
+    echo "$passed passed, $failed failed"
+    exit 1
+fi
+step 'archive: symbols and sections' scripts/symbols.sh "$prefix"
+step 'archive: beside another Rust archive' two_archives
+step 'archive: inside a shared library' shared_library
+
+step 'C header: C99' header_as "$CC -std=c99 -x c" c
+step 'C header: C++11' header_as "$CXX -std=c++11 -x c++" cpp
+for source in c_tests/*.c; do
+    driver=$(basename "$source" .c)
+    step "C: $driver" c_driver "$driver"
+    step "C: $driver, floating-point traps" "$work/$driver" --trap
+done
+for source in c_tests/*.cpp; do
+    driver=$(basename "$source" .cpp)
+    step "C++: $driver" cxx_driver "$driver"
+    step "C++: $driver, floating-point traps" "$work/$driver" --trap
+done
+step 'CMake: find_package' cmake_client
+step 'CMake: another version is refused' cmake_refuses_other_version
+
+wide='-fdefault-real-8 -fdefault-integer-8'
+traps='-ffpe-trap=invalid,zero,overflow'
+for standard in f2008 f2018; do
+    for kinds in '' "$wide"; do
+        step "Fortran module: $standard $kinds" fortran_module "-std=$standard -Wall -Wextra -pedantic -Werror $kinds"
+    done
+done
+for kinds in '' "$wide"; do
+    step "Fortran: $kinds" fortran_tests "$kinds"
+    step "Fortran: floating-point traps $kinds" fortran_tests "$traps $kinds"
+done
+step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
+
+scripts/snippets.sh README.md "$work/snippets"
+for extension in c f90; do
+    step "README: has a whole program in $extension" test -n "$(find "$work/snippets" -name "*.$extension")"
+done
+for file in "$work"/snippets/*; do
+    step "README: $(basename "$file")" snippet "$file"
+done
+step 'uninstall leaves no file' uninstall
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
