@@ -1,0 +1,234 @@
+/* Alternating frequency/time through the C interface: workspaces, forces, Jacobians, many contacts at once. */
+#include "fixture.h"
+
+#include <stdlib.h>
+
+enum { HARMONICS = 3, SAMPLES = 128, N = 2 * HARMONICS + 1 };
+
+static const double PI = 3.14159265358979323846;
+static size_t length; /* of a workspace of HARMONICS and SAMPLES */
+
+/* Case 3 of the table of harmonic forces: contact 3. */
+static const double displacement[N] = {
+    -1.032743514817179949570389e-8, 3.482590952017465942897783e-7, 0.0, 4.000215146179563450994928e-8,
+    9.733119336249038200948978e-9,  1.357006555907048139958686e-7, 6.745495473297667476041231e-8,
+};
+static const double force_of_table[N] = {
+    -4.187659061710047803366514e-1, 4.143565000565348613576092e1, -7.64493260539773256124719e1,
+    -1.081698314128846294125077,    -2.885322988101795434779141,  3.443354832948413483986706e1,
+    -5.283214385921310079379079,
+};
+
+static double *workspace(void)
+{
+    double *w = malloc(length * sizeof *w);
+    CHECK(w != NULL && mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, w) == MSLIP_OK);
+    return w;
+}
+
+static void test_workspace(void)
+{
+    double *w;
+
+    length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES);
+    CHECK(length > 0);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS + 1, SAMPLES) > length);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS, 2 * SAMPLES) > length);
+
+    /* Nothing is written beyond the promised length. */
+    w = malloc((length + 8) * sizeof *w);
+    memset(w, 0x5a, (length + 8) * sizeof *w);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, w) == MSLIP_OK);
+    CHECK(is_poison(w + length, 8));
+
+    memset(w, 0x5a, (length + 8) * sizeof *w);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, 0, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init(0, SAMPLES, length, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init(SIZE_MAX, SAMPLES, length, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 0, length, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, length, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, NULL) == MSLIP_NULL_POINTER);
+    CHECK(is_poison(w, length + 8));
+    free(w);
+}
+
+static void test_force(void)
+{
+    static const size_t lengths[3] = { N, N * N, 1 };
+    const mslip_contact contact = flat_contact(), open = open_contact();
+    double bad[N];
+    double *w = workspace(), *junk = malloc(length * sizeof *junk);
+
+    EVERY_SUBSET(3, lengths, mslip_harmonic_force(&contact, w, displacement, OUT(0), OUT(1), OUT(2)));
+    for (int i = 0; i < N; ++i) {
+        CHECK_NEAR(reference[0][i], force_of_table[i], 2e-13 * 76.4);
+    }
+
+    /* Rest is rest: the force of a constant displacement is steady. */
+    double constant[N] = { 0.0 };
+    constant[0] = 0.3 * contact.slip_displacement;
+    CHECK(mslip_harmonic_force(&contact, w, constant, out[0], NULL, out[2]) == MSLIP_OK);
+    double steady;
+    CHECK(mslip_monotonic_force(&contact, 1, constant, &steady, NULL, NULL) == MSLIP_OK);
+    CHECK_RELATIVE(out[0][0], steady, 1e-13);
+    for (int i = 1; i < N; ++i) {
+        CHECK_NEAR(out[0][i], 0.0, 1e-14 * steady);
+    }
+    CHECK_NEAR(out[2][0], 0.0, 1e-30);
+
+    /* The Jacobian is the derivative of the force: central differences, two steps extrapolated. */
+    for (int j = 0; j < N; ++j) {
+        const double h = 1e-3 * contact.slip_displacement;
+        double moved[N], f[4][N];
+        for (int k = 0; k < 4; ++k) {
+            static const double step[4] = { 1.0, -1.0, 0.5, -0.5 };
+            memcpy(moved, displacement, sizeof moved);
+            moved[j] += step[k] * h;
+            CHECK(mslip_harmonic_force(&contact, w, moved, f[k], NULL, NULL) == MSLIP_OK);
+        }
+        for (int i = 0; i < N; ++i) {
+            double coarse = (f[0][i] - f[1][i]) / (2.0 * h), fine = (f[2][i] - f[3][i]) / h;
+            CHECK_NEAR(reference[1][i + N * j], fine + (fine - coarse) / 3.0, 2e-3 * contact.initial_stiffness);
+        }
+    }
+
+    /* One harmonic at fine sampling: the complex stiffness, and the energy of its loop. */
+    const double amplitude = 0.8 * contact.slip_displacement;
+    double k_real, k_imag, single[N] = { 0.0 };
+    size_t fine_length = mslip_harmonic_workspace_length(HARMONICS, 1024);
+    double *fine = malloc(fine_length * sizeof *fine);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 1024, fine_length, fine) == MSLIP_OK);
+    single[1] = amplitude;
+    CHECK(mslip_harmonic_force(&contact, fine, single, out[0], NULL, out[2]) == MSLIP_OK);
+    CHECK(mslip_complex_stiffness(&contact, 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
+    CHECK_RELATIVE(out[0][1], k_real * amplitude, 1e-6);
+    CHECK_NEAR(out[0][2], -k_imag * amplitude, 1e-4 * k_imag * amplitude);
+    CHECK_RELATIVE(out[2][0], PI * k_imag * amplitude * amplitude, 1e-12);
+    free(fine);
+
+    for (int i = 0; i < 3; ++i) {
+        memcpy(bad, displacement, sizeof bad);
+        bad[N - 1] = not_finite[i];
+        REFUSED(mslip_harmonic_force(&contact, w, bad, out[0], out[1], out[2]), MSLIP_BAD_DISPLACEMENT);
+    }
+    REFUSED(mslip_harmonic_force(NULL, w, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    REFUSED(mslip_harmonic_force(&contact, NULL, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    REFUSED(mslip_harmonic_force(&contact, w, NULL, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    for (int i = 0; i < UNPREPARED; ++i) {
+        const mslip_contact unprepared = unprepared_contact(i);
+        REFUSED(mslip_harmonic_force(&unprepared, w, displacement, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
+        memset(junk, i == 0 ? 0 : 0xff, length * sizeof *junk);
+        REFUSED(mslip_harmonic_force(&contact, junk, displacement, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
+    }
+
+    /* What came between leaves no trace: the same bits again. */
+    CHECK(mslip_harmonic_force(&contact, w, displacement, out[0], out[1], out[2]) == MSLIP_OK);
+    CHECK(same_bits(out[0], reference[0], N) && same_bits(out[1], reference[1], N * N));
+    CHECK(out[2][0] == reference[2][0]);
+
+    CHECK(mslip_harmonic_force(&open, w, displacement, out[0], out[1], out[2]) == MSLIP_OK);
+    for (int i = 0; i < N; ++i) {
+        CHECK(out[0][i] == 0.0 && out[1][i] == 0.0);
+    }
+    CHECK(out[2][0] == 0.0);
+    free(junk);
+    free(w);
+}
+
+/* Many contacts at once are as many single calls, to the last bit. */
+enum { ITEMS = 3 };
+static const int32_t active[ITEMS] = { 1, 0, -1 };
+
+static void test_interface_force(void)
+{
+    static const size_t lengths[3] = { ITEMS * N, ITEMS * N * N, ITEMS };
+    const mslip_contact contacts[ITEMS] = { flat_contact(), elliptic_contact(), cylinder_contact() };
+    mslip_contact unprepared[ITEMS];
+    double u[ITEMS * N];
+    double *w = workspace();
+
+    for (int i = 0; i < ITEMS * N; ++i) {
+        u[i] = displacement[i % N] * (1.0 + 0.3 * (i / N));
+    }
+    EVERY_SUBSET(3, lengths, mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, u, OUT(0), OUT(1), OUT(2)));
+    for (int i = 0; i < ITEMS; ++i) {
+        CHECK(mslip_harmonic_force(&contacts[i], w, u + i * N, out[0], out[1], out[2]) == MSLIP_OK);
+        CHECK(same_bits(out[0], reference[0] + i * N, N) && same_bits(out[1], reference[1] + i * N * N, N * N));
+        CHECK(out[2][0] == reference[2][i]);
+    }
+
+    /* Item 1 rests: its outputs are untouched, and nothing of it is looked at. */
+    memcpy(unprepared, contacts, sizeof unprepared);
+    unprepared[1] = unprepared_contact(0);
+    u[N] = NAN;
+    poison();
+    CHECK(mslip_interface_harmonic_force(ITEMS, unprepared, active, w, u, out[0], out[1], out[2]) == MSLIP_OK);
+    CHECK(is_poison(out[0] + N, N) && is_poison(out[1] + N * N, N * N) && is_poison(out[2] + 1, 1));
+    CHECK(same_bits(out[0], reference[0], N) && same_bits(out[0] + 2 * N, reference[0] + 2 * N, N));
+    CHECK(same_bits(out[1] + 2 * N * N, reference[1] + 2 * N * N, N * N));
+
+    /* At work it is refused, and nothing is written for the others either. */
+    REFUSED(mslip_interface_harmonic_force(ITEMS, unprepared, NULL, w, u, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
+    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, u, out[0], out[1], out[2]),
+            MSLIP_BAD_DISPLACEMENT);
+    REFUSED(mslip_interface_harmonic_force(ITEMS, NULL, NULL, w, u, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, NULL, u, out[0], out[1], out[2]),
+            MSLIP_NULL_POINTER);
+    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, NULL, out[0], out[1], out[2]),
+            MSLIP_NULL_POINTER);
+    poison();
+    CHECK(mslip_interface_harmonic_force(0, contacts, NULL, w, u, out[0], out[1], out[2]) == MSLIP_OK && untouched());
+
+    memset(w, 0, length * sizeof *w);
+    REFUSED(mslip_interface_harmonic_force(1, contacts, NULL, w, u, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
+    free(w);
+}
+
+static void test_interface_stiffness(void)
+{
+    static const size_t lengths[4] = { ITEMS, ITEMS, ITEMS, ITEMS };
+    const mslip_contact contacts[ITEMS] = { flat_contact(), elliptic_contact(), cylinder_contact() };
+    mslip_contact unprepared[ITEMS];
+    double amplitude[ITEMS] = { 3e-8, 5e-7, 0.0 };
+
+    EVERY_SUBSET(4, lengths, mslip_interface_complex_stiffness(ITEMS, contacts, NULL, amplitude, OUT(0), OUT(1), OUT(2),
+                                                               OUT(3)));
+    for (int i = 0; i < ITEMS; ++i) {
+        CHECK(mslip_complex_stiffness(&contacts[i], 1, &amplitude[i], out[0], out[1], out[2], out[3]) == MSLIP_OK);
+        for (int k = 0; k < 4; ++k) {
+            CHECK(same_bits(out[k], reference[k] + i, 1));
+        }
+    }
+
+    memcpy(unprepared, contacts, sizeof unprepared);
+    unprepared[1] = unprepared_contact(1);
+    amplitude[1] = -1.0;
+    poison();
+    CHECK(mslip_interface_complex_stiffness(ITEMS, unprepared, active, amplitude, out[0], out[1], out[2], out[3])
+          == MSLIP_OK);
+    for (int k = 0; k < 4; ++k) {
+        CHECK(is_poison(out[k] + 1, 1) && out[k][0] == reference[k][0] && out[k][2] == reference[k][2]);
+    }
+    REFUSED(mslip_interface_complex_stiffness(ITEMS, unprepared, NULL, amplitude, out[0], out[1], out[2], out[3]),
+            MSLIP_BAD_CONTACT);
+    REFUSED(mslip_interface_complex_stiffness(ITEMS, contacts, NULL, amplitude, out[0], out[1], out[2], out[3]),
+            MSLIP_BAD_AMPLITUDE);
+    REFUSED(mslip_interface_complex_stiffness(ITEMS, NULL, NULL, amplitude, out[0], out[1], out[2], out[3]),
+            MSLIP_NULL_POINTER);
+    REFUSED(mslip_interface_complex_stiffness(ITEMS, contacts, NULL, NULL, out[0], out[1], out[2], out[3]),
+            MSLIP_NULL_POINTER);
+    poison();
+    CHECK(mslip_interface_complex_stiffness(0, contacts, NULL, amplitude, out[0], out[1], out[2], out[3]) == MSLIP_OK
+          && untouched());
+}
+
+int main(int argc, char **argv)
+{
+    check_arguments(argc, argv);
+    test_workspace();
+    test_force();
+    test_interface_force();
+    test_interface_stiffness();
+    return check_report();
+}

@@ -1,0 +1,97 @@
+/* The sizes and offsets of the structures: fixed, because a Fortran module and stored contacts rely on them. */
+#include "check.h"
+
+#include <microslip.h>
+#include <stddef.h>
+
+/* An array of negative length is refused when this is compiled, in C99 and in C++. */
+#define AT_COMPILE_TIME(name, condition) typedef char name[(condition) ? 1 : -1]
+#define OFFSET(type, field, bytes) AT_COMPILE_TIME(type##_##field, offsetof(type, field) == (bytes))
+#define SIZE(type, bytes) AT_COMPILE_TIME(type##_size, sizeof(type) == (bytes))
+
+OFFSET(mslip_material, young_modulus, 0);
+OFFSET(mslip_material, poisson_ratio, 8);
+SIZE(mslip_material, 16);
+
+OFFSET(mslip_parameters, flat_half_width, 0);
+OFFSET(mslip_parameters, edge_radius, 8);
+OFFSET(mslip_parameters, length, 16);
+OFFSET(mslip_parameters, normal_force, 24);
+OFFSET(mslip_parameters, friction_coefficient, 32);
+OFFSET(mslip_parameters, material, 40);
+OFFSET(mslip_parameters, displacement_reference, 72);
+OFFSET(mslip_parameters, reserved, 76);
+SIZE(mslip_parameters, 80);
+
+OFFSET(mslip_elliptic_parameters, semi_axis_x, 0);
+OFFSET(mslip_elliptic_parameters, semi_axis_y, 8);
+OFFSET(mslip_elliptic_parameters, normal_force, 16);
+OFFSET(mslip_elliptic_parameters, friction_coefficient, 24);
+OFFSET(mslip_elliptic_parameters, material, 32);
+SIZE(mslip_elliptic_parameters, 64);
+
+OFFSET(mslip_contact, composite_modulus, 0);
+OFFSET(mslip_contact, half_width, 8);
+OFFSET(mslip_contact, slip_force, 16);
+OFFSET(mslip_contact, slip_displacement, 24);
+OFFSET(mslip_contact, initial_stiffness, 32);
+OFFSET(mslip_contact, slip_energy, 40);
+SIZE(mslip_contact, 1024);
+
+/* What the library writes lies where the header says, and nowhere else. */
+int main(int argc, char **argv)
+{
+    struct {
+        unsigned char before[64];
+        mslip_parameters parameters;
+        unsigned char between[64];
+        mslip_elliptic_parameters elliptic;
+        unsigned char gap[64];
+        mslip_contact contact;
+        unsigned char after[64];
+    } memory;
+    unsigned char guard[64];
+    int body;
+
+    check_arguments(argc, argv);
+    memset(&memory, 0x5a, sizeof memory);
+    memset(guard, 0x5a, sizeof guard);
+
+    mslip_parameters_default(&memory.parameters);
+    CHECK(isnan(memory.parameters.flat_half_width) && isnan(memory.parameters.edge_radius));
+    CHECK(isnan(memory.parameters.length) && isnan(memory.parameters.normal_force));
+    CHECK(isnan(memory.parameters.friction_coefficient));
+    for (body = 0; body < 2; ++body) {
+        CHECK(isnan(memory.parameters.material[body].young_modulus));
+        CHECK(isnan(memory.parameters.material[body].poisson_ratio));
+    }
+    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT);
+    CHECK(memory.parameters.reserved == 0);
+
+    mslip_elliptic_parameters_default(&memory.elliptic);
+    CHECK(isnan(memory.elliptic.semi_axis_x) && isnan(memory.elliptic.semi_axis_y));
+    CHECK(isnan(memory.elliptic.normal_force) && isnan(memory.elliptic.friction_coefficient));
+    for (body = 0; body < 2; ++body) {
+        CHECK(isnan(memory.elliptic.material[body].young_modulus));
+        CHECK(isnan(memory.elliptic.material[body].poisson_ratio));
+    }
+
+    memory.parameters.flat_half_width = 0.0;
+    memory.parameters.edge_radius = 5e-3;
+    memory.parameters.length = 2e-2;
+    memory.parameters.normal_force = 100.0;
+    memory.parameters.friction_coefficient = 0.5;
+    for (body = 0; body < 2; ++body) {
+        memory.parameters.material[body].young_modulus = 2e11;
+        memory.parameters.material[body].poisson_ratio = 0.5;
+    }
+    CHECK(mslip_contact_init(&memory.parameters, &memory.contact) == MSLIP_OK);
+    CHECK_RELATIVE(memory.contact.composite_modulus, 2e11 / 1.5, 1e-15);
+    CHECK_RELATIVE(memory.contact.slip_force, 50.0, 1e-15);
+
+    CHECK(memcmp(memory.before, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.between, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.gap, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.after, guard, sizeof guard) == 0);
+    return check_report();
+}
