@@ -23,11 +23,20 @@ if [ ! -s "$work/keep" ]; then
     exit 1
 fi
 
+# Rust's runtime also has a few functions of the mathematical library. The host's are the faster ones, and have no
+# variables, so calls of these names are kept from binding here.
+for name in cbrt ceil fdim floor fma fmax fmin fmod rint round roundeven sqrt trunc; do
+    echo "--wrap=$name" >> "$work/wrap"
+    echo "__wrap_$name $name" >> "$work/unwrap"
+done
+
 # The names hold no blanks, so they may be split into arguments.
 entry=$(head -n 1 "$work/keep")
 # shellcheck disable=SC2046
-$LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") -o "$work/all.o" "$from"
-$OBJCOPY --keep-global-symbols="$work/keep" --strip-debug "$work/all.o" "$work/local.o"
+$LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") $(cat "$work/wrap") -o "$work/all.o" "$from"
+# Rust's own library brings its intermediate code along, which the plugins of other compilers choke on.
+$OBJCOPY --keep-global-symbols="$work/keep" --strip-debug --remove-section=.llvmbc --remove-section=.llvmcmd \
+    --redefine-syms="$work/unwrap" "$work/all.o" "$work/local.o"
 $OBJCOPY --strip-unneeded "$work/local.o" "$work/microslip.o"
 
 mkdir -p "$(dirname "$to")"
