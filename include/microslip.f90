@@ -188,7 +188,7 @@ module microslip
       !! Version of the interface of the linked library. The module belongs to the library where this equals
       !! `MSLIP_MODULE_ABI_VERSION`.
       import :: mslip_int
-      integer(mslip_int) :: version
+      integer(mslip_int) :: version  !! Version of the interface, > 0.
     end function mslip_abi_version
 
     subroutine mslip_parameters_default(parameters) bind(c, name='mslip_parameters_default')
@@ -207,7 +207,7 @@ module microslip
       !! Length of a state that holds so many nested reversals of the displacement. May dimension an array.
       import :: mslip_size
       integer(mslip_size), value, intent(in) :: reversals  !! Nested reversals, >= 0.
-      integer(mslip_size) :: length
+      integer(mslip_size) :: length  !! Numbers that the state has to have.
     end function mslip_state_length
 
   end interface
@@ -445,7 +445,7 @@ contains
 
   function mslip_version() result(text)
     !! Version of the linked library, such as "1.2.3".
-    character(len=:), allocatable :: text
+    character(len=:), allocatable :: text  !! The text, without blanks around it.
 
     text = text_of(c_version())
   end function mslip_version
@@ -453,7 +453,7 @@ contains
   function mslip_status_text(status) result(text)
     !! What a status code means: what is wrong and what is allowed, in one sentence. Any number may be asked for.
     integer(mslip_int), intent(in) :: status  !! A status code.
-    character(len=:), allocatable :: text
+    character(len=:), allocatable :: text  !! The text, without blanks around it.
 
     text = text_of(c_status_text(status))
   end function mslip_status_text
@@ -825,7 +825,7 @@ contains
     !! It is larger than that of the C function of this name, and a workspace serves this module only.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
-    integer(mslip_size) :: needed
+    integer(mslip_size) :: needed  !! Numbers that the workspace has to have.
 
     needed = c_harmonic_workspace_length(harmonics, samples)
     ! A C length beyond the largest integer of this kind arrives negative.
