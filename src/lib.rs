@@ -1,3 +1,38 @@
-//! Microslip friction law for blade contacts.
+//! **microslip**: the friction law of a contact with rounded edges, for blade dynamics.
+//!
+//! The modules follow the physics: what the user gives ([`parameters`]), size and pressure of the contact (`indentation`),
+//! the family of sizes on which everything rests (`family`, provided by `rounded_flat` and `elliptic`), tractions, the
+//! monotonic curve, Masing's rule with its memory, harmonic quantities, harmonic force, spring-slider equivalents, and the
+//! C interface as a thin shell around them.
 #![no_std]
+#![deny(unsafe_code)]
 extern crate std;
+
+pub mod error;
+pub mod parameters;
+
+mod quadrature;
+
+mod family;
+mod indentation;
+mod rounded_flat;
+mod traction;
+
+mod contact;
+mod curve;
+pub mod masing;
+
+pub mod harmonic;
+pub mod harmonic_force;
+
+pub mod equivalent;
+
+mod elliptic;
+
+pub mod c_api;
+
+pub use contact::Contact;
+pub use curve::CurvePoint;
+pub use error::Error;
+pub use harmonic::ComplexStiffness;
+pub use parameters::{EllipticParameters, Material, Parameters};

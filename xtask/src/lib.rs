@@ -17,8 +17,7 @@ pub fn header_path() -> PathBuf {
 /// The text that the header should have.
 pub fn header() -> String {
     // Brackets are escaped in the source because there they would make links.
-    let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]");
-    with_contact_closed(&text)
+    text_of(&bindings()).replace("\\[", "[").replace("\\]", "]")
 }
 
 /// The functions of the interface, in the order of the source.
@@ -36,23 +35,6 @@ pub fn check_header() -> Result<(), String> {
     }
     let line = committed.lines().zip(header.lines()).take_while(|(old, new)| old == new).count();
     Err(format!("include/microslip.h is stale from line {}: run `make header` and commit the result", line + 1))
-}
-
-/// What C sees of a contact is what may be read; the rest is so many bytes.
-fn with_contact_closed(header: &str) -> String {
-    const NUMBERS: usize = 1024 / size_of::<f64>();
-    const LAST_READABLE: &str = "    double slip_energy;\n";
-    let start = header.find("typedef struct mslip_contact {").expect("the header has the contact");
-    let from = start + header[start..].find(LAST_READABLE).expect("the contact has its energy") + LAST_READABLE.len();
-    let to = start + header[start..].find("} mslip_contact;").expect("the contact ends");
-    let readable = header[start..from].matches("    double ").count();
-    format!(
-        "{}    // Prepared coefficients and the mark of a prepared contact: not to be read or written.\n    \
-         double reserved[{}];\n{}",
-        &header[..from],
-        NUMBERS - readable,
-        &header[to..]
-    )
 }
 
 fn text_of(bindings: &Bindings) -> String {

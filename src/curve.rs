@@ -1,0 +1,180 @@
+//! The monotonic curve (Eq. 10): tangential force against tangential displacement of a contact first loaded, its inverse,
+//! and the tractions and the slip that go with it.
+//!
+//! The curve is odd; its points below are those of its positive half, with the sign kept beside them.
+
+use crate::contact::Contact;
+use crate::error::Error;
+use crate::family::{Member, Place, Split};
+
+/// Relative excess over mu N that is taken for rounding.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// A point of the monotonic curve. What is asked for is computed; what is not, is not.
+#[derive(Debug, Clone, Copy)]
+pub struct CurvePoint<'a> {
+    contact: &'a Contact,
+    sign: f64,
+    /// The stick zone; none in gross slip, and none without friction.
+    stick: Option<Member>,
+}
+
+impl Contact {
+    /// The point of the monotonic curve at a tangential force \[N\].
+    ///
+    /// # Errors
+    /// `BadForce` for a force that is not finite, `ForceExceedsSlip` for one beyond mu N (a few units of rounding beyond
+    /// are taken as mu N).
+    pub fn curve_at_force(&self, force: f64) -> Result<CurvePoint<'_>, Error> {
+        self.check_force(force)?;
+        let stick = if self.is_frictionless() { None } else { Some(self.stick_at_force(force.abs())) };
+        Ok(CurvePoint { contact: self, sign: sign_of(force), stick })
+    }
+
+    pub(crate) fn check_force(&self, force: f64) -> Result<(), Error> {
+        if !force.is_finite() {
+            Err(Error::BadForce)
+        } else if force.abs() > self.slip_force * (1.0 + ROUNDING) {
+            Err(Error::ForceExceedsSlip)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The point of the monotonic curve at a tangential displacement \[m\]; beyond `slip_displacement` the contact slips.
+    ///
+    /// # Errors
+    /// `BadDisplacement` for a displacement that is not finite, or beyond 1e150.
+    pub fn curve_at_displacement(&self, displacement: f64) -> Result<CurvePoint<'_>, Error> {
+        check_displacement(displacement)?;
+        let slides = self.is_frictionless() || displacement.abs() > self.slip_displacement;
+        let stick = if slides { None } else { Some(self.stick_at_displacement(displacement.abs())) };
+        Ok(CurvePoint { contact: self, sign: sign_of(displacement), stick })
+    }
+
+    /// The stick zone under a force from 0 to mu N.
+    pub(crate) fn stick_at_force(&self, force: f64) -> Member {
+        let (force, unit) = (force.min(self.slip_force), self.slip_force.max(f64::MIN_POSITIVE));
+        let rest = self.slip_force - force;
+        // mu N to twice the digits: what rests near gross slip is then as good as the force given.
+        let rest = if rest > 0.0 { (rest + self.slip_force_rounding()).max(0.0) } else { 0.0 };
+        self.family().at_load(Split { lost: force / unit, rest: rest / unit })
+    }
+
+    /// The stick zone at a displacement from 0 to that of gross slip.
+    pub(crate) fn stick_at_displacement(&self, displacement: f64) -> Member {
+        let unit = self.displacement_unit().max(f64::MIN_POSITIVE);
+        let displacement = displacement.min(self.slip_displacement);
+        self.family().at_approach(Split { lost: displacement / unit, rest: (self.slip_displacement - displacement) / unit })
+    }
+
+    /// Force \[N\] of a stick zone.
+    pub(crate) fn force_of(&self, stick: &Member) -> f64 {
+        if stick.load.lost > 0.5 { self.slip_force - self.slip_force * stick.load.rest } else { self.slip_force * stick.load.lost }
+    }
+
+    /// dT/d(displacement) \[N/m\] at a stick zone.
+    pub(crate) fn stiffness_of(&self, stick: &Member) -> f64 {
+        self.stiffness_unit() / self.family().compliance(stick)
+    }
+
+    /// Energy \[J\] dissipated per cycle whose half-cycles end with that stick zone.
+    pub(crate) fn energy_of(&self, stick: &Member) -> f64 {
+        self.energy_unit() * self.family().dissipation(stick)
+    }
+}
+
+pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
+    // The bound keeps products with forces and energies representable.
+    if displacement.abs() <= 1e150 { Ok(()) } else { Err(Error::BadDisplacement) }
+}
+
+fn sign_of(value: f64) -> f64 {
+    if value < 0.0 { -1.0 } else { 1.0 }
+}
+
+impl CurvePoint<'_> {
+    pub(crate) fn stick(&self) -> Option<&Member> {
+        self.stick.as_ref()
+    }
+
+    /// Tangential force T \[N\].
+    #[must_use]
+    pub fn force(&self) -> f64 {
+        self.sign * self.stick.map_or(self.contact.slip_force, |stick| self.contact.force_of(&stick))
+    }
+
+    /// Tangential displacement \[m\] of a point that sticks; in gross slip that at which it started.
+    #[must_use]
+    pub fn displacement(&self) -> f64 {
+        let unit = self.contact.displacement_unit();
+        self.sign * self.stick.map_or(self.contact.slip_displacement, |stick| unit * stick.approach.lost)
+    }
+
+    /// dT/d(displacement) \[N/m\]; 0 in gross slip.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.stick.map_or(0.0, |stick| self.contact.stiffness_of(&stick))
+    }
+
+    /// d(displacement)/dT \[m/N\]; infinite at mu N where the stick zone shrinks to nothing, and without friction.
+    #[must_use]
+    pub fn compliance(&self) -> f64 {
+        let unit = self.contact.stiffness_unit().max(f64::MIN_POSITIVE);
+        self.stick.map_or(f64::INFINITY, |stick| self.contact.family().compliance(&stick) / unit)
+    }
+
+    /// Half-width c of the stick zone \[m\]; 0 in gross slip, where nothing sticks.
+    #[must_use]
+    pub fn stick_half_width(&self) -> f64 {
+        self.stick.map_or(0.0, |stick| self.contact.half_width * self.contact.family().size(&stick))
+    }
+
+    /// Shear traction \[Pa\] at x \[m\] (Eq. 21).
+    #[must_use]
+    pub fn shear(&self, x: f64) -> f64 {
+        let traction = |stick| {
+            let unit = self.contact.friction_coefficient() * self.contact.pressure_unit();
+            unit * self.contact.family().shear(&self.contact.place(x), &stick)
+        };
+        self.sign * self.stick.map_or(0.0, traction)
+    }
+
+    /// Relative slip \[m\] at x \[m\] (Eq. 15): 0 in the stick zone and outside the contact.
+    ///
+    /// # Errors
+    /// `NotAvailable` for an elliptical contact.
+    pub fn slip(&self, x: f64) -> Result<f64, Error> {
+        if self.contact.is_elliptic() {
+            return Err(Error::NotAvailable);
+        }
+        let Some(stick) = self.stick else { return Ok(0.0) };
+        let place = self.contact.place(x);
+        let slip = self.contact.family().slip(&place, &stick).ok_or(Error::NotAvailable)?;
+        Ok(if place.inside_edge < 0.0 { 0.0 } else { self.sign * self.contact.displacement_unit() * slip })
+    }
+
+    /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5), given the slip there.
+    #[must_use]
+    pub fn damage(&self, x: f64, slip: f64) -> f64 {
+        self.contact.friction_coefficient() * self.contact.pressure(x) * slip.abs()
+    }
+}
+
+impl Contact {
+    /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
+    #[must_use]
+    pub fn pressure(&self, x: f64) -> f64 {
+        if self.half_width > 0.0 { self.pressure_unit() * self.family().pressure(&self.place(x)) } else { 0.0 }
+    }
+
+    /// Where x lies along the width; far outside is as good as twice the half-width.
+    fn place(&self, x: f64) -> Place {
+        let (x, unit) = (x.abs().min(2.0 * self.half_width), self.half_width.max(f64::MIN_POSITIVE));
+        Place {
+            x: x / unit,
+            beyond_flat: (x - self.flat_half_width().min(x + unit)) / unit,
+            inside_edge: (self.half_width - x) / unit,
+        }
+    }
+}

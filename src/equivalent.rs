@@ -1,0 +1,200 @@
+//! Spring-sliders that stand in for a contact, for a solver that knows nothing else.
+//!
+//! - Jenkins: one spring with one slider, with the complex stiffness of the contact at one amplitude.
+//! - Iwan: n of them in parallel, with the monotonic curve of the contact to the smallest error that n sliders allow.
+
+use crate::contact::Contact;
+use crate::error::Error;
+use crate::family::{ContactFamily, Split};
+use core::f64::consts::PI;
+
+/// A spring of some stiffness \[N/m\] that slips at some force \[N\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringSlider {
+    pub stiffness: f64,
+    pub slip_force: f64,
+}
+
+/// The spring-slider with the contact's K' and K'' at a displacement amplitude \[m\].
+///
+/// A loop of amplitude A with slider force F and stiffness k has, with `cos Θ = 1 - 2 F/(kA)`,
+/// `K' = (k/π) (Θ - sin Θ cos Θ)` and `K'' = (k/π) sin² Θ`: their quotient gives Θ. At the amplitude 0, where any slip force
+/// does, it is the initial stiffness with mu N.
+///
+/// # Errors
+/// `BadAmplitude`; `NotAvailable` where the contact carries no force.
+pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error> {
+    let complex = contact.complex_stiffness(amplitude)?;
+    if contact.is_frictionless() {
+        return Err(Error::NotAvailable);
+    }
+    let (real, imaginary) = (complex.real(), complex.imaginary());
+    let ratio = imaginary / real;
+    if amplitude <= 0.0 || ratio < f64::MIN_POSITIVE {
+        let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };
+        return Ok(SpringSlider { stiffness: real, slip_force });
+    }
+    // η = π - Θ from sin² η = ratio (π - η + sin η cos η), whose left side less its right rises through its only root.
+    let (mut low, mut high) = (0.0, PI);
+    let mut eta = (PI * ratio).sqrt().min(0.5 * PI);
+    for _ in 0..100 {
+        let (sine, cosine) = eta.sin_cos();
+        let value = sine * sine - ratio * (PI - eta + sine * cosine);
+        if value < 0.0 {
+            low = eta;
+        } else {
+            high = eta;
+        }
+        let slope = 2.0 * sine * (cosine + ratio * sine);
+        let newton = eta - value / slope.abs().max(f64::MIN_POSITIVE.sqrt()) * slope.signum();
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - eta).abs() <= 2.0 * f64::EPSILON * eta {
+            break;
+        }
+        eta = next;
+    }
+    let sine = eta.sin();
+    let stiffness = PI * imaginary / (sine * sine);
+    let half = (0.5 * eta).cos();
+    Ok(SpringSlider { stiffness, slip_force: stiffness * amplitude * half * half })
+}
+
+/// n parallel spring-sliders with the contact's monotonic curve; each is handed to `take`. Returns the largest error of the
+/// force over mu N.
+///
+/// The sliders' curve is a polygon from the origin to mu N. It errs least when each of its sides dips below the contact's
+/// curve by as much as its corners stand above it. For a given error the sides follow one after the other: a tangent to
+/// the curve lowered by the error, up to the curve raised by it. The error with which n sides just reach mu N is found by
+/// bisection.
+///
+/// # Errors
+/// `BadCount` for no sliders.
+pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider)) -> Result<f64, Error> {
+    if sliders == 0 {
+        return Err(Error::BadCount);
+    }
+    if contact.is_frictionless() {
+        (0..sliders).for_each(|_| take(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
+        return Ok(0.0);
+    }
+    let curve = Curve(contact.family());
+    let (mut low, mut high) = (1e-18_f64, 1.0_f64);
+    for _ in 0..100 {
+        let error = (low * high).sqrt();
+        if curve.reaches_slip(error, sliders) {
+            high = error;
+        } else {
+            low = error;
+        }
+        if high <= low * (1.0 + 1e-12) {
+            break;
+        }
+    }
+    let mut side = curve.side(&Corner::ORIGIN, high);
+    for _ in 0..sliders {
+        let corner = side.end;
+        let next = if corner.force < 1.0 { curve.side(&corner, high) } else { Side { slope: 0.0, end: corner } };
+        let stiffness = (side.slope - next.slope).max(0.0);
+        take(SpringSlider {
+            stiffness: stiffness * contact.stiffness_unit(),
+            slip_force: stiffness * corner.approach * contact.slip_force,
+        });
+        side = next;
+    }
+    Ok(high)
+}
+
+/// A corner of the sliders' curve: approach, and force over mu N.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    approach: f64,
+    force: f64,
+    /// Force over mu N of the contact's curve there.
+    on_curve: f64,
+}
+
+impl Corner {
+    const ORIGIN: Corner = Corner { approach: 0.0, force: 0.0, on_curve: 0.0 };
+}
+
+/// A side of the sliders' curve, by its slope and its end.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    slope: f64,
+    end: Corner,
+}
+
+/// The monotonic curve in its own units.
+struct Curve<'a>(&'a dyn ContactFamily);
+
+impl Curve<'_> {
+    /// Approach and tangent stiffness at a force over mu N.
+    fn at(&self, force: f64) -> (f64, f64) {
+        let stick = self.0.at_load(Split { lost: force, rest: 1.0 - force });
+        (stick.approach.lost, 1.0 / self.0.compliance(&stick))
+    }
+
+    /// The side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
+    fn side(&self, from: &Corner, error: f64) -> Side {
+        let slip = self.0.slip_approach();
+        let (_, last_slope) = self.at(1.0);
+        let lowered = |force: f64, approach: f64, slope: f64| force - error - from.force - slope * (approach - from.approach);
+        let touch = |force: f64| {
+            let (approach, slope) = self.at(force);
+            lowered(force, approach, slope)
+        };
+        // Before the contact slips, or at the corner where it does.
+        let (touching, slope) = if lowered(1.0, slip, last_slope) > 0.0 {
+            let force = root(touch, from.on_curve, 1.0);
+            (force, self.at(force).1)
+        } else {
+            (1.0, (1.0 - error - from.force).max(0.0) / (slip - from.approach).max(f64::MIN_POSITIVE))
+        };
+        let line = |approach: f64| from.force + slope * (approach - from.approach);
+        let above = |force: f64| line(self.at(force).0) - force - error;
+        if touching < 1.0 && above(1.0) > 0.0 {
+            let on_curve = root(above, touching, 1.0);
+            if on_curve + error < 1.0 {
+                return Side { slope, end: Corner { approach: self.at(on_curve).0, force: on_curve + error, on_curve } };
+            }
+        }
+        let approach = from.approach + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);
+        Side { slope, end: Corner { approach, force: 1.0, on_curve: 1.0 } }
+    }
+
+    fn reaches_slip(&self, error: f64, sides: usize) -> bool {
+        let mut corner = Corner::ORIGIN;
+        for _ in 0..sides {
+            corner = self.side(&corner, error).end;
+            if corner.force >= 1.0 {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// The root between `low`, where the function is not positive, and `high`, where it is not negative: the secant between
+/// both, with the value of an end that stays twice halved (Illinois' rule).
+fn root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let (mut low, mut high) = ((low, function(low)), (high, function(high)));
+    let mut rose = None;
+    for _ in 0..100 {
+        let secant = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1).max(f64::MIN_POSITIVE);
+        let next = if secant > low.0 && secant < high.0 { secant } else { 0.5 * (low.0 + high.0) };
+        let value = function(next);
+        let rises = value < 0.0;
+        if rises {
+            low = (next, value);
+            high.1 *= if rose == Some(true) { 0.5 } else { 1.0 };
+        } else {
+            high = (next, value);
+            low.1 *= if rose == Some(false) { 0.5 } else { 1.0 };
+        }
+        rose = Some(rises);
+        if high.0 - low.0 <= 4.0 * f64::EPSILON * high.0 || value == 0.0 {
+            break;
+        }
+    }
+    if low.1.abs() < high.1.abs() { low.0 } else { high.0 }
+}

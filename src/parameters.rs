@@ -1,0 +1,218 @@
+//! What the user gives: geometry, material and load (section 2.1 and Fig. 1 of the paper), and the checks on it.
+
+use crate::error::Error;
+
+/// Displacement of the centre point of the contact under a line of uniform traction: the paper's Eq. 5-10.
+pub const CENTRE_POINT: i32 = 0;
+/// Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
+pub const RIGID_STRIP: i32 = 1;
+
+/// Isotropic, linearly elastic material of one body.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus E > 0 \[Pa\].
+    pub young_modulus: f64,
+    /// Poisson's ratio, 0 <= nu <= 0.5 \[-\].
+    pub poisson_ratio: f64,
+}
+
+/// Flat with rounded edges on a flat (Eq. 1-24); a cylinder when the flat has no width.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameters {
+    /// Half-width a >= 0 of the flat \[m\]; 0 is a Hertzian cylinder.
+    pub flat_half_width: f64,
+    /// Radius R > 0 of the rounded edges (of the cylinder when a = 0) \[m\].
+    pub edge_radius: f64,
+    /// Length L > 0 of the contact along its line \[m\]; the model needs 2L > b and a positive initial stiffness.
+    pub length: f64,
+    /// Normal force N >= 0 on the whole contact \[N\]; 0 is an open contact: no force, no stiffness.
+    pub normal_force: f64,
+    /// Coulomb's friction coefficient mu >= 0 \[-\].
+    pub friction_coefficient: f64,
+    /// The two bodies.
+    pub material: [Material; 2],
+    /// `MSLIP_CENTRE_POINT` (0, the paper's displacement) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
+    pub displacement_reference: i32,
+    /// Not read; 0.
+    pub reserved: i32,
+}
+
+/// Elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EllipticParameters {
+    /// Semi-axis b > 0 of the contact ellipse along the tangential force \[m\].
+    pub semi_axis_x: f64,
+    /// Semi-axis l > 0 of the contact ellipse across the tangential force \[m\].
+    pub semi_axis_y: f64,
+    /// Normal force N >= 0 \[N\]; 0 is an open contact.
+    pub normal_force: f64,
+    /// Coulomb's friction coefficient mu >= 0 \[-\].
+    pub friction_coefficient: f64,
+    /// The two bodies.
+    pub material: [Material; 2],
+}
+
+/// A number that was forgotten stays a NaN, and is refused by name.
+const UNSET: f64 = f64::NAN;
+
+const UNSET_MATERIAL: Material = Material {
+    young_modulus: UNSET,
+    poisson_ratio: UNSET,
+};
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Parameters {
+            flat_half_width: UNSET,
+            edge_radius: UNSET,
+            length: UNSET,
+            normal_force: UNSET,
+            friction_coefficient: UNSET,
+            material: [UNSET_MATERIAL; 2],
+            displacement_reference: CENTRE_POINT,
+            reserved: 0,
+        }
+    }
+}
+
+impl Default for EllipticParameters {
+    fn default() -> Self {
+        EllipticParameters {
+            semi_axis_x: UNSET,
+            semi_axis_y: UNSET,
+            normal_force: UNSET,
+            friction_coefficient: UNSET,
+            material: [UNSET_MATERIAL; 2],
+        }
+    }
+}
+
+/// `Ok` when `value` is finite and not below zero.
+fn not_negative(value: f64, error: Error) -> Result<(), Error> {
+    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(error) }
+}
+
+/// `Ok` when `value` is finite and above zero.
+fn positive(value: f64, error: Error) -> Result<(), Error> {
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(error) }
+}
+
+fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
+    for body in material {
+        positive(body.young_modulus, Error::BadYoungModulus)?;
+        let ratio = body.poisson_ratio;
+        if !(ratio.is_finite() && (0.0..=0.5).contains(&ratio)) {
+            return Err(Error::BadPoissonRatio);
+        }
+    }
+    Ok(())
+}
+
+impl Parameters {
+    /// Refuses each number that is not allowed by an error of its own.
+    ///
+    /// # Errors
+    /// The error of the first parameter, in the order of the fields, that is not a number, infinite or out of its range.
+    pub fn check(&self) -> Result<(), Error> {
+        not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
+        positive(self.edge_radius, Error::BadEdgeRadius)?;
+        positive(self.length, Error::BadLength)?;
+        not_negative(self.normal_force, Error::BadNormalForce)?;
+        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
+        check_materials(&self.material)?;
+        match self.displacement_reference {
+            CENTRE_POINT | RIGID_STRIP => Ok(()),
+            _ => Err(Error::BadDisplacementReference),
+        }
+    }
+}
+
+impl EllipticParameters {
+    /// Refuses each number that is not allowed by an error of its own.
+    ///
+    /// # Errors
+    /// The error of the first parameter, in the order of the fields, that is not a number, infinite or out of its range.
+    pub fn check(&self) -> Result<(), Error> {
+        positive(self.semi_axis_x, Error::BadSemiAxisX)?;
+        positive(self.semi_axis_y, Error::BadSemiAxisY)?;
+        not_negative(self.normal_force, Error::BadNormalForce)?;
+        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
+        check_materials(&self.material)
+    }
+}
+
+/// The two bodies as one: `1/E* = Σ (1-ν²)/E` (Eq. 2) and the weights of each body's own terms in it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pair {
+    /// E*, Eq. 2 \[Pa\].
+    pub composite_modulus: f64,
+    /// Share of each body in 1/E*; the two add up to 1.
+    share: [f64; 2],
+    ratio: [f64; 2],
+}
+
+impl Pair {
+    pub fn new(material: &[Material; 2]) -> Pair {
+        let compliance = |body: Material| (1.0 - body.poisson_ratio) * (1.0 + body.poisson_ratio) / body.young_modulus;
+        let [first, second] = [compliance(material[0]), compliance(material[1])];
+        let sum = first + second;
+        Pair {
+            composite_modulus: 1.0 / sum,
+            share: [first / sum, second / sum],
+            ratio: [material[0].poisson_ratio, material[1].poisson_ratio],
+        }
+    }
+
+    /// Mean of a function of Poisson's ratio, each body weighted by its share in the compliance. For like bodies it is
+    /// the function itself, to the last bit.
+    pub fn mean(&self, function: impl Fn(f64) -> f64) -> f64 {
+        let [first, second] = [function(self.ratio[0]), function(self.ratio[1])];
+        first + self.share[1] * (second - first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn steel() -> Parameters {
+        let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+        Parameters {
+            flat_half_width: 1e-4,
+            edge_radius: 1e-2,
+            length: 1e-2,
+            normal_force: 100.0,
+            friction_coefficient: 0.5,
+            material: [material; 2],
+            ..Parameters::default()
+        }
+    }
+
+    #[test]
+    fn a_forgotten_number_is_refused_by_name() {
+        assert_eq!(Parameters::default().check(), Err(Error::BadFlatHalfWidth));
+        assert_eq!(EllipticParameters::default().check(), Err(Error::BadSemiAxisX));
+        let mut one = steel();
+        assert_eq!(one.check(), Ok(()));
+        one.material[1].poisson_ratio = f64::NAN;
+        assert_eq!(one.check(), Err(Error::BadPoissonRatio));
+        one = Parameters { displacement_reference: 2, ..steel() };
+        assert_eq!(one.check(), Err(Error::BadDisplacementReference));
+        one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
+        assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
+    }
+
+    #[test]
+    fn the_pair_is_symmetric_and_exact_for_like_bodies() {
+        let soft = Material { young_modulus: 7e10, poisson_ratio: 0.33 };
+        let hard = Material { young_modulus: 2.1e11, poisson_ratio: 0.28 };
+        let (one, two) = (Pair::new(&[soft, hard]), Pair::new(&[hard, soft]));
+        let mean = |pair: &Pair| pair.mean(|nu| nu / (1.0 - nu));
+        assert!((one.composite_modulus / two.composite_modulus - 1.0).abs() < 4e-16);
+        assert!((mean(&one) - mean(&two)).abs() < 4e-16);
+        assert_eq!(Pair::new(&[soft, soft]).mean(|nu| nu / (1.0 - nu)), 0.33 / (1.0 - 0.33));
+    }
+}
