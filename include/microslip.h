@@ -174,8 +174,6 @@ typedef struct mslip_contact {
     double reserved[122];
 } mslip_contact;
 
-
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -192,14 +190,12 @@ const char *mslip_status_text(int32_t status);
 // Parameters with every number unset (NaN), so that a forgotten one is refused by name; the centre point as reference.
 // NULL is ignored.
 //
-// # Safety
-// `p` is NULL or points to parameters.
+// Memory: `p` is NULL or points to parameters.
 void mslip_parameters_default(struct mslip_parameters *p);
 
 // Elliptical parameters with every number unset (NaN). NULL is ignored.
 //
-// # Safety
-// `p` is NULL or points to parameters.
+// Memory: `p` is NULL or points to parameters.
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
 // Prepares the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
@@ -207,8 +203,7 @@ void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 // Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
 // MSLIP_OUT_OF_RANGE; then the contact is unchanged.
 //
-// # Safety
-// `p` and `contact` are NULL or point to what their types say.
+// Memory: `p` and `contact` are NULL or point to what their types say.
 int32_t mslip_contact_init(const struct mslip_parameters *p,
                            struct mslip_contact *contact);
 
@@ -217,8 +212,7 @@ int32_t mslip_contact_init(const struct mslip_parameters *p,
 // Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; then the contact
 // is unchanged.
 //
-// # Safety
-// `p` and `contact` are NULL or point to what their types say.
+// Memory: `p` and `contact` are NULL or point to what their types say.
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
@@ -227,8 +221,7 @@ int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_tractions(const struct mslip_contact *contact,
                         double force,
                         size_t n,
@@ -242,8 +235,7 @@ int32_t mslip_tractions(const struct mslip_contact *contact,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 // MSLIP_NOT_AVAILABLE for an elliptical contact.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_slip(const struct mslip_contact *contact,
                    double force,
                    size_t n,
@@ -256,8 +248,7 @@ int32_t mslip_slip(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      size_t n,
                                      const double *force,
@@ -270,8 +261,7 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               size_t n,
                               const double *displacement,
@@ -286,8 +276,7 @@ size_t mslip_state_length(size_t reversals);
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 //
-// # Safety
-// `state` is NULL or points to state_length numbers.
+// Memory: `state` is NULL or points to state_length numbers.
 int32_t mslip_state_init(size_t state_length, double *state);
 
 // Leads a contact from a state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated by this
@@ -296,8 +285,7 @@ int32_t mslip_state_init(size_t state_length, double *state);
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
 // MSLIP_STATE_FULL where a further reversal would have to be remembered than the state holds.
 //
-// # Safety
-// Pointers are NULL or point to state_length numbers (states) or one; state1 is state0 or overlaps nothing.
+// Memory: Pointers are NULL or point to state_length numbers (states) or one; state1 is state0 or overlaps nothing.
 int32_t mslip_masing_update(const struct mslip_contact *contact,
                             size_t state_length,
                             const double *state0,
@@ -314,8 +302,7 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
 // MSLIP_STATE_FULL where the path nests more reversals than the state holds, or more than 512 beyond which a path has to
 // be walked step by step.
 //
-// # Safety
-// Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
+// Memory: Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
 int32_t mslip_masing_path(const struct mslip_contact *contact,
                           size_t state_length,
                           const double *state0,
@@ -331,8 +318,7 @@ int32_t mslip_masing_path(const struct mslip_contact *contact,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 // MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
 //
-// # Safety
-// Pointers are NULL or point to state_length numbers (the state) or n; outputs overlap nothing.
+// Memory: Pointers are NULL or point to state_length numbers (the state) or n; outputs overlap nothing.
 int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                size_t state_length,
                                const double *state,
@@ -346,8 +332,7 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
                               double amplitude,
                               size_t n,
@@ -358,8 +343,7 @@ int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *force_amplitude,
@@ -370,8 +354,7 @@ int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
-// # Safety
-// Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
 int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *amplitude,
@@ -388,8 +371,7 @@ size_t mslip_harmonic_workspace_length(size_t harmonics,
 //
 // Returns MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
-// # Safety
-// `workspace` is NULL or points to workspace_length numbers.
+// Memory: `workspace` is NULL or points to workspace_length numbers.
 int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t samples,
                                       size_t workspace_length,
@@ -401,8 +383,7 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
-// # Safety
-// `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
+// Memory: `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -414,8 +395,7 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
 //
 // Returns the codes of mslip_complex_stiffness; then no item has written anything.
 //
-// # Safety
-// Pointers are NULL or point to n items; outputs overlap nothing.
+// Memory: Pointers are NULL or point to n items; outputs overlap nothing.
 int32_t mslip_interface_complex_stiffness(size_t n,
                                           const struct mslip_contact *contacts,
                                           const int32_t *active,
@@ -430,8 +410,7 @@ int32_t mslip_interface_complex_stiffness(size_t n,
 //
 // Returns the codes of mslip_masing_update; then no item has written anything.
 //
-// # Safety
-// Pointers are NULL or as long as said; states1 is states0 or overlaps nothing.
+// Memory: Pointers are NULL or as long as said; states1 is states0 or overlaps nothing.
 int32_t mslip_interface_masing_update(size_t n,
                                       const struct mslip_contact *contacts,
                                       const int32_t *active,
@@ -448,8 +427,7 @@ int32_t mslip_interface_masing_update(size_t n,
 //
 // Returns the codes of mslip_harmonic_force; then no item has written anything.
 //
-// # Safety
-// `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
+// Memory: `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
 int32_t mslip_interface_harmonic_force(size_t n,
                                        const struct mslip_contact *contacts,
                                        const int32_t *active,
@@ -465,8 +443,7 @@ int32_t mslip_interface_harmonic_force(size_t n,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
 // force.
 //
-// # Safety
-// Pointers are NULL or point to one item; outputs overlap nothing.
+// Memory: Pointers are NULL or point to one item; outputs overlap nothing.
 int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
                                  double amplitude,
                                  double *stiffness,
@@ -478,8 +455,7 @@ int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
 //
-// # Safety
-// Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
+// Memory: Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
 int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
                               size_t n,
                               double *stiffness,

@@ -23,7 +23,7 @@ failed=0
 step() {
     name=$1
     shift
-    printf '%-58s' "$name"
+    printf '%-68s' "$name"
     status=0
     "$@" > "$work/log" 2>&1 || status=$?
     awk '/^test result: /                    { passed += $4; failed += $6; ++counts }

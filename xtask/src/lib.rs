@@ -16,8 +16,9 @@ pub fn header_path() -> PathBuf {
 
 /// The text that the header should have.
 pub fn header() -> String {
-    // Brackets are escaped in the source because there they would make links.
-    text_of(&bindings()).replace("\\[", "[").replace("\\]", "]")
+    // In the source, brackets are escaped because they would make links, and sections are headed.
+    let text = text_of(&bindings());
+    text.replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ").replace("\n\n\n\n", "\n\n")
 }
 
 /// The functions of the interface, in the order of the source.
