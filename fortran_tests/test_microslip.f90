@@ -1,0 +1,983 @@
+module checks
+  ! Counting checks: each failure is printed with its values, none stops the program.
+  use microslip, only: mslip_int, mslip_real, mslip_status_text
+  implicit none
+  private
+  public :: wp, untouched, check, check_status, check_close, check_same, report
+
+  integer, parameter :: wp = mslip_real
+  ! What outputs hold before a call, to see that a refused call left them alone.
+  real(wp), parameter :: untouched = -777.0_wp
+
+  integer :: passed = 0, failed = 0
+
+contains
+
+  subroutine check(name, holds)
+    character(len=*), intent(in) :: name
+    logical, intent(in) :: holds
+
+    if (holds) then
+      passed = passed + 1
+    else
+      failed = failed + 1
+      print '(2a)', 'FAILED: ', name
+    end if
+  end subroutine check
+
+  subroutine check_status(name, status, expected)
+    character(len=*), intent(in) :: name
+    integer(mslip_int), intent(in) :: status, expected
+
+    call check(name, status == expected)
+    if (status /= expected) then
+      print '(2x,a,i0,2a)', 'status   ', status, ': ', mslip_status_text(status)
+      print '(2x,a,i0,2a)', 'expected ', expected, ': ', mslip_status_text(expected)
+    end if
+  end subroutine check_status
+
+  subroutine check_close(name, value, expected, tolerance)
+    ! The difference over the expected value; over 1 where 0 is expected.
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: value, expected, tolerance
+
+    real(wp) :: scale
+    logical :: close
+
+    scale = abs(expected)
+    if (.not. scale > 0) scale = 1
+    close = abs(value - expected) <= tolerance*scale
+    call check(name, close)
+    if (.not. close) print '(2x,a,es24.16,a,es24.16,a,es9.1)', 'got', value, ', expected', expected, ', tolerance', tolerance
+  end subroutine check_close
+
+  subroutine check_same(name, values, expected)
+    ! Equal in every bit that counts.
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: values(:), expected(:)
+
+    integer :: i
+    logical :: same
+
+    same = size(values) == size(expected)
+    if (same) same = all(abs(values - expected) <= 0)
+    call check(name, same)
+    if (.not. same) print '(2x,es24.16,es24.16)', (values(i), expected(i), i = 1, min(size(values), size(expected)))
+  end subroutine check_same
+
+  subroutine report()
+    print '(i0,a,i0,a)', passed, ' passed, ', failed, ' failed'
+    if (failed > 0) error stop 1
+  end subroutine report
+
+end module checks
+
+program test_microslip
+  ! The Fortran module against the model: reference values of 50 digits and more, relations that the model has to satisfy,
+  ! and what the module adds to the C interface.
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, ieee_value
+  use microslip
+  use checks
+  implicit none
+
+  real(wp), parameter :: pi = 3.141592653589793238462643_wp
+  real(wp), parameter :: tight = 1.0e-12_wp
+
+  type(mslip_contact) :: cylinder, flat, open_contact
+
+  call prepare()
+  call test_library()
+  call test_contacts()
+  call test_refused_parameters()
+  call test_tractions_and_slip()
+  call test_monotonic()
+  call test_history()
+  call test_state()
+  call test_masing_tractions()
+  call test_cycles()
+  call test_harmonic_force()
+  call test_jacobian()
+  call test_workspace()
+  call test_interface()
+  call test_equivalents()
+  call test_elliptic()
+  call test_open_contact()
+  call test_array_sizes()
+  call test_strides()
+  call report()
+
+contains
+
+  function cylinder_parameters() result(p)
+    type(mslip_parameters) :: p
+
+    p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=5.0e-3_wp, length=3.67e-2_wp, normal_force=2268.49_wp, &
+      friction_coefficient=0.647_wp, material=[mslip_material(1.14e11_wp, 0.29_wp), mslip_material(1.14e11_wp, 0.29_wp)])
+  end function cylinder_parameters
+
+  function flat_parameters() result(p)
+    type(mslip_parameters) :: p
+
+    call mslip_parameters_default(p)
+    p%flat_half_width = 5.0e-4_wp
+    p%edge_radius = 3.0e-3_wp
+    p%length = 2.0e-2_wp
+    p%normal_force = 800.0_wp
+    p%friction_coefficient = 0.5_wp
+    p%material(1) = mslip_material(young_modulus=1.14e11_wp, poisson_ratio=0.32_wp)
+    p%material(2) = mslip_material(young_modulus=2.0e11_wp, poisson_ratio=0.29_wp)
+  end function flat_parameters
+
+  subroutine prepare()
+    type(mslip_parameters) :: p
+    integer(mslip_int) :: status
+
+    call mslip_contact_init(cylinder_parameters(), cylinder, status)
+    call check_status('prepare the cylinder', status, MSLIP_OK)
+    call mslip_contact_init(flat_parameters(), flat, status)
+    call check_status('prepare the rounded flat', status, MSLIP_OK)
+    p = flat_parameters()
+    p%normal_force = 0.0_wp
+    call mslip_contact_init(p, open_contact, status)
+    call check_status('prepare the open contact', status, MSLIP_OK)
+  end subroutine prepare
+
+  function no_number() result(nan)
+    real(wp) :: nan
+
+    nan = ieee_value(nan, ieee_quiet_nan)
+  end function no_number
+
+  function is_nan(x) result(nan)
+    ! The intrinsic one is of another kind than the logical of the compiler option -fdefault-integer-8.
+    real(wp), intent(in) :: x
+    logical :: nan
+
+    nan = ieee_is_nan(x)
+  end function is_nan
+
+  function fresh_state(reversals) result(state)
+    integer(mslip_size), intent(in) :: reversals
+    real(wp) :: state(mslip_state_length(reversals))
+
+    integer(mslip_int) :: status
+
+    call mslip_state_init(state, status)
+    call check_status('initialise a state', status, MSLIP_OK)
+  end function fresh_state
+
+  subroutine test_library()
+    integer(mslip_int), parameter :: codes(*) = [MSLIP_OK, MSLIP_NULL_POINTER, MSLIP_BAD_FLAT_HALF_WIDTH, &
+      MSLIP_BAD_EDGE_RADIUS, MSLIP_BAD_LENGTH, MSLIP_BAD_NORMAL_FORCE, MSLIP_BAD_FRICTION_COEFFICIENT, &
+      MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO, MSLIP_BAD_DISPLACEMENT_REFERENCE, MSLIP_BAD_SEMI_AXIS_X, &
+      MSLIP_BAD_SEMI_AXIS_Y, MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, MSLIP_BAD_CONTACT, MSLIP_BAD_STATE, &
+      MSLIP_BAD_WORKSPACE, MSLIP_STATE_TOO_SHORT, MSLIP_STATE_FULL, MSLIP_WORKSPACE_TOO_SHORT, MSLIP_BAD_FORCE, &
+      MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_POSITION, MSLIP_BAD_AMPLITUDE, &
+      MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_COUNT, MSLIP_NOT_AVAILABLE, &
+      MSLIP_BAD_ARRAY_SIZE]
+    character(len=:), allocatable :: version
+    integer :: i, j
+    logical :: distinct
+
+    call check_status('version of the interface', mslip_abi_version(), MSLIP_MODULE_ABI_VERSION)
+    version = mslip_version()
+    call check('version is three numbers: '//version, &
+      verify(version, '0123456789.') == 0 .and. count([(version(i:i) == '.', i = 1, len(version))]) == 2)
+    distinct = .true.
+    do i = 2, size(codes)
+      do j = 1, i - 1
+        if (mslip_status_text(codes(i)) == mslip_status_text(codes(j))) distinct = .false.
+      end do
+    end do
+    call check('every status has a sentence of its own', distinct)
+    call check('a sentence names its parameter', index(mslip_status_text(MSLIP_BAD_EDGE_RADIUS), 'edge_radius') > 0)
+    call check('a sentence for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
+    call check('size of a contact', storage_size(cylinder) == 8*1024)
+    call check('size of a material', storage_size(mslip_material(1.0_wp, 0.3_wp)) == 2*64)
+    call check('size of the parameters', storage_size(flat_parameters()) == 10*64)
+  end subroutine test_library
+
+  subroutine test_contacts()
+    type(mslip_contact) :: rigid, uncorrected
+    type(mslip_parameters) :: p
+    integer(mslip_int) :: status
+    real(wp) :: shift, ln_term
+
+    call check_close('cylinder: composite modulus', cylinder%composite_modulus, 6.223386832623648791206915e10_wp, tight)
+    call check_close('cylinder: half-width', cylinder%half_width, 7.951738063115647130842421e-5_wp, tight)
+    call check_close('cylinder: slip force', cylinder%slip_force, 1.467713029999999903099788e3_wp, tight)
+    call check_close('cylinder: slip displacement', cylinder%slip_displacement, 3.164852942650645410867699e-6_wp, tight)
+    call check_close('cylinder: initial stiffness', cylinder%initial_stiffness, 4.957981696888936309416248e8_wp, tight)
+    call check_close('cylinder: slip energy', cylinder%slip_energy, 6.004399245114452465823618e-4_wp, tight)
+    call check_close('flat: composite modulus', flat%composite_modulus, 8.030074743090437646949911e10_wp, tight)
+    call check_close('flat: half-width', flat%half_width, 5.169941227149987302113704e-4_wp, tight)
+    call check_close('flat: slip force', flat%slip_force, 4.0e2_wp, tight)
+    call check_close('flat: slip displacement', flat%slip_displacement, 7.626000448331319426013713e-7_wp, tight)
+    call check_close('flat: initial stiffness', flat%initial_stiffness, 5.259680847566269756335484e8_wp, tight)
+    call check_close('flat: slip energy', flat%slip_energy, 1.267343110930086121804144e-6_wp, tight)
+
+    ! Like bodies, Poisson's ratio 0.3: the corrected compliance is the paper's less a known constant.
+    p = flat_parameters()
+    p%material(:) = mslip_material(2.0e11_wp, 0.3_wp)
+    call mslip_contact_init(p, uncorrected, status)
+    call check_status('centre point', status, MSLIP_OK)
+    p%displacement_reference = MSLIP_RIGID_STRIP
+    call mslip_contact_init(p, rigid, status)
+    call check_status('rigid strip', status, MSLIP_OK)
+    shift = (1.0_wp - log(2.0_wp)) + 0.093_wp - 8.0_wp/pi**2*((1.0_wp - 0.6_wp)/0.7_wp)*rigid%half_width/p%length
+    ln_term = log(2.0_wp*p%length/rigid%half_width) + 0.3_wp/0.7_wp
+    call check_close('rigid strip: initial stiffness', rigid%initial_stiffness, &
+      uncorrected%initial_stiffness*ln_term/(ln_term - shift), tight)
+  end subroutine test_contacts
+
+  subroutine test_refused_parameters()
+    type(mslip_parameters) :: p
+    type(mslip_contact) :: contact
+    integer(mslip_int) :: status
+
+    call mslip_contact_init(p, contact, status)
+    call check_status('parameters never set', status, MSLIP_BAD_FLAT_HALF_WIDTH)
+    call mslip_parameters_default(p)
+    call check('default: numbers unset', is_nan(p%edge_radius) .and. is_nan(p%material(2)%poisson_ratio))
+    call check_status('default: displacement reference', p%displacement_reference, MSLIP_CENTRE_POINT)
+    call mslip_contact_init(p, contact, status)
+    call check_status('parameters not set after default', status, MSLIP_BAD_FLAT_HALF_WIDTH)
+    p = flat_parameters()
+    p%flat_half_width = -1.0e-4_wp
+    call refused('flat half-width', p, MSLIP_BAD_FLAT_HALF_WIDTH)
+    p = flat_parameters()
+    p%edge_radius = 0.0_wp
+    call refused('edge radius', p, MSLIP_BAD_EDGE_RADIUS)
+    p = flat_parameters()
+    p%length = ieee_value(1.0_wp, ieee_positive_inf)
+    call refused('infinite length', p, MSLIP_BAD_LENGTH)
+    p%length = 1.0e-4_wp
+    call refused('short length', p, MSLIP_LENGTH_TOO_SHORT)
+    p = flat_parameters()
+    p%normal_force = -1.0_wp
+    call refused('normal force', p, MSLIP_BAD_NORMAL_FORCE)
+    p = flat_parameters()
+    p%friction_coefficient = no_number()
+    call refused('friction coefficient', p, MSLIP_BAD_FRICTION_COEFFICIENT)
+    p = flat_parameters()
+    p%material(2)%young_modulus = 0.0_wp
+    call refused('Young modulus', p, MSLIP_BAD_YOUNG_MODULUS)
+    p = flat_parameters()
+    p%material(1)%poisson_ratio = 0.6_wp
+    call refused('Poisson ratio', p, MSLIP_BAD_POISSON_RATIO)
+    p = flat_parameters()
+    p%displacement_reference = 7_mslip_int
+    call refused('displacement reference', p, MSLIP_BAD_DISPLACEMENT_REFERENCE)
+  end subroutine test_refused_parameters
+
+  subroutine refused(name, p, expected)
+    character(len=*), intent(in) :: name
+    type(mslip_parameters), intent(in) :: p
+    integer(mslip_int), intent(in) :: expected
+
+    type(mslip_contact) :: contact
+    integer(mslip_int) :: status
+    real(wp) :: force
+
+    call mslip_contact_init(p, contact, status)
+    call check_status('refused: '//name, status, expected)
+    force = untouched
+    call mslip_monotonic_force(contact, 1.0e-7_wp, status, force)
+    call check_status('refused: '//name//': the contact stays unprepared', status, MSLIP_BAD_CONTACT)
+    call check_same('refused: '//name//': nothing written', [force, contact%half_width], [untouched, 0.0_wp])
+  end subroutine refused
+
+  subroutine test_tractions_and_slip()
+    real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp, &
+      5.221640639421487595228655e-4_wp]
+    real(wp), parameter :: slip_x(*) = [5.104521634622967559899442e-4_wp, -5.15124991499941011288688e-4_wp, 0.0_wp]
+    real(wp) :: pressure(4), shear(4), other(4), slip(3), damage(3)
+    integer(mslip_int) :: status
+
+    call mslip_tractions(flat, 240.0_wp, x, status, pressure, shear)
+    call check_status('tractions', status, MSLIP_OK)
+    call check_close('pressure at the centre', pressure(1), 2.495666190496205156006766e7_wp, tight)
+    call check_close('pressure on the edge', pressure(2), 1.736473833135778835662131e8_wp, tight)
+    call check_close('pressure in the slip zone', pressure(3), 1.667609708598286950076217e8_wp, tight)
+    call check_close('shear at the centre', shear(1), 7.441286904801234009224208e6_wp, tight)
+    call check_close('shear on the edge', shear(2), 4.0548663302965473860377e7_wp, tight)
+    call check_close('shear in the slip zone', shear(3), 6.135332025372574580298507e7_wp, 1.0e-10_wp)
+    call check_same('no tractions outside', [pressure(4), shear(4)], [0.0_wp, 0.0_wp])
+    call mslip_tractions(flat, 240.0_wp, x, status, shear=other)
+    call check_same('shear alone', other, shear)
+    call mslip_tractions(flat, 240.0_wp, x, status, other)
+    call check_same('pressure alone', other, pressure)
+    call mslip_tractions(flat, 240.0_wp, x, status)
+    call check_status('tractions, nothing wanted', status, MSLIP_OK)
+    call mslip_tractions(flat, flat%slip_force, x, status, pressure, shear)
+    call check_close('gross slip: shear is friction times pressure', shear(2), 0.5_wp*pressure(2), tight)
+    other = untouched
+    call mslip_tractions(flat, 1.001_wp*flat%slip_force, x, status, other)
+    call check_status('tractions beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
+    call mslip_tractions(flat, no_number(), x, status, other)
+    call check_status('tractions of a force that is not a number', status, MSLIP_BAD_FORCE)
+    call mslip_tractions(flat, 1.0_wp, [x(1:3), no_number()], status, other)
+    call check_status('tractions at a position that is not a number', status, MSLIP_BAD_POSITION)
+    call check_same('refused tractions: nothing written', other, spread(untouched, 1, 4))
+
+    call mslip_slip(flat, 280.0_wp, slip_x, status, slip, damage)
+    call check_status('slip', status, MSLIP_OK)
+    call check_close('slip near the stick zone', slip(1), 1.967416135320787743593932e-9_wp, 1.0e-10_wp)
+    call check_close('slip near the rim', slip(2), 9.403969409667750594649537e-9_wp, 1.0e-10_wp)
+    call check_close('damage near the stick zone', damage(1), 1.524392901733578085021671e-1_wp, 1.0e-10_wp)
+    call check_same('no slip where it sticks', [slip(3), damage(3)], [0.0_wp, 0.0_wp])
+    call mslip_slip(flat, 280.0_wp, slip_x, status, damage=other(1:3))
+    call check_same('damage alone', other(1:3), damage)
+    call mslip_slip(flat, 280.0_wp, slip_x, status, other(1:3))
+    call check_same('slip alone', other(1:3), slip)
+  end subroutine test_tractions_and_slip
+
+  subroutine test_monotonic()
+    real(wp), parameter :: force(*) = [7.338565149999999448482413e2_wp, -7.338565149999999448482413e2_wp, 0.0_wp]
+    real(wp) :: displacement(3), compliance(3), stick(3), back(3), stiffness(3), one, two, three
+    integer(mslip_int) :: status
+
+    call mslip_monotonic_displacement(cylinder, force, status, displacement, compliance, stick)
+    call check_status('monotonic displacement', status, MSLIP_OK)
+    call check_close('cylinder: displacement', displacement(1), 1.511535017706025140782537e-6_wp, tight)
+    call check_close('cylinder: compliance', compliance(1), 2.113551007129302142742128e-9_wp, tight)
+    call check_close('cylinder: stick half-width', stick(1), 5.622727906648257149453722e-5_wp, tight)
+    call check_same('odd in the force', [displacement(2), compliance(2), stick(2)], [-displacement(1), compliance(1), stick(1)])
+    call check_close('no force, no slip', stick(3), cylinder%half_width, tight)
+    call mslip_monotonic_displacement(cylinder, force, status, stick_half_width=back)
+    call check_same('stick half-width alone', back, stick)
+    call mslip_monotonic_displacement(flat, 280.0_wp, status, one, two, three)
+    call check_status('monotonic displacement, one force', status, MSLIP_OK)
+    call check_close('flat: displacement', one, 5.332941007254045813362338e-7_wp, tight)
+    call check_close('flat: compliance', two, 1.908487237106152845365004e-9_wp, tight)
+    call check_close('flat: stick half-width', three, 5.076484666397101623682588e-4_wp, tight)
+    call mslip_monotonic_displacement(cylinder, cylinder%slip_force, status, one, two)
+    call check_close('displacement at the slip force', one, cylinder%slip_displacement, tight)
+    call check('infinite compliance of a cylinder at the slip force', two > huge(two))
+    one = untouched
+    call mslip_monotonic_displacement(flat, 401.0_wp, status, one)
+    call check_status('displacement beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
+    call check_same('refused displacement: nothing written', [one], [untouched])
+
+    call mslip_monotonic_force(cylinder, [1.898911765590387203629847e-6_wp, 4.0e-6_wp, -4.0e-6_wp], status, back, stiffness, stick)
+    call check_status('monotonic force', status, MSLIP_OK)
+    call check_close('cylinder: force', back(1), 9.155161736711421042837688e2_wp, tight)
+    call check_same('force in gross slip', back(2:3), [cylinder%slip_force, -cylinder%slip_force])
+    call check_same('stiffness in gross slip', stiffness(2:3), [0.0_wp, 0.0_wp])
+    call mslip_monotonic_displacement(cylinder, back(1), status, one, two, three)
+    call check_close('force and displacement are inverse', one, 1.898911765590387203629847e-6_wp, tight)
+    call check_close('stiffness and compliance are inverse', stiffness(1)*two, 1.0_wp, tight)
+    call check_close('the same stick zone', stick(1), three, tight)
+    call mslip_monotonic_force(flat, 4.575600268998791383145996e-7_wp, status, one)
+    call check_close('flat: force', one, 2.403040474733021236845971e2_wp, tight)
+    call mslip_monotonic_force(flat, 0.0_wp, status, stiffness=two, stick_half_width=three)
+    call check_close('flat: stiffness at 0', two, flat%initial_stiffness, tight)
+    call check_close('flat: stick half-width at 0', three, flat%half_width, tight)
+    call mslip_monotonic_force(flat, no_number(), status, one)
+    call check_status('displacement that is not a number', status, MSLIP_BAD_DISPLACEMENT)
+  end subroutine test_monotonic
+
+  subroutine test_history()
+    ! A random history, its forces checked against 1,500 sliders.
+    real(wp), parameter :: displacement(*) = [1.914742209093313144178863e-6_wp, 2.611273826781315490221623e-6_wp, &
+      -6.135044920310610393080018e-7_wp, 5.952452643016515262749271e-7_wp, 3.353829542160012347620313e-6_wp, &
+      6.231586436802244498376485e-7_wp, -3.399302160532311508598117e-6_wp, 1.439628185901378384090651e-7_wp]
+    real(wp), parameter :: expected(*) = [9.228650897869313018877909e2_wp, 1.238496256519557238194705e3_wp, &
+      -3.244442460629692682092653e2_wp, 2.703737152270186349707299e2_wp, 1.467713029999999903099788e3_wp, &
+      1.387644856827132352327478e2_wp, -1.467713029999999903099788e3_wp, 2.446969700644779323837263e2_wp]
+    real(wp), dimension(mslip_state_length(8_mslip_size)) :: state, start, last
+    real(wp), dimension(size(displacement)) :: force, stiffness, dissipated, step_force, step_stiffness, step_dissipated
+    integer :: i
+    integer(mslip_int) :: status
+
+    start = fresh_state(8_mslip_size)
+    call mslip_masing_path(cylinder, start, displacement, status, force, stiffness, dissipated, last)
+    call check_status('path', status, MSLIP_OK)
+    do i = 1, size(displacement)
+      call check_close('force of a history', force(i), expected(i), tight)
+    end do
+    call check('a path never gains energy', all(dissipated >= 0.0_wp))
+
+    state = start
+    do i = 1, size(displacement)
+      call mslip_masing_update(cylinder, state, displacement(i), status, step_force(i), step_stiffness(i), step_dissipated(i))
+      call check_status('step', status, MSLIP_OK)
+    end do
+    call check_same('steps and path: force', step_force, force)
+    call check_same('steps and path: stiffness', step_stiffness, stiffness)
+    call check_same('steps and path: energy', step_dissipated, dissipated)
+    call check_same('steps and path: state', state, last)
+
+    state = start
+    call mslip_masing_path(cylinder, state, displacement, status, dissipated=step_dissipated)
+    call check_status('path in place', status, MSLIP_OK)
+    call check_same('path in place: energy alone', step_dissipated, dissipated)
+    call check_same('path in place: state', state, last)
+    state = untouched
+    call mslip_masing_path(cylinder, start, displacement, status, state_new=state)
+    call check_status('path, only the state', status, MSLIP_OK)
+    call check_same('path, only the state: state', state, last)
+    call mslip_masing_path(cylinder, start, [displacement(1:7), no_number()], status, step_force, &
+      state_new=state)
+    call check_status('path to no number', status, MSLIP_BAD_DISPLACEMENT)
+    call check_same('refused path: nothing written', [state, step_force], [last, force])
+  end subroutine test_history
+
+  subroutine test_state()
+    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, kept, branched, never
+    real(wp) :: short(mslip_state_length(1_mslip_size)), full(mslip_state_length(1_mslip_size))
+    real(wp) :: force, stiffness, dissipated, before, upper, middle, total
+    integer(mslip_int) :: status
+    integer :: i
+
+    state = fresh_state(4_mslip_size)
+    call mslip_masing_update(flat, state, 6.0e-7_wp, status, upper)
+    call mslip_monotonic_force(flat, 6.0e-7_wp, status, force)
+    call check_close('first loading is the monotonic curve', upper, force, tight)
+    kept = state
+    call mslip_masing_update(flat, state, 1.0e-7_wp, status, force, stiffness)
+    call mslip_monotonic_force(flat, 2.5e-7_wp, status, middle, before)
+    call check_close('unloading: twice the curve of half the displacement', force, upper - 2.0_wp*middle, tight)
+    call check_close('unloading: stiffness', stiffness, before, tight)
+    call mslip_masing_update(flat, state, 6.0e-7_wp, status, force)
+    call check_close('return-point memory: the loop closes', force, upper, tight)
+    call mslip_masing_update(flat, state, 7.0e-7_wp, status, force)
+    call mslip_monotonic_force(flat, 7.0e-7_wp, status, middle)
+    call check_close('return-point memory: back on the first curve', force, middle, tight)
+
+    branched = untouched
+    call mslip_masing_update(flat, kept, 1.0e-7_wp, status, force, stiffness, dissipated, branched)
+    call check_status('separate state', status, MSLIP_OK)
+    state = kept
+    call mslip_masing_update(flat, state, 1.0e-7_wp, status, before, middle, total)
+    call check_same('separate and in place: results', [force, stiffness, dissipated], [before, middle, total])
+    call check_same('separate and in place: state', branched, state)
+    call trial_step(kept, 1.0e-7_wp, before)
+    call check_same('a step from a state that is only read', [before], [force])
+    call mslip_masing_update(flat, state, 1.0e-7_wp, status, dissipated=dissipated)
+    call check_same('a step of no length dissipates nothing', [dissipated], [0.0_wp])
+    call mslip_masing_update(flat, state, 3.0e-7_wp, status)
+    call check_status('step, nothing wanted', status, MSLIP_OK)
+
+    ! One cycle of the force dissipates what the energy function says.
+    state = fresh_state(4_mslip_size)
+    call mslip_masing_update(flat, state, 6.0e-7_wp, status)
+    total = 0
+    do i = 1, 2
+      call mslip_masing_update(flat, state, real(2*i - 3, wp)*6.0e-7_wp, status, dissipated=dissipated)
+      total = total + dissipated
+    end do
+    call mslip_dissipated_energy(flat, upper, before, status)
+    call check_close('energy of a cycle', total, before, 1.0e-10_wp)
+
+    short = fresh_state(1_mslip_size)
+    call mslip_masing_path(flat, short, [6.0e-7_wp, 0.0_wp], status)
+    call check_status('as many reversals as the state holds', status, MSLIP_OK)
+    full = short
+    force = untouched
+    call mslip_masing_update(flat, short, 3.0e-7_wp, status, force)
+    call check_status('more reversals than the state holds', status, MSLIP_STATE_FULL)
+    call check_same('full state: nothing written', [force, short], [untouched, full])
+    call mslip_masing_update(flat, short, no_number(), status, force)
+    call check_status('step to no number', status, MSLIP_BAD_DISPLACEMENT)
+    never = 0
+    call mslip_masing_update(flat, never, 3.0e-7_wp, status, force)
+    call check_status('state never initialised', status, MSLIP_BAD_STATE)
+    call check_same('refused step: nothing written', [force, never], [untouched, spread(0.0_wp, 1, size(never))])
+    call mslip_state_init(never(1:1), status)
+    call check_status('state without room', status, MSLIP_STATE_TOO_SHORT)
+    call mslip_state_init(never(1:0), status)
+    call check_status('state without elements', status, MSLIP_STATE_TOO_SHORT)
+  end subroutine test_state
+
+  subroutine trial_step(state, displacement, force)
+    real(wp), intent(in) :: state(:), displacement
+    real(wp), intent(out) :: force
+
+    real(wp) :: scratch(size(state))
+    integer(mslip_int) :: status
+
+    force = untouched
+    call mslip_masing_update(flat, state, displacement, status, force, state_new=scratch)
+    call check_status('trial step', status, MSLIP_OK)
+  end subroutine trial_step
+
+  subroutine test_masing_tractions()
+    real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp]
+    real(wp) :: state(mslip_state_length(4_mslip_size)), kept(mslip_state_length(4_mslip_size))
+    real(wp), dimension(3) :: pressure, shear, loading, reversed
+    real(wp) :: upper, force
+    integer(mslip_int) :: status
+
+    state = fresh_state(4_mslip_size)
+    call mslip_masing_tractions(flat, state, x, status, pressure, shear)
+    call check_status('tractions of the virgin state', status, MSLIP_OK)
+    call check_same('no shear in the virgin state', shear, [0.0_wp, 0.0_wp, 0.0_wp])
+    call mslip_masing_update(flat, state, 6.0e-7_wp, status, upper)
+    call mslip_masing_tractions(flat, state, x, status, shear=shear)
+    call mslip_tractions(flat, upper, x, status, loading, reversed)
+    call check_same('pressure does not depend on the history', pressure, loading)
+    call check_close('shear of first loading', shear(3), reversed(3), 1.0e-10_wp)
+    loading = reversed
+    call mslip_masing_update(flat, state, -1.0e-7_wp, status, force)
+    kept = state
+    call mslip_masing_tractions(flat, state, x, status, pressure, shear)
+    call mslip_tractions(flat, (upper - force)/2.0_wp, x, status, shear=reversed)
+    call check_close('shear after a reversal, centre', shear(1), loading(1) - 2.0_wp*reversed(1), 1.0e-10_wp)
+    call check_close('shear after a reversal, edge', shear(2), loading(2) - 2.0_wp*reversed(2), 1.0e-10_wp)
+    call check_same('tractions leave the state alone', state, kept)
+    call mslip_masing_tractions(flat, state, x, status)
+    call check_status('tractions of a state, nothing wanted', status, MSLIP_OK)
+  end subroutine test_masing_tractions
+
+  subroutine test_cycles()
+    real(wp), parameter :: amplitude(*) = [2.215397059855451631689037e-6_wp, 0.0_wp, 4.0e-6_wp]
+    integer, parameter :: points = 64
+    real(wp) :: displacement(points), force(points), energy(2), one, two, three, four
+    real(wp), dimension(3) :: k_real, k_imag, dk_real, dk_imag, again
+    integer(mslip_int) :: status
+    integer :: i
+
+    call mslip_hysteresis_loop(flat, 6.0e-7_wp, displacement, force, status)
+    call check_status('loop', status, MSLIP_OK)
+    call mslip_monotonic_force(flat, 6.0e-7_wp, status, one)
+    call check_close('loop: upper tip', force(1), one, tight)
+    call check_close('loop: lower tip', force(1 + points/2), -one, tight)
+    do i = 1, points
+      call check_close('loop: displacement', displacement(i)/6.0e-7_wp - cos(2.0_wp*pi*real(i - 1, wp)/points), 0.0_wp, 1.0e-14_wp)
+    end do
+    call check('loop: the halves are opposite', &
+      all(abs(force(1:points/2) + force(1 + points/2:points)) <= tight*flat%slip_force))
+    call mslip_monotonic_force(flat, (6.0e-7_wp - displacement(10))/2.0_wp, status, two)
+    call check_close('loop: Masing rule', force(10), one - 2.0_wp*two, tight)
+    call mslip_hysteresis_loop(flat, -6.0e-7_wp, displacement, force, status)
+    call check_status('loop of negative amplitude', status, MSLIP_BAD_AMPLITUDE)
+
+    call mslip_dissipated_energy(cylinder, [7.338565149999999448482413e2_wp, 0.0_wp], energy, status)
+    call check_status('energy', status, MSLIP_OK)
+    call check_close('cylinder: energy', energy(1), 3.413670261284926416770211e-5_wp, tight)
+    call check_same('no energy without force', energy(2:2), [0.0_wp])
+    call mslip_dissipated_energy(flat, 280.0_wp, one, status)
+    call check_close('flat: energy', one, 3.739442453289347648327259e-7_wp, tight)
+    call mslip_dissipated_energy(flat, flat%slip_force, one, status)
+    call check_close('flat: energy at incipient gross slip', one, flat%slip_energy, tight)
+    one = untouched
+    call mslip_dissipated_energy(flat, -1.0_wp, one, status)
+    call check_status('energy of a negative amplitude', status, MSLIP_BAD_FORCE_AMPLITUDE)
+    call check_same('refused energy: nothing written', [one], [untouched])
+
+    call mslip_complex_stiffness(cylinder, amplitude, status, k_real, k_imag, dk_real, dk_imag)
+    call check_status('complex stiffness', status, MSLIP_OK)
+    call check_close('cylinder: K real', k_real(1), 4.793831517097887468202623e8_wp, tight)
+    call check_close('cylinder: K imaginary', k_imag(1), 8.258055366786249018238412e6_wp, tight)
+    call check_close('cylinder: derivative of K real', dk_real(1), -1.001340633888202033348637e13_wp, 1.0e-9_wp)
+    call check_close('cylinder: derivative of K imaginary', dk_imag(1), 6.094501234861984024140468e12_wp, 1.0e-9_wp)
+    call check_close('K real at amplitude 0', k_real(2), cylinder%initial_stiffness, tight)
+    call check_same('K imaginary at amplitude 0', k_imag(2:2), [0.0_wp])
+    call check_close('K imaginary in gross slip', k_imag(3), (cylinder%slip_energy + 4.0_wp*cylinder%slip_force* &
+      (4.0e-6_wp - cylinder%slip_displacement))/(pi*4.0e-6_wp**2), tight)
+    call mslip_complex_stiffness(cylinder, amplitude, status, dk_imag=again)
+    call check_same('derivative alone', again, dk_imag)
+    call mslip_complex_stiffness(flat, 1.14390006724969779284694e-6_wp, status, one, two, three, four)
+    call check_close('flat: K real', one, 3.713375827392842405803951e8_wp, tight)
+    call check_close('flat: K imaginary', two, 1.487174776364493773899325e8_wp, tight)
+    call check_close('flat: derivative of K real', three, -3.669713057051442291731717e14_wp, tight)
+    call check_close('flat: derivative of K imaginary', four, 1.292006122587372052624562e14_wp, tight)
+    call mslip_complex_stiffness(flat, 6.0e-7_wp, status, k_imag=two)
+    call mslip_monotonic_force(flat, 6.0e-7_wp, status, three)
+    call mslip_dissipated_energy(flat, three, four, status)
+    call check_close('K imaginary is the energy of a cycle', two, four/(pi*6.0e-7_wp**2), 1.0e-10_wp)
+    call mslip_complex_stiffness(flat, -1.0_wp, status, k_imag=two)
+    call check_status('complex stiffness at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
+  end subroutine test_cycles
+
+  subroutine test_harmonic_force()
+    integer(mslip_size), parameter :: harmonics = 3, samples = 128
+    real(wp), parameter :: displacement(*) = [-6.667142217335999407015783e-8_wp, 1.06764006276638462077436e-6_wp, 0.0_wp, &
+      -3.276903017350883034497792e-7_wp, 1.945554323004438200443256e-7_wp, 3.004528388385735681161094e-7_wp, &
+      -6.385483210854492738741284e-8_wp]
+    real(wp), parameter :: expected(*) = [1.242778811039784882321255e2_wp, 3.127197957636783986432537e2_wp, &
+      -2.337981528009959481468708e2_wp, -9.353392540431687732443905e1_wp, 1.214800760707371553515095e2_wp, &
+      6.722106958983998626542111e1_wp, -4.333697401361703158366392e1_wp]
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7), lost, power
+    real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+    integer(mslip_int) :: status
+    integer :: i, k
+
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call check_status('workspace', status, MSLIP_OK)
+    call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, lost)
+    call check_status('harmonic force', status, MSLIP_OK)
+    do i = 1, 7
+      call check_close('coefficient of the force', force(i), expected(i), 1.0e-11_wp)
+    end do
+    call mslip_harmonic_force(flat, workspace, displacement, status, again)
+    call check_same('coefficients alone', again, force)
+    call mslip_harmonic_force(flat, workspace, displacement, status, dissipated=power)
+    call check_same('energy alone', [power], [lost])
+    call mslip_harmonic_force(flat, workspace, displacement, status)
+    call check_status('harmonic force, nothing wanted', status, MSLIP_OK)
+
+    ! The energy of the samples and the power of the harmonics agree as far as three harmonics and the sampling allow.
+    power = 0
+    do k = 1, 3
+      power = power + pi*real(k, wp)*(force(2*k)*displacement(2*k + 1) - force(2*k + 1)*displacement(2*k))
+    end do
+    call check_close('energy of a period', lost, power, 2.0e-2_wp)
+
+    ! Under one cosine the first harmonic is the complex stiffness, as far as the sampling allows.
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=lost)
+    call mslip_complex_stiffness(flat, 6.0e-7_wp, status, again(1), again(2))
+    call check_close('first cosine', force(2), again(1)*6.0e-7_wp, 1.0e-3_wp)
+    call check_close('first sine', -force(3), again(2)*6.0e-7_wp, 5.0e-3_wp)
+    call check_close('energy of a cycle', lost, pi*again(2)*6.0e-7_wp**2, tight)
+    call check('no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
+    force = untouched
+    call mslip_harmonic_force(flat, workspace, [displacement(1:6), no_number()], status, force)
+    call check_status('harmonic force of no number', status, MSLIP_BAD_DISPLACEMENT)
+    call check_same('refused harmonic force: nothing written', force, spread(untouched, 1, 7))
+  end subroutine test_harmonic_force
+
+  subroutine test_jacobian()
+    integer(mslip_size), parameter :: harmonics = 2, samples = 64
+    real(wp), parameter :: displacement(*) = [1.0e-7_wp, 5.0e-7_wp, 1.0e-7_wp, 8.0e-8_wp, -6.0e-8_wp], step = 1.0e-12_wp
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), jacobian(5, 5)
+    real(wp), dimension(5) :: shifted, above, below
+    integer(mslip_int) :: status
+    integer :: j
+
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call mslip_harmonic_force(flat, workspace, displacement, status, jacobian=jacobian)
+    call check_status('Jacobian', status, MSLIP_OK)
+    do j = 1, 5
+      shifted = displacement
+      shifted(j) = displacement(j) + step
+      call mslip_harmonic_force(flat, workspace, shifted, status, above)
+      shifted(j) = displacement(j) - step
+      call mslip_harmonic_force(flat, workspace, shifted, status, below)
+      above = (above - below)/(2.0_wp*step)
+      call check_close('column of the Jacobian against differences', &
+        maxval(abs(jacobian(:, j) - above))/flat%initial_stiffness, 0.0_wp, 1.0e-5_wp)
+    end do
+  end subroutine test_jacobian
+
+  subroutine test_workspace()
+    integer(mslip_size), parameter :: harmonics = 2, samples = 64
+    real(wp), parameter :: displacement(5) = 1.0e-7_wp
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(5), expected(5)
+    real(wp) :: roomy(mslip_harmonic_workspace_length(harmonics, samples) + 9)
+    integer(mslip_int) :: status
+    integer :: n
+
+    n = size(workspace)
+    workspace = untouched
+    force = untouched
+    call mslip_harmonic_force(flat, workspace, displacement, status, force)
+    call check_status('workspace never initialised', status, MSLIP_BAD_WORKSPACE)
+    call mslip_harmonic_force(flat, workspace(1:2), displacement, status, force)
+    call check_status('workspace of two numbers', status, MSLIP_BAD_WORKSPACE)
+    call mslip_harmonic_workspace_init(0_mslip_size, samples, workspace, status)
+    call check_status('no harmonics', status, MSLIP_BAD_HARMONICS)
+    call mslip_harmonic_workspace_init(harmonics, 4_mslip_size, workspace, status)
+    call check_status('too few samples', status, MSLIP_BAD_SAMPLES)
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:n - 1), status)
+    call check_status('workspace too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:2), status)
+    call check_status('workspace too short by far', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call check_same('refused workspace: nothing written', [workspace, force], spread(untouched, 1, n + 5))
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call mslip_harmonic_force(flat, workspace(1:n - 1), displacement, status, force)
+    call check_status('part of a workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_harmonic_force(flat, workspace, displacement, status, expected)
+    call mslip_harmonic_workspace_init(harmonics, samples, roomy, status)
+    call check_status('workspace longer than needed', status, MSLIP_OK)
+    call mslip_harmonic_force(flat, roomy, displacement, status, force)
+    call check_same('workspace longer than needed: force', force, expected)
+    call check('no length without harmonics', mslip_harmonic_workspace_length(0_mslip_size, samples) == 0)
+    call check('no length beyond what can be addressed', mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size) == 0)
+  end subroutine test_workspace
+
+  subroutine test_interface()
+    ! Three contacts at once give, bit for bit, what each gives alone; the second is skipped where flags are given.
+    integer(mslip_size), parameter :: harmonics = 1, samples = 64
+    integer(mslip_int), parameter :: active(*) = [1_mslip_int, 0_mslip_int, 1_mslip_int]
+    real(wp), parameter :: amplitude(*) = [6.0e-7_wp, 2.0e-6_wp, 9.0e-7_wp]
+    real(wp), parameter :: coefficients(*, *) = reshape([1.0e-8_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 2.0e-6_wp, 1.0e-7_wp, &
+      0.0_wp, 9.0e-7_wp, 0.0_wp], [3, 3])
+    type(mslip_contact) :: contacts(3)
+    real(wp), dimension(3) :: a, b, c, d, one
+    real(wp), dimension(3, 3) :: force, flagged
+    real(wp) :: jacobian(3, 3, 3), single(3, 3)
+    real(wp), dimension(mslip_state_length(4_mslip_size), 3) :: states, start, updated
+    real(wp) :: alone(mslip_state_length(4_mslip_size)), workspace(mslip_harmonic_workspace_length(harmonics, samples))
+    integer(mslip_int) :: status
+    integer :: i
+
+    contacts = [flat, cylinder, flat]
+    call mslip_interface_complex_stiffness(contacts, amplitude, status, k_real=a, k_imag=b, dk_real=c, dk_imag=d)
+    call check_status('interface: complex stiffness', status, MSLIP_OK)
+    do i = 1, 3
+      call mslip_complex_stiffness(contacts(i), amplitude(i), status, one(1), one(2), one(3), alone(1))
+      call check_same('interface: complex stiffness of each', [a(i), b(i), c(i), d(i)], [one, alone(1)])
+    end do
+    one = untouched
+    call mslip_interface_complex_stiffness(contacts, amplitude, status, active, one)
+    call check_same('interface: complex stiffness, one skipped', one, [a(1), untouched, a(3)])
+
+    do i = 1, 3
+      start(:, i) = fresh_state(4_mslip_size)
+    end do
+    updated = untouched
+    call mslip_interface_masing_update(contacts, start, amplitude, status, force=a, stiffness=b, dissipated=c, states_new=updated)
+    call check_status('interface: step', status, MSLIP_OK)
+    do i = 1, 3
+      alone = start(:, i)
+      call mslip_masing_update(contacts(i), alone, amplitude(i), status, one(1), one(2), one(3))
+      call check_same('interface: step of each', [a(i), b(i), c(i)], one)
+      call check_same('interface: state of each', updated(:, i), alone)
+    end do
+    states = start
+    call mslip_interface_masing_update(contacts, states, amplitude, status)
+    call check_status('interface: step in place, nothing wanted', status, MSLIP_OK)
+    call check_same('interface: step in place', [states], [updated])
+    states = start
+    d = untouched
+    call mslip_interface_masing_update(contacts, states, amplitude, status, active, d)
+    call check_same('interface: step, one skipped', d, [a(1), untouched, a(3)])
+    call check_same('interface: state of the one skipped', states(:, 2), start(:, 2))
+    call check_same('interface: state of the last', states(:, 3), updated(:, 3))
+
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call mslip_interface_harmonic_force(contacts, workspace, coefficients, status, force=force, jacobian=jacobian, dissipated=a)
+    call check_status('interface: harmonic force', status, MSLIP_OK)
+    do i = 1, 3
+      call mslip_harmonic_force(contacts(i), workspace, coefficients(:, i), status, one, single, b(i))
+      call check_same('interface: harmonic force of each', [one, single], [force(:, i), jacobian(:, :, i)])
+    end do
+    call check_same('interface: energy of each', a, b)
+    flagged = untouched
+    call mslip_interface_harmonic_force(contacts, workspace, coefficients, status, active, flagged)
+    call check_same('interface: harmonic force, one skipped', [flagged], [force(:, 1), spread(untouched, 1, 3), force(:, 3)])
+
+    contacts(3) = mslip_contact()
+    states = start
+    call mslip_interface_masing_update(contacts, states, amplitude, status)
+    call check_status('interface: one contact was never prepared', status, MSLIP_BAD_CONTACT)
+    call check_same('interface: refused, no state changed', [states], [start])
+  end subroutine test_interface
+
+  subroutine test_equivalents()
+    integer, parameter :: sliders = 40, points = 4000
+    real(wp) :: stiffness(sliders), slip_force(sliders), k, s, k_real, k_imag, theta, error, largest, force, displacement
+    integer(mslip_int) :: status
+    integer :: i
+
+    do i = 1, 3
+      displacement = real(i, wp)*4.0e-7_wp
+      call mslip_jenkins_equivalent(flat, displacement, k, s, status)
+      call check_status('Jenkins element', status, MSLIP_OK)
+      call mslip_complex_stiffness(flat, displacement, status, k_real, k_imag)
+      ! First harmonic of a spring-slider that slips.
+      theta = acos(1.0_wp - 2.0_wp*s/(k*displacement))
+      call check_close('Jenkins element: K real', k/pi*(theta - sin(2.0_wp*theta)/2.0_wp), k_real, 1.0e-9_wp)
+      call check_close('Jenkins element: K imaginary', 4.0_wp*s*(displacement - s/k)/(pi*displacement**2), k_imag, 1.0e-9_wp)
+    end do
+    k = untouched
+    call mslip_jenkins_equivalent(flat, -1.0_wp, k, s, status)
+    call check_status('Jenkins element at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
+    call mslip_jenkins_equivalent(open_contact, 1.0e-6_wp, k, s, status)
+    call check_status('Jenkins element of an open contact', status, MSLIP_NOT_AVAILABLE)
+    call check_same('refused Jenkins element: nothing written', [k], [untouched])
+
+    call mslip_iwan_equivalent(cylinder, stiffness, slip_force, status, error)
+    call check_status('Iwan model', status, MSLIP_OK)
+    call check_close('Iwan model: slip forces add up', sum(slip_force), cylinder%slip_force, tight)
+    largest = 0
+    do i = 0, points
+      displacement = 1.2_wp*cylinder%slip_displacement*real(i, wp)/points
+      call mslip_monotonic_force(cylinder, displacement, status, force)
+      largest = max(largest, abs(sum(min(stiffness*displacement, slip_force)) - force)/cylinder%slip_force)
+    end do
+    call check('Iwan model: the error is a bound', largest <= error*(1.0_wp + 1.0e-6_wp))
+    call check('Iwan model: the bound is reached', largest >= 0.9_wp*error)
+    call mslip_iwan_equivalent(cylinder, stiffness(1:10), slip_force(1:10), status)
+    call check_status('Iwan model without its error', status, MSLIP_OK)
+    call mslip_iwan_equivalent(cylinder, stiffness(1:10), slip_force(1:10), status, largest)
+    call check('Iwan model: fewer sliders, larger error', largest > error)
+    call mslip_iwan_equivalent(cylinder, stiffness(1:0), slip_force(1:0), status)
+    call check_status('Iwan model without sliders', status, MSLIP_BAD_COUNT)
+  end subroutine test_equivalents
+
+  subroutine test_elliptic()
+    type(mslip_elliptic_parameters) :: p
+    type(mslip_contact) :: sphere
+    real(wp) :: displacement, energy, pressure(2), shear(2), peak
+    integer(mslip_int) :: status
+
+    call mslip_contact_init_elliptic(p, sphere, status)
+    call check_status('elliptic parameters never set', status, MSLIP_BAD_SEMI_AXIS_X)
+    call mslip_elliptic_parameters_default(p)
+    call check('elliptic default: numbers unset', is_nan(p%semi_axis_x) .and. is_nan(p%material(2)%poisson_ratio))
+    p%semi_axis_x = 1.186981199180470441384427e-5_wp
+    call mslip_contact_init_elliptic(p, sphere, status)
+    call check_status('second axis not set', status, MSLIP_BAD_SEMI_AXIS_Y)
+    p%semi_axis_y = p%semi_axis_x
+    p%normal_force = 3.03773141743209933451908e1_wp
+    p%friction_coefficient = 8.572754015446252262577786e-1_wp
+    p%material = [mslip_material(1.0e9_wp, 0.45_wp), mslip_material(1.0e9_wp, 0.45_wp)]
+    call mslip_contact_init_elliptic(p, sphere, status)
+    call check_status('sphere', status, MSLIP_OK)
+    call check_close('sphere: initial stiffness', sphere%initial_stiffness, 1.056268030416436432300851e4_wp, tight)
+    call check_close('sphere: Mindlin', sphere%initial_stiffness, &
+      8.0_wp*p%semi_axis_x/(2.0_wp*(2.0_wp - 0.45_wp)*2.0_wp*(1.0_wp + 0.45_wp)/1.0e9_wp), tight)
+    call check_same('sphere: half-width', [sphere%half_width], [p%semi_axis_x])
+    call mslip_monotonic_displacement(sphere, 1.302086210331913207483012e1_wp, status, displacement)
+    call check_close('sphere: displacement', displacement, 1.368468846551502869721604e-3_wp, tight)
+    call mslip_dissipated_energy(sphere, 1.302086210331913207483012e1_wp, energy, status)
+    call check_close('sphere: energy', energy, 2.713315709751587538399524e-3_wp, tight)
+    call mslip_tractions(sphere, sphere%slip_force/2.0_wp, [0.0_wp, 2.0e-5_wp], status, pressure, shear)
+    peak = 1.5_wp*p%normal_force/(pi*p%semi_axis_x**2)
+    call check_close('sphere: peak pressure', pressure(1), peak, tight)
+    call check_close('sphere: shear at the centre', shear(1), p%friction_coefficient*peak* &
+      (1.0_wp - 0.5_wp**(1.0_wp/3.0_wp)), tight)
+    call check_same('sphere: no tractions outside', [pressure(2), shear(2)], [0.0_wp, 0.0_wp])
+    call mslip_slip(sphere, 1.0_wp, [0.0_wp, 1.0e-5_wp], status, shear)
+    call check_status('sphere: no slip distribution', status, MSLIP_NOT_AVAILABLE)
+  end subroutine test_elliptic
+
+  subroutine test_open_contact()
+    integer(mslip_size), parameter :: harmonics = 1, samples = 16
+    real(wp) :: state(mslip_state_length(1_mslip_size)), workspace(mslip_harmonic_workspace_length(harmonics, samples))
+    real(wp) :: a(3), b(3), jacobian(3, 3), dissipated
+    integer(mslip_int) :: status
+
+    call mslip_monotonic_force(open_contact, 1.0e-6_wp, status, a(1), a(2), a(3))
+    call check_status('open contact: monotonic force', status, MSLIP_OK)
+    call check_same('open contact: no force, stiffness or width', a, [0.0_wp, 0.0_wp, 0.0_wp])
+    state = fresh_state(1_mslip_size)
+    call mslip_masing_path(open_contact, state, [1.0e-6_wp, 0.0_wp, 1.0e-6_wp], status, a, b)
+    call check_status('open contact: path', status, MSLIP_OK)
+    call check_same('open contact: no force on a path', [a, b], spread(0.0_wp, 1, 6))
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call mslip_harmonic_force(open_contact, workspace, [0.0_wp, 1.0e-6_wp, 0.0_wp], status, a, jacobian, dissipated)
+    call check_status('open contact: harmonic force', status, MSLIP_OK)
+    call check_same('open contact: no harmonic force', [a, [jacobian], dissipated], spread(0.0_wp, 1, 13))
+  end subroutine test_open_contact
+
+  subroutine test_array_sizes()
+    ! One array of each call is of another size; nothing may be written.
+    integer(mslip_size), parameter :: harmonics = 1, samples = 16
+    real(wp), parameter :: zeros(3) = 0
+    integer(mslip_int), parameter :: flags(2) = 1
+    type(mslip_contact) :: pair(2)
+    real(wp) :: state(mslip_state_length(2_mslip_size)), states(mslip_state_length(2_mslip_size), 3)
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples))
+    real(wp) :: three(3), two(2), m32(3, 2), m33(3, 3), m332(3, 3, 2)
+    integer(mslip_int) :: status
+
+    pair = [flat, cylinder]
+    state = fresh_state(2_mslip_size)
+    states = 0
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    three = untouched
+    two = untouched
+    m32 = untouched
+    m33 = untouched
+    m332 = untouched
+    call mslip_tractions(flat, 1.0_wp, zeros, status, three, two)
+    call wrong_size('tractions', status)
+    call mslip_slip(flat, 1.0_wp, zeros, status, two, three)
+    call wrong_size('slip', status)
+    call mslip_monotonic_displacement(flat, zeros, status, three, compliance=two)
+    call wrong_size('monotonic displacement', status)
+    call mslip_monotonic_force(flat, zeros, status, three, stick_half_width=two)
+    call wrong_size('monotonic force', status)
+    call mslip_masing_update(flat, state, 1.0e-7_wp, status, state_new=three)
+    call wrong_size('new state', status)
+    call mslip_masing_path(flat, state, zeros, status, three, two)
+    call wrong_size('path', status)
+    call mslip_masing_path(flat, state, zeros, status, three, dissipated=two, state_new=states(:, 1))
+    call wrong_size('path with a new state', status)
+    call mslip_masing_path(flat, state, zeros, status, three, state_new=states(2:, 1))
+    call wrong_size('new state of a path', status)
+    call mslip_masing_tractions(flat, state, zeros, status, three, two)
+    call wrong_size('tractions of a state', status)
+    call mslip_hysteresis_loop(flat, 1.0e-7_wp, three, two, status)
+    call wrong_size('loop', status)
+    call mslip_dissipated_energy(flat, zeros, two, status)
+    call wrong_size('energy', status)
+    call mslip_complex_stiffness(flat, zeros, status, three, dk_imag=two)
+    call wrong_size('complex stiffness', status)
+    call mslip_harmonic_force(flat, workspace, zeros(1:2), status, three)
+    call wrong_size('coefficients of the displacement', status)
+    call mslip_harmonic_force(flat, workspace, zeros, status, two)
+    call wrong_size('coefficients of the force', status)
+    call mslip_harmonic_force(flat, workspace, zeros, status, three, m32)
+    call wrong_size('Jacobian', status)
+    call mslip_interface_complex_stiffness(pair, zeros, status, k_real=three)
+    call wrong_size('interface: amplitudes', status)
+    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, flags(1:1), two)
+    call wrong_size('interface: flags', status)
+    call mslip_interface_masing_update(pair, states, zeros(1:2), status, force=two)
+    call wrong_size('interface: states', status)
+    call mslip_interface_masing_update(pair, states(:, 1:2), zeros, status)
+    call wrong_size('interface: displacements', status)
+    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, flags, two, states_new=m32)
+    call wrong_size('interface: new states', status)
+    call mslip_interface_harmonic_force(pair, workspace, m33, status, force=m32)
+    call wrong_size('interface: coefficients of the displacements', status)
+    call mslip_interface_harmonic_force(pair, workspace, m32, status, force=m33)
+    call wrong_size('interface: coefficients of the forces', status)
+    call mslip_interface_harmonic_force(pair, workspace, m32, status, flags, m32, m332(:, 1:2, :))
+    call wrong_size('interface: Jacobians', status)
+    call mslip_interface_harmonic_force(pair, workspace, m32, status, dissipated=three)
+    call wrong_size('interface: energies', status)
+    call mslip_iwan_equivalent(flat, three, two, status)
+    call wrong_size('Iwan model', status)
+    call check_same('wrong sizes: nothing written', [three, two, [m32], [m33], [m332], [states]], &
+      [spread(untouched, 1, 38), spread(0.0_wp, 1, size(states))])
+  end subroutine test_array_sizes
+
+  subroutine wrong_size(name, status)
+    character(len=*), intent(in) :: name
+    integer(mslip_int), intent(in) :: status
+
+    call check_status('array size: '//name, status, MSLIP_BAD_ARRAY_SIZE)
+  end subroutine wrong_size
+
+  subroutine test_strides()
+    ! Sections that are not contiguous, as arguments of every kind, and arrays without elements.
+    real(wp) :: x(6), shear(6), dense(3), table(2, mslip_state_length(2_mslip_size)), state(mslip_state_length(2_mslip_size))
+    real(wp) :: force, expected
+    type(mslip_contact) :: contacts(4)
+    integer(mslip_int) :: status, active(6)
+
+    x = [0.0_wp, untouched, 2.0e-4_wp, untouched, 5.05e-4_wp, untouched]
+    shear = untouched
+    call mslip_tractions(flat, 100.0_wp, x(1::2), status, shear=shear(1::2))
+    call check_status('strides: tractions', status, MSLIP_OK)
+    call mslip_tractions(flat, 100.0_wp, [0.0_wp, 2.0e-4_wp, 5.05e-4_wp], status, shear=dense)
+    call check_same('strides: tractions of each', shear(1::2), dense)
+    call check_same('strides: nothing between', shear(2::2), spread(untouched, 1, 3))
+
+    state = fresh_state(2_mslip_size)
+    table(1, :) = state
+    table(2, :) = untouched
+    call mslip_masing_update(flat, table(1, :), 3.0e-7_wp, status, force)
+    call mslip_masing_update(flat, state, 3.0e-7_wp, status, expected)
+    call check_same('strides: state', [table(1, :), force], [state, expected])
+
+    contacts = [flat, open_contact, cylinder, open_contact]
+    active = [1_mslip_int, 0_mslip_int, 0_mslip_int, 0_mslip_int, 1_mslip_int, 0_mslip_int]
+    dense = untouched
+    call mslip_interface_complex_stiffness(contacts(1::2), [0.0_wp, 0.0_wp], status, active(1:4:2), dense(1:2))
+    call check_status('strides: contacts', status, MSLIP_OK)
+    call check_same('strides: contacts and flags', dense, [flat%initial_stiffness, untouched, untouched])
+
+    call mslip_monotonic_force(flat, x(1:0), status, shear(1:0))
+    call check_status('no points', status, MSLIP_OK)
+    call mslip_interface_complex_stiffness(contacts(1:0), x(1:0), status, active(1:0), shear(1:0))
+    call check_status('no contacts', status, MSLIP_OK)
+  end subroutine test_strides
+
+end program test_microslip
