@@ -74,7 +74,7 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     workspace.fill(0.0);
     if let [mark, h, n, rest @ ..] = workspace {
         (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
-        for (sample, row) in rest.chunks_exact_mut(layout.coefficients).take(samples).enumerate() {
+        for (sample, row) in rest.chunks_exact_mut(layout.coefficients.max(1)).take(samples).enumerate() {
             for (k, value) in row.iter_mut().enumerate() {
                 // The turn k sample/samples, reduced before it meets π.
                 let turn = (k.div_ceil(2) * sample % samples) as f64 / samples as f64;
@@ -150,7 +150,7 @@ impl<'a> Workspace<'a> {
 
     /// Row of a sample: 1, cos t, sin t, cos 2t, ...
     fn table_row(&self, sample: usize) -> &'a [f64] {
-        self.table.chunks_exact(self.coefficients).nth(sample).unwrap_or(&[])
+        self.table.chunks_exact(self.coefficients.max(1)).nth(sample).unwrap_or(&[])
     }
 }
 
@@ -196,7 +196,7 @@ pub fn harmonic_force(
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
-    let n = workspace.coefficients;
+    let n = workspace.coefficients.max(1);
     let HarmonicOutput { mut force, mut jacobian, dissipated } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|output| output.len() == length);
     if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
@@ -298,8 +298,8 @@ impl<'w, 'a> Walk<'w, 'a> {
         if self.with_gradients {
             self.differentiate();
             let Workspace { gradients, row, coefficients, .. } = &mut *self.workspace;
-            if let Some(gradient) = gradients.chunks_exact_mut(*coefficients).nth(depth.wrapping_sub(1)) {
-                gradient.copy_from_slice(row);
+            if let Some(gradient) = gradients.chunks_exact_mut((*coefficients).max(1)).nth(depth.wrapping_sub(1)) {
+                gradient.iter_mut().zip(row.iter()).for_each(|(kept, now)| *kept = *now);
             }
         }
         let pair = self.workspace.reversals.chunks_exact_mut(2).nth(depth.wrapping_sub(1));
@@ -337,7 +337,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         let turned_at = self.workspace.turned_at.get(self.depth.wrapping_sub(1)).copied().unwrap_or(0.0);
         let then = self.workspace.table_row(turned_at as usize);
         let Workspace { gradients, row, .. } = &mut *self.workspace;
-        let gradient = gradients.chunks_exact(coefficients).nth(self.depth.wrapping_sub(1)).unwrap_or(&[]);
+        let gradient = gradients.chunks_exact(coefficients.max(1)).nth(self.depth.wrapping_sub(1)).unwrap_or(&[]);
         for (((row, now), then), gradient) in row.iter_mut().zip(now).zip(then).zip(gradient) {
             *row = stiffness * (now - then) + gradient;
         }

@@ -221,7 +221,7 @@ pub(crate) fn force_at(contact: &Contact, origin: f64, course: &Course, displace
     let halves = if course.branch.is_some() { 2.0 } else { 1.0 };
     let stick = contact.stick_at_displacement((displacement - from.displacement).abs() / halves);
     let force = from.force + course.direction * halves * contact.force_of(&stick);
-    (force.clamp(-limit, limit), Some(stick))
+    (force.max(-limit).min(limit), Some(stick))
 }
 
 /// The origin of the virgin curve, which gross slip carries along; without friction every point is one.
@@ -352,7 +352,7 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
     if read.depth() > DRY_REVERSALS {
         return Err(Error::StateFull);
     }
-    dry.copy_from_slice(used);
+    dry.iter_mut().zip(used).for_each(|(dry, used)| *dry = *used);
     for &displacement in path {
         let read = State::read(dry)?;
         let course = course(contact, &read, displacement);

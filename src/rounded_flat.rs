@@ -182,37 +182,56 @@ impl ContactFamily for RoundedFlat {
 fn curvature_series(contact: &Indentation, load: f64) -> [f64; TERMS] {
     let psi = contact.psi;
     let psi2 = psi * psi;
-    let mut decay = [0.0; TERMS]; // -q', then -n q_n
-    let mut curvature = [0.0; TERMS]; // 1/q
-    let mut k = [0.0; TERMS];
-    let mut r = [0.0; TERMS];
-    let mut grow = [0.0; TERMS]; // k/q
-    let mut k2 = [0.0; TERMS]; // ψ² + k²
-    let mut r2 = [0.0; TERMS];
     let first = 4.0 * psi * psi2 / load;
-    k[0] = psi * contact.flat / contact.w;
-    r[0] = 1.0;
+    // In the order in which coefficient n of each follows from those before.
+    let mut q_rate = Series::NEW; // -q'
+    let mut q_less = Series::NEW; // -(q - q_0), coefficients from 1 on
+    let (mut curvature, mut k, mut r) = (Series::NEW, Series::NEW, Series::NEW); // 1/q, k, r
+    let (mut growth, mut k_square, mut r_square) = (Series::NEW, Series::NEW, Series::NEW); // k/q, ψ² + k², r²
+    k.push(psi * contact.flat / contact.w);
+    r.push(1.0);
     for n in 0..TERMS {
-        // q_n = -decay_{n-1}/n for n > 0, and 1/q from q (1/q) = 1.
-        let mut sum = if n == 0 { 1.0 } else { 0.0 };
-        for j in 1..=n {
-            sum += decay[j - 1] / j as f64 * curvature[n - j];
-        }
-        curvature[n] = sum / first;
-        decay[n] = product(&k, &r, n) + if n == 0 { 2.0 * psi2 } else { 0.0 };
-        grow[n] = product(&k, &curvature, n);
-        k2[n] = product(&k, &k, n) + if n == 0 { psi2 } else { 0.0 };
-        r2[n] = product(&r, &r, n);
-        if n + 1 < TERMS {
-            k[n + 1] = product(&grow, &k2, n) / (n + 1) as f64;
-            r[n + 1] = product(&r2, &grow, n) / (n + 1) as f64;
-        }
+        let constant = |value: f64| if n == 0 { value } else { 0.0 };
+        // From q (1/q) = 1.
+        curvature.push((constant(1.0) + q_less.times(&curvature)) / first);
+        q_rate.push(k.times(&r) + constant(2.0 * psi2));
+        q_less.push(q_rate.last() / (n + 1) as f64);
+        growth.push(k.times(&curvature));
+        k_square.push(k.times(&k) + constant(psi2));
+        r_square.push(r.times(&r));
+        k.push(growth.times(&k_square) / (n + 1) as f64);
+        r.push(r_square.times(&growth) / (n + 1) as f64);
     }
-    curvature.map(|coefficient| coefficient * psi2)
+    curvature.coefficients.map(|coefficient| coefficient * psi2)
 }
 
-/// Coefficient n of the product of two power series.
-fn product(one: &[f64; TERMS], two: &[f64; TERMS], n: usize) -> f64 {
-    let n = n.min(TERMS - 1);
-    one[..=n].iter().zip(two[..=n].iter().rev()).map(|(a, b)| a * b).sum()
+/// A power series as far as it is known.
+struct Series {
+    coefficients: [f64; TERMS],
+    known: usize,
+}
+
+impl Series {
+    const NEW: Series = Series { coefficients: [0.0; TERMS], known: 0 };
+
+    fn known(&self) -> &[f64] {
+        self.coefficients.get(..self.known).unwrap_or(&[])
+    }
+
+    fn last(&self) -> f64 {
+        self.known().last().copied().unwrap_or(0.0)
+    }
+
+    /// The next coefficient; beyond the last that is kept it is dropped.
+    fn push(&mut self, coefficient: f64) {
+        if let Some(place) = self.coefficients.get_mut(self.known) {
+            *place = coefficient;
+            self.known += 1;
+        }
+    }
+
+    /// The coefficient of the product that both, known equally far, have last in common.
+    fn times(&self, other: &Series) -> f64 {
+        self.known().iter().zip(other.known().iter().rev()).map(|(one, two)| one * two).sum()
+    }
 }
