@@ -30,13 +30,21 @@ for name in cbrt ceil fdim floor fma fmax fmin fmod rint round roundeven sqrt tr
     echo "__wrap_$name $name" >> "$work/unwrap"
 done
 
-# The names hold no blanks, so they may be split into arguments.
+# link ARGUMENTS...: what the interface reaches, as one object. The names hold no blanks, so they may be split.
 entry=$(head -n 1 "$work/keep")
+link() {
+    # shellcheck disable=SC2046
+    $LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") "$@"
+}
+
 # shellcheck disable=SC2046
-$LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") $(cat "$work/wrap") -o "$work/all.o" "$from"
-# Rust's own library brings its intermediate code along, which the plugins of other compilers choke on.
-$OBJCOPY --keep-global-symbols="$work/keep" --strip-debug --remove-section=.llvmbc --remove-section=.llvmcmd \
-    --redefine-syms="$work/unwrap" "$work/all.o" "$work/local.o"
+link $(cat "$work/wrap") -o "$work/all.o" "$from"
+# Linking once more drops what only Rust's start-up code reaches, which a linker always keeps. Rust's own library also
+# brings its intermediate code along, which the plugins of other compilers choke on.
+$OBJCOPY --strip-debug --remove-section='.init_array*' --remove-section=.llvmbc --remove-section=.llvmcmd \
+    --redefine-syms="$work/unwrap" "$work/all.o" "$work/some.o"
+link -o "$work/reached.o" "$work/some.o"
+$OBJCOPY --keep-global-symbols="$work/keep" "$work/reached.o" "$work/local.o"
 $OBJCOPY --strip-unneeded "$work/local.o" "$work/microslip.o"
 
 mkdir -p "$(dirname "$to")"
