@@ -110,8 +110,12 @@ const _: () = {
     assert!(size_of::<mslip_contact>() == size_of::<Contact>() && align_of::<mslip_contact>() == align_of::<Contact>());
     assert!(core::mem::offset_of!(mslip_contact, slip_energy) == core::mem::offset_of!(Contact, slip_energy));
     assert!(core::mem::offset_of!(Contact, composite_modulus) == 0 && core::mem::offset_of!(Contact, half_width) == 8);
-    assert!(core::mem::offset_of!(Contact, slip_force) == 16 && core::mem::offset_of!(Contact, slip_displacement) == 24);
-    assert!(core::mem::offset_of!(Contact, initial_stiffness) == 32 && core::mem::offset_of!(Contact, slip_energy) == 40);
+    assert!(
+        core::mem::offset_of!(Contact, slip_force) == 16 && core::mem::offset_of!(Contact, slip_displacement) == 24
+    );
+    assert!(
+        core::mem::offset_of!(Contact, initial_stiffness) == 32 && core::mem::offset_of!(Contact, slip_energy) == 40
+    );
     assert!(size_of::<Parameters>() == 80 && size_of::<EllipticParameters>() == 64);
     assert!(core::mem::offset_of!(Parameters, material) == 40);
     assert!(core::mem::offset_of!(Parameters, displacement_reference) == 72);
@@ -855,7 +859,8 @@ pub unsafe extern "C" fn mslip_interface_masing_update(
                 masing::check_step(contact, state, displacement)?;
             }
         }
-        let at = |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
+        let at =
+            |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
         for (i, contact, displacement) in items {
             let outputs = [at(force, i), at(stiffness, i), at(dissipated, i)];
             let state0 = states0.wrapping_add(i * state_length);
@@ -1010,6 +1015,9 @@ mod tests {
         ];
         assert!(constants.iter().copied().eq(Error::ALL.iter().map(|error| error.code())));
         assert!(constants.windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!([MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP], [crate::parameters::CENTRE_POINT, crate::parameters::RIGID_STRIP]);
+        assert_eq!(
+            [MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP],
+            [crate::parameters::CENTRE_POINT, crate::parameters::RIGID_STRIP]
+        );
     }
 }

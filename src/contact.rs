@@ -75,7 +75,8 @@ impl Contact {
     /// not be positive; `OutOfRange` where results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let Parameters { flat_half_width: a, edge_radius, length, normal_force, friction_coefficient, .. } = *parameters;
+        let Parameters { flat_half_width: a, edge_radius, length, normal_force, friction_coefficient, .. } =
+            *parameters;
         for body in &parameters.material {
             in_range(&[body.young_modulus], &[])?;
         }
@@ -90,7 +91,9 @@ impl Contact {
         in_range(&[length, modulus], &[])?;
         if a > 0.0 {
             // A wide flat must not be so wide that the rounded edge carries nothing.
-            if exponent_of(&[a], &[]) > LARGEST_EXPONENT || exponent_of(&[edge_radius, normal_force], &[length, modulus, a, a]) < -900 {
+            if exponent_of(&[a], &[]) > LARGEST_EXPONENT
+                || exponent_of(&[edge_radius, normal_force], &[length, modulus, a, a]) < -900
+            {
                 return Err(Error::OutOfRange);
             }
         }
@@ -101,7 +104,8 @@ impl Contact {
         let indentation = Indentation::of_load(a / unit, load / unit / unit);
         let half_width = unit * indentation.half_width;
         let size = indentation.half_width;
-        let contact = Indentation { flat: indentation.flat / size, w: indentation.w / size, half_width: 1.0, ..indentation };
+        let contact =
+            Indentation { flat: indentation.flat / size, w: indentation.w / size, half_width: 1.0, ..indentation };
 
         if length <= 0.5 * half_width {
             return Err(Error::LengthTooShort);
@@ -132,7 +136,8 @@ impl Contact {
     /// The error of the first parameter that is not allowed; `OutOfRange` where results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material } = *parameters;
+        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material } =
+            *parameters;
         for body in material {
             in_range(&[body.young_modulus], &[])?;
         }

@@ -65,12 +65,17 @@ impl Contact {
     pub(crate) fn stick_at_displacement(&self, displacement: f64) -> Member {
         let unit = self.displacement_unit().max(f64::MIN_POSITIVE);
         let displacement = displacement.min(self.slip_displacement);
-        self.family().at_approach(Split { lost: displacement / unit, rest: (self.slip_displacement - displacement) / unit })
+        self.family()
+            .at_approach(Split { lost: displacement / unit, rest: (self.slip_displacement - displacement) / unit })
     }
 
     /// Force \[N\] of a stick zone.
     pub(crate) fn force_of(&self, stick: &Member) -> f64 {
-        if stick.load.lost > 0.5 { self.slip_force - self.slip_force * stick.load.rest } else { self.slip_force * stick.load.lost }
+        if stick.load.lost > 0.5 {
+            self.slip_force - self.slip_force * stick.load.rest
+        } else {
+            self.slip_force * stick.load.lost
+        }
     }
 
     /// dT/d(displacement) \[N/m\] at a stick zone.

@@ -98,14 +98,24 @@ impl ContactFamily for Elliptic {
         let size = rest.cbrt();
         let left = SLIP_APPROACH * size * size;
         let excess = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
-        Member { load: Split { lost: 1.0 - rest, rest }, approach: Split { lost: SLIP_APPROACH - left, rest: left }, excess, measure: Some(size) }
+        Member {
+            load: Split { lost: 1.0 - rest, rest },
+            approach: Split { lost: SLIP_APPROACH - left, rest: left },
+            excess,
+            measure: Some(size),
+        }
     }
 
     fn at_approach_rest(&self, rest: f64) -> Member {
         let size = (rest / SLIP_APPROACH).max(0.0).sqrt();
         let load = size * size * size;
         let excess = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
-        Member { load: Split { lost: 1.0 - load, rest: load }, approach: Split { lost: SLIP_APPROACH - rest, rest }, excess, measure: Some(size) }
+        Member {
+            load: Split { lost: 1.0 - load, rest: load },
+            approach: Split { lost: SLIP_APPROACH - rest, rest },
+            excess,
+            measure: Some(size),
+        }
     }
 
     /// `(4/3) ∫ (1-u) (u-s) u^(-4/3) du` from s to 1.

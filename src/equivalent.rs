@@ -138,7 +138,8 @@ impl Curve<'_> {
     fn side(&self, from: &Corner, error: f64) -> Side {
         let slip = self.0.slip_approach();
         let (_, last_slope) = self.at(1.0);
-        let lowered = |force: f64, approach: f64, slope: f64| force - error - from.force - slope * (approach - from.approach);
+        let lowered =
+            |force: f64, approach: f64, slope: f64| force - error - from.force - slope * (approach - from.approach);
         let touch = |force: f64| {
             let (approach, slope) = self.at(force);
             lowered(force, approach, slope)
@@ -155,7 +156,10 @@ impl Curve<'_> {
         if touching < 1.0 && above(1.0) > 0.0 {
             let on_curve = root(above, touching, 1.0);
             if on_curve + error < 1.0 {
-                return Side { slope, end: Corner { approach: self.at(on_curve).0, force: on_curve + error, on_curve } };
+                return Side {
+                    slope,
+                    end: Corner { approach: self.at(on_curve).0, force: on_curve + error, on_curve },
+                };
             }
         }
         let approach = from.approach + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);

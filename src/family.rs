@@ -109,7 +109,11 @@ pub(crate) trait ContactFamily {
     /// The member at which an approach is lost: the inverse of the monotonic curve.
     fn at_approach(&self, approach: Split) -> Member {
         let origin = self.origin();
-        if approach.lost <= origin.half_approach { origin.at_approach(approach) } else { self.at_approach_rest(approach.rest) }
+        if approach.lost <= origin.half_approach {
+            origin.at_approach(approach)
+        } else {
+            self.at_approach_rest(approach.rest)
+        }
     }
 
     /// Energy dissipated per cycle between ±τ, in units of force times approach (Eq. 13-16).
@@ -132,12 +136,11 @@ pub(crate) trait ContactFamily {
     fn compliance(&self, member: &Member) -> f64 {
         self.origin().compliance + member.excess
     }
-
 }
 
-/// `∫ f dσ` between the member of measure `from` and the contact b, for f that is a root at both ends or better.
-pub(crate) fn integrate(family: &dyn ContactFamily, from: f64, mut f: impl FnMut(&Station) -> f64) -> f64 {
-    let length = 1.0 - from;
+/// `∫ f dσ` over the members of measures between `from` and `to`, for f that is a root at both ends or better.
+pub(crate) fn integrate(family: &dyn ContactFamily, from: f64, to: f64, mut f: impl FnMut(&Station) -> f64) -> f64 {
+    let length = to - from;
     length * TANH_SINH.iter().map(|node| node.weight * f(&family.station(from + length * node.from_0))).sum::<f64>()
 }
 
@@ -195,7 +198,8 @@ impl Origin {
 
     /// e at τ: 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹.
     fn dissipation(&self, tau: f64) -> f64 {
-        let cubic = self.curvature.iter().zip(DISSIPATION.iter()).rev().fold(0.0, |sum, (c, factor)| sum * tau + c * factor);
+        let cubic =
+            self.curvature.iter().zip(DISSIPATION.iter()).rev().fold(0.0, |sum, (c, factor)| sum * tau + c * factor);
         cubic * tau * tau * tau
     }
 

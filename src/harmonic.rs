@@ -23,7 +23,7 @@
 use crate::contact::Contact;
 use crate::curve::check_displacement;
 use crate::error::Error;
-use crate::family::{ContactFamily, Member, integrate};
+use crate::family::{ContactFamily, Member, Station, integrate};
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude; what is asked for is computed.
@@ -110,7 +110,11 @@ impl Contact {
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
-    if amplitude >= 0.0 { check_displacement(amplitude).map_err(|_| Error::BadAmplitude) } else { Err(Error::BadAmplitude) }
+    if amplitude >= 0.0 {
+        check_displacement(amplitude).map_err(|_| Error::BadAmplitude)
+    } else {
+        Err(Error::BadAmplitude)
+    }
 }
 
 impl ComplexStiffness<'_> {
@@ -132,7 +136,11 @@ impl ComplexStiffness<'_> {
     /// K' \[N/m\].
     #[must_use]
     pub fn real(&self) -> f64 {
-        if self.is_at_rest() { self.contact.initial_stiffness } else { self.contact.stiffness_unit() * self.real_part() }
+        if self.is_at_rest() {
+            self.contact.initial_stiffness
+        } else {
+            self.contact.stiffness_unit() * self.real_part()
+        }
     }
 
     /// K'' \[N/m\], not negative.
@@ -157,10 +165,14 @@ impl ComplexStiffness<'_> {
             return self.slope_at_rest().1;
         }
         let per_displacement = match &self.stick {
-            Some(stick) => self.contact.slip_force * self.family().dissipation_slope(stick) / self.family().compliance(stick),
+            Some(stick) => {
+                self.contact.slip_force * self.family().dissipation_slope(stick) / self.family().compliance(stick)
+            }
             None => 4.0 * self.contact.slip_force,
         };
-        (per_displacement / self.amplitude - 2.0 * (self.dissipated() / self.amplitude / self.amplitude)) / self.amplitude / PI
+        (per_displacement / self.amplitude - 2.0 * (self.dissipated() / self.amplitude / self.amplitude))
+            / self.amplitude
+            / PI
     }
 
     /// Energy \[J\] dissipated per cycle.
@@ -189,7 +201,9 @@ impl ComplexStiffness<'_> {
             return (4.0 / PI / approach * roots - 2.0 * self.real_part()) / approach;
         };
         let sum = if stick.load.lost <= 0.5 {
-            self.over_the_origin(stick, |x, y, near| x * (x * y).sqrt() * near.curvature / (near.compliance * near.compliance))
+            self.over_the_origin(stick, |x, y, near| {
+                x * (x * y).sqrt() * near.curvature / (near.compliance * near.compliance)
+            })
         } else {
             self.over_the_family(Some(stick), |x, y, station| {
                 x * (x * y).sqrt() * station.excess_rate / (station.compliance * station.compliance)
@@ -216,17 +230,30 @@ impl ComplexStiffness<'_> {
     }
 
     /// `∫ f(X, 1-X, station) dσ` from the stick zone, or from the smallest member in gross slip, to the contact.
-    fn over_the_family(&self, stick: Option<&Member>, f: impl Fn(f64, f64, &crate::family::Station) -> f64) -> f64 {
+    fn over_the_family(&self, stick: Option<&Member>, f: impl Fn(f64, f64, &Station) -> f64) -> f64 {
         let (family, approach) = (self.family(), self.approach());
         let (from, rest) = match stick {
             Some(stick) => (family.measure(stick), stick.approach.rest),
-            None => (0.0, (self.contact.slip_displacement - self.amplitude) / self.contact.displacement_unit().max(f64::MIN_POSITIVE)),
+            None => (
+                0.0,
+                (self.contact.slip_displacement - self.amplitude)
+                    / self.contact.displacement_unit().max(f64::MIN_POSITIVE),
+            ),
         };
-        integrate(family, from, |station| {
+        let integrand = |station: &Station| {
             let x = (station.approach.lost / approach).clamp(0.0, 1.0);
             let y = ((station.approach.rest - rest) / approach).max(0.0);
             f(x, y, station)
-        })
+        };
+        // Just beyond gross slip 1-X nearly vanishes at the inner end, on the scale of the member whose rest is the excess:
+        // the integral is divided there.
+        let excess = (-rest).min(family.slip_approach() - family.origin().half_approach);
+        if excess > 0.0 {
+            let middle = family.measure(&family.at_approach_rest(excess));
+            integrate(family, 0.0, middle, integrand) + integrate(family, middle, 1.0, integrand)
+        } else {
+            integrate(family, from, 1.0, integrand)
+        }
     }
 
     /// Both derivatives at the amplitude 0, from the curve's first bend: `-h_2/Λ³` and `4 h_2/(3πΛ³)`.

@@ -107,7 +107,9 @@ impl<'a> State<'a> {
     /// The reversals, oldest first.
     pub fn history(&self) -> impl Iterator<Item = Reversal> + 'a {
         let pairs = self.reversals.chunks_exact(PER_REVERSAL);
-        pairs.filter_map(|pair| if let &[displacement, force] = pair { Some(Reversal { displacement, force }) } else { None })
+        pairs.filter_map(
+            |pair| if let &[displacement, force] = pair { Some(Reversal { displacement, force }) } else { None },
+        )
     }
 }
 
@@ -274,8 +276,10 @@ pub fn check_step(contact: &Contact, state: &[f64], displacement: f64) -> Result
 impl<'a> Step<'a> {
     fn along(contact: &'a Contact, state: &State, course: Course, displacement: f64) -> Step<'a> {
         let start = state.now;
-        let rests = displacement == start.displacement && course.branch.is_none() && start.force.abs() >= contact.slip_force;
-        let (force, stick) = if rests { (start.force, None) } else { force_at(contact, state.origin, &course, displacement) };
+        let rests =
+            displacement == start.displacement && course.branch.is_none() && start.force.abs() >= contact.slip_force;
+        let (force, stick) =
+            if rests { (start.force, None) } else { force_at(contact, state.origin, &course, displacement) };
         let origin = origin_after(contact, state.origin, &course, displacement);
         Step { contact, course, origin, start, end: Reversal { displacement, force }, stick }
     }
@@ -309,7 +313,9 @@ impl<'a> Step<'a> {
 
     /// Writes the step into the state it was found from, or into a copy of it.
     pub fn write(&self, state: &mut [f64]) {
-        let &mut [_, ref mut count, ref mut origin, ref mut displacement, ref mut force, ref mut reversals @ ..] = state else {
+        let &mut [_, ref mut count, ref mut origin, ref mut displacement, ref mut force, ref mut reversals @ ..] =
+            state
+        else {
             return;
         };
         *count = self.course.depth as f64;

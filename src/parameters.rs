@@ -58,10 +58,7 @@ pub struct EllipticParameters {
 /// A number that was forgotten stays a NaN, and is refused by name.
 const UNSET: f64 = f64::NAN;
 
-const UNSET_MATERIAL: Material = Material {
-    young_modulus: UNSET,
-    poisson_ratio: UNSET,
-};
+const UNSET_MATERIAL: Material = Material { young_modulus: UNSET, poisson_ratio: UNSET };
 
 impl Default for Parameters {
     fn default() -> Self {

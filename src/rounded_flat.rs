@@ -63,7 +63,11 @@ impl RoundedFlat {
     /// ln(b/c), accurate also where c is near b.
     fn excess(&self, inner: &Indentation) -> f64 {
         let size = inner.half_width * inner.half_width;
-        if size < 0.5 { -0.5 * size.max(TINY).ln() } else { -0.5 * (-(self.w - inner.w) * (self.w + inner.w)).max(-0.5).ln_1p() }
+        if size < 0.5 {
+            -0.5 * size.max(TINY).ln()
+        } else {
+            -0.5 * (-(self.w - inner.w) * (self.w + inner.w)).max(-0.5).ln_1p()
+        }
     }
 
     /// What the formulas above make of a stick zone.

@@ -1,5 +1,7 @@
 //! Every row of the reference tables (inputs exact doubles, outputs 25 digits) through the Rust interface.
 
+use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
+use microslip::masing::{self, state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::collections::HashMap;
 
@@ -12,7 +14,10 @@ fn table(name: &str) -> Vec<Row> {
     let names: Vec<String> = lines.next().unwrap().split(',').map(|name| name.trim().to_string()).collect();
     let row = |line: &str| {
         let values = line.split(',').map(|value| value.trim().parse::<f64>().unwrap_or(f64::NAN));
-        names.iter().cloned().zip(values).collect()
+        let mut row: Row = names.iter().cloned().zip(values).collect();
+        // The one column of text: i (uniform pressure) or ii (the true one).
+        row.insert("law_variant".into(), line.split(',').next().map_or(0.0, |variant| variant.len() as f64));
+        row
     };
     lines.filter(|line| !line.trim().is_empty()).map(row).collect()
 }
@@ -66,7 +71,10 @@ impl Worst {
     }
 
     fn report(self) {
-        println!("{:28} {:5} rows, worst {:.1e} (bound {:.0e}) at {}", self.what, self.rows, self.seen, self.bound, self.place);
+        println!(
+            "{:28} {:5} rows, worst {:.1e} (bound {:.0e}) at {}",
+            self.what, self.rows, self.seen, self.bound, self.place
+        );
         assert!(self.rows > 0 && self.seen <= self.bound, "{}: {:e} at {}", self.what, self.seen, self.place);
     }
 }
@@ -135,7 +143,8 @@ fn tractions() {
         let (parameters, contact) = &contacts[row["contact"] as usize];
         let point = contact.curve_at_force(row["T"]).unwrap();
         let x = row["x"];
-        let place = format!("contact {} T/muN {} x/b {}", row["contact"], row["T"] / contact.slip_force, x / parameters["b"]);
+        let place =
+            format!("contact {} T/muN {} x/b {}", row["contact"], row["T"] / contact.slip_force, x / parameters["b"]);
         // At the very edge the pressure goes with the root of b - x, and carries the rounding of x and b.
         let edge = 1.0 + 4.0 * f64::EPSILON / (1.0 - x.abs() / parameters["b"]).abs().max(1e-17) / 1e-11;
         pressure.check(&place, contact.pressure(x), row["pressure"], row["pressure"].abs().max(1e-300) * edge);
@@ -153,7 +162,12 @@ fn slip_and_damage() {
     for row in table("slip") {
         let (parameters, contact) = &contacts[row["contact"] as usize];
         let point = contact.curve_at_force(row["T"]).unwrap();
-        let place = format!("contact {} T/muN {} x/b {}", row["contact"], row["T"] / contact.slip_force, row["x"] / parameters["b"]);
+        let place = format!(
+            "contact {} T/muN {} x/b {}",
+            row["contact"],
+            row["T"] / contact.slip_force,
+            row["x"] / parameters["b"]
+        );
         slip.check(&place, point.slip(row["x"]).unwrap(), row["slip"], row["slip"].abs());
     }
     slip.report();
@@ -185,8 +199,14 @@ fn complex_stiffness() {
         let place = format!("contact {} d/dslip {}", row["contact"], amplitude / contact.slip_displacement);
         let stiffness = contact.complex_stiffness(amplitude).unwrap();
         real.relative(&place, stiffness.real(), row["k_real"]);
-        imaginary.relative(&place, stiffness.imaginary(), row["k_imag"]);
-        dissipated.relative(&place, stiffness.dissipated(), row["dissipated_per_cycle"]);
+        // Just beyond gross slip the length slipped is a difference of two rounded displacements; where a nearly flat
+        // contact dissipates next to nothing before, that is all of the energy.
+        let energy = row["dissipated_per_cycle"];
+        let slips = amplitude > contact.slip_displacement * (1.0 - 4.0 * f64::EPSILON);
+        let rounding = if slips { 4.0 * contact.slip_force * amplitude * f64::EPSILON / 1e-13 } else { 0.0 };
+        let conditioning = 1.0 + rounding / energy;
+        imaginary.check(&place, stiffness.imaginary(), row["k_imag"], row["k_imag"] * conditioning);
+        dissipated.check(&place, stiffness.dissipated(), energy, energy * conditioning);
         let scale = row["k_real"].hypot(row["k_imag"]) / amplitude;
         if row["dk_real"].is_finite() {
             real_slope.check(&place, stiffness.real_slope(), row["dk_real"], scale);
@@ -220,11 +240,113 @@ fn elliptic_contacts() {
         let place = format!("case {} T/muN {}", row["case"], row["T"] / contact.slip_force);
         stiffness.relative(&place, contact.initial_stiffness, row["initial_stiffness"]);
         let point = contact.curve_at_force(row["T"]).unwrap();
-        displacement.relative(&place, point.displacement(), row["displacement"]);
-        energy.relative(&place, contact.dissipated_energy(row["T"]).unwrap(), row["dissipated_per_cycle"]);
+        // mu N itself is rounded: at gross slip (1 - tau)^(2/3) is then known to 2/3 of the digits.
+        let rest = (1.0 - row["T"] / contact.slip_force).abs();
+        let rounding = (rest + f64::EPSILON).powf(2.0 / 3.0) - rest.powf(2.0 / 3.0);
+        let scale = row["displacement"] * (1.0 + rounding / 1e-13);
+        displacement.check(&place, point.displacement(), row["displacement"], scale);
+        // e ends as 6/5 - 6 (1 - tau)^(2/3).
+        let scale = row["dissipated_per_cycle"] * (1.0 + 5.0 * rounding / 1e-13);
+        energy.check(&place, contact.dissipated_energy(row["T"]).unwrap(), row["dissipated_per_cycle"], scale);
         assert_eq!(point.slip(0.0), Err(Error::NotAvailable));
     }
     stiffness.report();
     displacement.report();
     energy.report();
+}
+
+#[test]
+fn histories() {
+    let contacts = contacts();
+    // An error of the force at a reversal stays with the branches after it, so the bound is absolute, in mu N, with a few
+    // units for the depth of the nesting.
+    let mut force = Worst::new("force after a history", 1e-13);
+    let mut state = vec![0.0; state_length(200)];
+    let mut history = f64::NAN;
+    for row in table("histories") {
+        if row["history"] != history {
+            history = row["history"];
+            state_init(&mut state).unwrap();
+        }
+        let (_, contact) = &contacts[row["contact"] as usize];
+        let step = masing::step(contact, &state, row["displacement"]).unwrap();
+        assert!(step.dissipated(&state).unwrap() >= 0.0);
+        step.write(&mut state);
+        let place = format!("history {history} contact {}", row["contact"]);
+        force.check(&place, step.force(), row["T"], contact.slip_force);
+    }
+    force.report();
+}
+
+#[test]
+fn harmonic_forces() {
+    let contacts = contacts();
+    let mut worst = Worst::new("harmonic force", 1e-13);
+    for row in table("harmonic_force") {
+        let (_, contact) = &contacts[row["contact"] as usize];
+        let samples = row["samples"] as usize;
+        let mut memory = vec![0.0; workspace_length(3, samples)];
+        workspace_init(3, samples, &mut memory).unwrap();
+        let mut workspace = Workspace::new(&mut memory).unwrap();
+        let displacement: Vec<f64> = (0..7).map(|k| row[&format!("u{k}")]).collect();
+        let mut force = vec![0.0; 7];
+        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+        harmonic_force(contact, &mut workspace, &displacement, output).unwrap();
+        for (k, computed) in force.iter().enumerate() {
+            let place = format!("case {} coefficient {k}", row["case"]);
+            worst.check(&place, *computed, row[&format!("f{k}")], contact.slip_force);
+        }
+    }
+    worst.report();
+}
+
+/// The law with the displacement of a rigid strip against three-dimensional boundary elements.
+#[test]
+fn rigid_strip() {
+    // The one fitted number of the correction, 0.093, scatters from 0.081 to 0.102 over the cases: 0.4 % of compliances
+    // from 3 to 5.
+    let (mut stiffness, mut curve) = (Worst::new("strip stiffness", 4.2e-3), Worst::new("strip curve", 4.2e-3));
+    // The centre point's own compliance, which the correction improves on by far.
+    let mut centre = f64::INFINITY;
+    for row in table("strip_3d") {
+        if row["AR"] < 5.0 || row["nu"] != 0.3 {
+            continue;
+        }
+        let body = Material { young_modulus: 2e11, poisson_ratio: row["nu"] };
+        // b = 1 by choice of the load: lengths of the table are in b.
+        let half_width = 1.0;
+        let flat = row["a"] * half_width;
+        let length = 2.0 * row["AR"] * half_width;
+        let w: f64 = (half_width * half_width - flat * flat).sqrt();
+        let load = 2.0 * half_width * half_width * w.atan2(flat) - 2.0 * flat * w;
+        let modulus = 2e11 / (2.0 * (1.0 - row["nu"] * row["nu"]));
+        let parameters = Parameters {
+            flat_half_width: flat,
+            edge_radius: 100.0,
+            length,
+            normal_force: load * modulus / 400.0 * length,
+            friction_coefficient: 0.5,
+            material: [body, body],
+            displacement_reference: 1,
+            reserved: 0,
+        };
+        let contact = Contact::rounded_flat(&parameters).unwrap();
+        let unit = 2.0 * contact.slip_force / length / (std::f64::consts::PI * modulus);
+        let place = format!("L/2b {} a/b {}", row["AR"], row["a"]);
+        assert!((contact.half_width - 1.0).abs() < 1e-14);
+        let compliance = contact.slip_force / contact.initial_stiffness / unit;
+        let true_pressure = row["law_variant"] == 2.0;
+        centre = centre.min(row["Lam"] / row["C0_3D"]);
+        stiffness.relative(&place, compliance, row["C0_3D"]);
+        if true_pressure {
+            for tau in ["0.3", "0.6", "0.9", "0.98"] {
+                let force = tau.parse::<f64>().unwrap() * contact.slip_force;
+                let point = contact.curve_at_force(force).unwrap();
+                curve.relative(&format!("{place} tau {tau}"), point.displacement() / unit, row[&format!("d3D_{tau}")]);
+            }
+        }
+    }
+    assert!(centre > 1.05);
+    stiffness.report();
+    curve.report();
 }
