@@ -788,6 +788,9 @@ contains
       call check_close('Jenkins element: K real', k/pi*(theta - sin(2.0_wp*theta)/2.0_wp), k_real, 1.0e-9_wp)
       call check_close('Jenkins element: K imaginary', 4.0_wp*s*(displacement - s/k)/(pi*displacement**2), k_imag, 1.0e-9_wp)
     end do
+    call mslip_jenkins_equivalent(flat, 0.0_wp, k, s, status)
+    call check_close('Jenkins element at amplitude 0: stiffness', k, flat%initial_stiffness, tight)
+    call check_close('Jenkins element at amplitude 0: slip force', s, flat%slip_force, tight)
     k = untouched
     call mslip_jenkins_equivalent(flat, -1.0_wp, k, s, status)
     call check_status('Jenkins element at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
@@ -810,6 +813,8 @@ contains
     call check_status('Iwan model without its error', status, MSLIP_OK)
     call mslip_iwan_equivalent(cylinder, stiffness(1:10), slip_force(1:10), status, largest)
     call check('Iwan model: fewer sliders, larger error', largest > error)
+    call mslip_iwan_equivalent(open_contact, stiffness(1:3), slip_force(1:3), status, error)
+    call check_same('Iwan model of an open contact', [stiffness(1:3), slip_force(1:3), error], spread(0.0_wp, 1, 7))
     call mslip_iwan_equivalent(cylinder, stiffness(1:0), slip_force(1:0), status)
     call check_status('Iwan model without sliders', status, MSLIP_BAD_COUNT)
   end subroutine test_equivalents

@@ -1020,18 +1020,21 @@ contains
   ! For solvers that know spring-sliders only
 
   subroutine mslip_jenkins_equivalent(contact, amplitude, stiffness, slip_force, status)
-    !! The one spring-slider (Jenkins element) that has the K' and K'' of the contact at an amplitude.
+    !! The one spring-slider (Jenkins element) that has the K' and K'' of the contact at an amplitude; at 0 it has the
+    !! initial stiffness, and slips at `slip_force`.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement, m, > 0.
+    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement, m, 0 to 1e150.
     real(mslip_real), intent(inout) :: stiffness  !! Stiffness of the spring, N/m.
     real(mslip_real), intent(inout) :: slip_force  !! Force at which the slider slips, N.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_NOT_AVAILABLE` where there is none, or what was refused.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_NOT_AVAILABLE` where the contact carries no force, or what was refused.
 
     status = c_jenkins_equivalent(contact, amplitude, stiffness, slip_force)
   end subroutine mslip_jenkins_equivalent
 
   subroutine mslip_iwan_equivalent(contact, stiffness, slip_force, status, force_error)
-    !! A parallel bank of n spring-sliders (Iwan model) that approximates the monotonic curve, and with it every history.
+    !! The parallel bank of n >= 1 spring-sliders (Iwan model) with the smallest error of the monotonic force; it follows
+    !! any history as the contact does. All numbers are 0 for a contact that carries no force.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(inout), target, contiguous :: stiffness(:)  !! Stiffness of each spring, N/m.
     real(mslip_real), intent(inout), target, contiguous :: slip_force(:)
