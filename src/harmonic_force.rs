@@ -14,8 +14,9 @@
 //! reversal keeps its `dT_r` as a row over the harmonic coefficients.
 
 use crate::contact::Contact;
+use crate::curve::check_displacement;
 use crate::error::Error;
-use crate::masing::{self, Course, Dissipation, Reversal, State};
+use crate::masing::{self, Course, Dissipation, Reversal, State, Virgin};
 use core::f64::consts::PI;
 
 /// Tells a workspace from other memory.
@@ -181,9 +182,7 @@ pub struct HarmonicOutput<'a> {
 /// # Errors
 /// `BadDisplacement`.
 pub fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
-    let sum: f64 = displacement.iter().map(|value| value.abs().min(1e200)).sum();
-    let all = displacement.iter().all(|value| value.is_finite());
-    if all && sum <= 1e150 { Ok(()) } else { Err(Error::BadDisplacement) }
+    displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
 }
 
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\].
@@ -247,7 +246,7 @@ struct Walk<'w, 'a> {
     contact: &'w Contact,
     workspace: &'w mut Workspace<'a>,
     with_gradients: bool,
-    origin: f64,
+    virgin: Virgin,
     depth: usize,
     sample: usize,
     displacement: f64,
@@ -263,7 +262,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             contact,
             workspace,
             with_gradients,
-            origin: 0.0,
+            virgin: Virgin::NEW,
             depth: 0,
             sample: 0,
             displacement: 0.0,
@@ -276,7 +275,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         let target = self.workspace.displacement.get(sample).copied().unwrap_or(0.0);
         let used = self.workspace.reversals.get(..2 * self.depth).unwrap_or(&[]);
         let now = Reversal { displacement: self.displacement, force: 0.0 };
-        let state = State::of(self.origin, now, used);
+        let state = State::of(self.virgin, now, used);
         let slip = self.contact.slip_displacement;
         let mut course = masing::follow(&state, slip, target, |stretch| {
             if let Some(energy) = energy {
@@ -289,7 +288,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             self.remember(course.depth, force);
         }
         self.depth = course.depth;
-        self.origin = masing::origin_after(self.contact, self.origin, &course, target);
+        self.virgin = self.virgin.after(self.contact, &course, target);
         (self.sample, self.displacement, self.course, self.known) = (sample, target, course, None);
     }
 
@@ -315,7 +314,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         if let Some(known) = self.known {
             return known;
         }
-        let (force, stick) = masing::force_at(self.contact, self.origin, &self.course, self.displacement);
+        let (force, stick) = masing::force_at(self.contact, self.virgin.origin, &self.course, self.displacement);
         let stiffness = stick.map_or(0.0, |stick| self.contact.stiffness_of(&stick));
         self.known = Some((force, stiffness));
         (force, stiffness)

@@ -3,12 +3,12 @@
 //! A branch that starts at a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, always measured
 //! from its reversal. Reversals nest; a branch that comes back to the reversal before the one it left closes that loop, and
 //! both are forgotten. The first reversal of all is closed at its mirror point on the virgin curve. Gross slip forgets
-//! everything and carries the origin of the virgin curve along.
+//! everything and carries the origin of the virgin curve along: from then on, to come back to that curve is to slide.
 //!
 //! A state is an array of doubles that belongs to the caller:
 //!
 //! ```text
-//! [mark, number of reversals, origin, displacement, force,   displacement and force of each reversal, oldest first]
+//! [mark, number of reversals, origin, slid, displacement, force,   displacement and force of each reversal, oldest first]
 //! ```
 //!
 //! An update is found from the old state ([`step`]) before anything is written ([`Step::write`]): the old state may be
@@ -22,7 +22,7 @@ use crate::family::Member;
 /// Tells a state from other memory.
 const MARK: f64 = f64::from_bits(0x4d53_4c49_5053_5431);
 
-const HEADER: usize = 5;
+const HEADER: usize = 6;
 const PER_REVERSAL: usize = 2;
 
 /// Doubles of a state that holds that many nested reversals.
@@ -46,18 +46,41 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// A turning point of the displacement, or the origin of the virgin curve.
+/// A turning point of the displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reversal {
     pub displacement: f64,
     pub force: f64,
 }
 
+/// The virgin curve of a history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Virgin {
+    /// Displacement at which it starts.
+    pub origin: f64,
+    /// Whether gross slip has carried it along: nothing but its ends, at mu N, can then be reached again.
+    pub slid: bool,
+}
+
+impl Virgin {
+    pub const NEW: Virgin = Virgin { origin: 0.0, slid: false };
+
+    /// The curve after a course; without friction every point is an origin.
+    pub fn after(self, contact: &Contact, course: &Course, displacement: f64) -> Virgin {
+        if contact.is_frictionless() {
+            Virgin { origin: displacement, slid: false }
+        } else if course.slides {
+            Virgin { origin: displacement - course.direction * contact.slip_displacement, slid: true }
+        } else {
+            self
+        }
+    }
+}
+
 /// A state as it is read.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct State<'a> {
-    /// Displacement at which the virgin curve starts.
-    pub origin: f64,
+    pub virgin: Virgin,
     pub now: Reversal,
     reversals: &'a [f64],
     /// How many reversals it may hold.
@@ -66,8 +89,8 @@ pub(crate) struct State<'a> {
 
 impl<'a> State<'a> {
     /// A state kept elsewhere: pairs of displacement and force, oldest first.
-    pub fn of(origin: f64, now: Reversal, reversals: &'a [f64]) -> State<'a> {
-        State { origin, now, reversals, capacity: reversals.len() / PER_REVERSAL }
+    pub fn of(virgin: Virgin, now: Reversal, reversals: &'a [f64]) -> State<'a> {
+        State { virgin, now, reversals, capacity: reversals.len() / PER_REVERSAL }
     }
 
     /// Reads a state.
@@ -75,10 +98,12 @@ impl<'a> State<'a> {
     /// # Errors
     /// `StateTooShort` for an array that is no state, `BadState` for one that was not initialised or was changed.
     pub fn read(state: &'a [f64]) -> Result<State<'a>, Error> {
-        let &[mark, count, origin, displacement, force, ref reversals @ ..] = state else {
+        let &[mark, count, origin, slid, displacement, force, ref reversals @ ..] = state else {
             return Err(Error::StateTooShort);
         };
-        if mark.to_bits() != MARK.to_bits() || !(origin.is_finite() && displacement.is_finite() && force.is_finite()) {
+        let numbers =
+            [origin, displacement, force].iter().all(|value| value.is_finite()) && (slid == 0.0 || slid == 1.0);
+        if mark.to_bits() != MARK.to_bits() || !numbers {
             return Err(Error::BadState);
         }
         let capacity = reversals.len() / PER_REVERSAL;
@@ -88,7 +113,8 @@ impl<'a> State<'a> {
         }
         let used = reversals.get(..PER_REVERSAL * count as usize).ok_or(Error::BadState)?;
         if used.iter().all(|value| value.is_finite()) {
-            Ok(State { origin, now: Reversal { displacement, force }, reversals: used, capacity })
+            let virgin = Virgin { origin, slid: slid != 0.0 };
+            Ok(State { virgin, now: Reversal { displacement, force }, reversals: used, capacity })
         } else {
             Err(Error::BadState)
         }
@@ -179,7 +205,7 @@ pub(crate) fn course(contact: &Contact, state: &State, target: f64) -> Course {
 pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut passed: impl FnMut(Stretch)) -> Course {
     let start = state.now;
     let newest = state.reversal(state.depth());
-    let heading = start.displacement - newest.map_or(state.origin, |reversal| reversal.displacement);
+    let heading = start.displacement - newest.map_or(state.virgin.origin, |reversal| reversal.displacement);
     // A step of zero goes on where the branch was going.
     let way = if target == start.displacement { heading } else { target - start.displacement };
     let direction = if way < 0.0 { -1.0 } else { 1.0 };
@@ -193,7 +219,7 @@ pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut pas
         let half_way = |displacement: f64| 0.5 * (displacement - reversal.displacement).abs();
         // The end of this branch: the reversal before it, or the mirror point of the first one.
         let end = if depth >= 2 { state.reversal(depth - 1) } else { None };
-        let end = end.map_or(2.0 * state.origin - reversal.displacement, |before| before.displacement);
+        let end = end.map_or(2.0 * state.virgin.origin - reversal.displacement, |before| before.displacement);
         if !reaches(end) {
             passed(Stretch { halves: 2.0, from: half_way(from), to: half_way(target), slipped: 0.0 });
             return Course { depth, branch, turned, direction, slides: false };
@@ -204,10 +230,13 @@ pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut pas
         depth = depth.saturating_sub(2);
         branch = state.reversal(depth);
     }
-    let virgin = |displacement: f64| (displacement - state.origin).abs().min(slip_displacement);
-    let slipped = (direction * (target - state.origin) - slip_displacement).max(0.0);
-    passed(Stretch { halves: 1.0, from: virgin(from), to: virgin(target), slipped });
-    Course { depth: 0, branch: None, turned: false, direction, slides: slipped > 0.0 }
+    let Virgin { origin, slid } = state.virgin;
+    let along = |displacement: f64| (displacement - origin).abs().min(slip_displacement);
+    let slipped =
+        if slid { (target - from).abs() } else { (direction * (target - origin) - slip_displacement).max(0.0) };
+    let (start, end) = if slid { (0.0, 0.0) } else { (along(from), along(target)) };
+    passed(Stretch { halves: 1.0, from: start, to: end, slipped });
+    Course { depth: 0, branch: None, turned: false, direction, slides: slid || slipped > 0.0 }
 }
 
 /// Force at the end of a course, and the stick zone on its branch; none in gross slip and without friction.
@@ -226,23 +255,12 @@ pub(crate) fn force_at(contact: &Contact, origin: f64, course: &Course, displace
     (force.max(-limit).min(limit), Some(stick))
 }
 
-/// The origin of the virgin curve, which gross slip carries along; without friction every point is one.
-pub(crate) fn origin_after(contact: &Contact, origin: f64, course: &Course, displacement: f64) -> f64 {
-    if contact.is_frictionless() {
-        displacement
-    } else if course.slides {
-        displacement - course.direction * contact.slip_displacement
-    } else {
-        origin
-    }
-}
-
 /// A step that was found and may be written.
 #[derive(Debug, Clone, Copy)]
 pub struct Step<'a> {
     contact: &'a Contact,
     course: Course,
-    origin: f64,
+    virgin: Virgin,
     start: Reversal,
     end: Reversal,
     stick: Option<Member>,
@@ -276,12 +294,9 @@ pub fn check_step(contact: &Contact, state: &[f64], displacement: f64) -> Result
 impl<'a> Step<'a> {
     fn along(contact: &'a Contact, state: &State, course: Course, displacement: f64) -> Step<'a> {
         let start = state.now;
-        let rests =
-            displacement == start.displacement && course.branch.is_none() && start.force.abs() >= contact.slip_force;
-        let (force, stick) =
-            if rests { (start.force, None) } else { force_at(contact, state.origin, &course, displacement) };
-        let origin = origin_after(contact, state.origin, &course, displacement);
-        Step { contact, course, origin, start, end: Reversal { displacement, force }, stick }
+        let (force, stick) = force_at(contact, state.virgin.origin, &course, displacement);
+        let virgin = state.virgin.after(contact, &course, displacement);
+        Step { contact, course, virgin, start, end: Reversal { displacement, force }, stick }
     }
 
     /// Tangential force \[N\] after the step.
@@ -313,13 +328,21 @@ impl<'a> Step<'a> {
 
     /// Writes the step into the state it was found from, or into a copy of it.
     pub fn write(&self, state: &mut [f64]) {
-        let &mut [_, ref mut count, ref mut origin, ref mut displacement, ref mut force, ref mut reversals @ ..] =
-            state
+        let &mut [
+            _,
+            ref mut count,
+            ref mut origin,
+            ref mut slid,
+            ref mut displacement,
+            ref mut force,
+            ref mut reversals @ ..,
+        ] = state
         else {
             return;
         };
         *count = self.course.depth as f64;
-        *origin = self.origin;
+        *origin = self.virgin.origin;
+        *slid = f64::from(u8::from(self.virgin.slid));
         *displacement = self.end.displacement;
         *force = self.end.force;
         if self.course.turned {
@@ -366,9 +389,9 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
             return Err(Error::StateFull);
         }
         // The memory needs displacements only.
-        let origin = origin_after(contact, read.origin, &course, displacement);
+        let virgin = read.virgin.after(contact, &course, displacement);
         let (start, end) = (read.now, Reversal { displacement, force: 0.0 });
-        Step { contact, course, origin, start, end, stick: None }.write(dry);
+        Step { contact, course, virgin, start, end, stick: None }.write(dry);
     }
     Ok(())
 }
