@@ -59,8 +59,8 @@ impl Worst {
     fn check(&mut self, place: &str, computed: f64, expected: f64, scale: f64) {
         self.rows += 1;
         let error = if computed == expected { 0.0 } else { (computed - expected).abs() / scale };
-        // Written so that a NaN counts.
-        if !(error <= self.seen) {
+        // A NaN counts, and stays.
+        if error.is_nan() || error > self.seen {
             self.seen = error;
             self.place = format!("{place}: {computed:e}, expected {expected:e}");
         }
