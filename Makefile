@@ -59,7 +59,7 @@ uninstall:
 ## demo: run the Fortran examples and draw their figures
 demo: all
 	scripts/dependencies.sh demo
-	$(MAKE) -C fortran_examples demo PREFIX="$(CURDIR)/dist"
+	$(MAKE) -C fortran_examples demo PREFIX=../dist
 
 ## test: every test, in Rust, C, C++ and Fortran
 test:
