@@ -141,7 +141,7 @@ snippet() {
 
 step 'Rust: formatting' "$CARGO" fmt --all --check
 step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
-step 'Rust: tests' "$CARGO" test --release --workspace --locked
+step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
 step 'install, then move' install_and_move
