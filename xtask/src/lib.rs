@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use cbindgen::{Bindings, Builder, Config};
 
+const INCLUDE_GUARD: &str = "MICROSLIP_H";
+
 /// The directory of the library's package.
 fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
@@ -46,12 +48,18 @@ fn text_of(bindings: &Bindings) -> String {
 
 fn bindings() -> Bindings {
     let mut config = Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml");
+    config.include_guard = Some(INCLUDE_GUARD.to_owned());
     config.after_includes = Some(version_macros());
-    // cbindgen also takes in every public constant and every foreign function that the library
-    // calls: what belongs to the interface carries its prefix.
-    let outsiders = outsiders(&generate(&config));
-    config.export.exclude.extend(outsiders);
-    generate(&config)
+    // cbindgen takes in whatever is public and could be C: what belongs to the interface carries its prefix. Leaving an
+    // item out can bring up others that only it had covered.
+    loop {
+        let bindings = generate(&config);
+        let outsiders = outsiders(&bindings);
+        if outsiders.is_empty() {
+            return bindings;
+        }
+        config.export.exclude.extend(outsiders);
+    }
 }
 
 fn generate(config: &Config) -> Bindings {
@@ -62,15 +70,16 @@ fn generate(config: &Config) -> Bindings {
         .unwrap_or_else(|e| panic!("the source does not make a header: {e}"))
 }
 
-/// The constants and functions without the prefix of the interface.
+/// The constants, types and functions without the prefix of the interface.
 fn outsiders(bindings: &Bindings) -> Vec<String> {
     let text = text_of(bindings);
-    let constants = text
-        .lines()
-        .filter_map(|line| Some(line.strip_prefix("#define ")?.split_once(' ')?.0))
-        .filter(|name| !name.starts_with("MSLIP_"));
-    let functions = bindings.dynamic_symbols_names().filter(|name| !name.starts_with("mslip_"));
-    constants.chain(functions).map(str::to_owned).collect()
+    let declared = ["#define ", "typedef struct ", "enum "].into_iter().flat_map(|start| {
+        let rest = text.lines().filter_map(move |line| line.strip_prefix(start));
+        rest.filter_map(|rest| rest.split_ascii_whitespace().next())
+    });
+    let functions = bindings.dynamic_symbols_names();
+    let ours = |name: &str| name.to_ascii_lowercase().starts_with("mslip_") || name == INCLUDE_GUARD;
+    declared.chain(functions).filter(|name| !ours(name)).map(str::to_owned).collect()
 }
 
 /// The package's version, as macros: this crate and the library share one version.
