@@ -113,9 +113,6 @@
 // An array is too long to be addressed; in Fortran also: too short, or sizes that do not agree.
 #define MSLIP_BAD_ARRAY_SIZE 90
 
-// The virgin curve of a history.
-typedef struct Virgin Virgin;
-
 // Isotropic, linearly elastic material of one body.
 typedef struct mslip_material {
     // Young's modulus E > 0 [Pa].
@@ -176,8 +173,6 @@ typedef struct mslip_contact {
     // Prepared coefficients and marks: not to be read or written.
     double reserved[122];
 } mslip_contact;
-
-
 
 #ifdef __cplusplus
 extern "C" {

@@ -19,8 +19,11 @@ pub fn header_path() -> PathBuf {
 /// The text that the header should have.
 pub fn header() -> String {
     // In the source, brackets are escaped because they would make links, and sections are headed.
-    let text = text_of(&bindings());
-    text.replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ").replace("\n\n\n\n", "\n\n")
+    let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ");
+    // Items that were kept out have left blank lines.
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
+    lines.join("\n") + "\n"
 }
 
 /// The functions of the interface, in the order of the source.
