@@ -14,7 +14,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all install uninstall demo test header clean help
+.PHONY: all install uninstall demo demo-dependencies test header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -57,9 +57,11 @@ uninstall:
 	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" 2>/dev/null || true
 
 ## demo: run the Fortran examples and draw their figures
-demo: all
-	scripts/dependencies.sh demo
+demo: demo-dependencies all
 	$(MAKE) -C fortran_examples demo PREFIX=../dist
+
+demo-dependencies:
+	@scripts/dependencies.sh demo
 
 ## test: every test, in Rust, C, C++ and Fortran
 test:
