@@ -517,6 +517,63 @@ static void test_complex_stiffness(void)
     }
 }
 
+/* No friction: pressed together, and nothing to hold. */
+static void test_frictionless(void)
+{
+    mslip_parameters p = flat_parameters();
+    mslip_contact contact;
+    const double zero = 0.0, displacement = 1e-6, force = 1e-3;
+    double state[64];
+    size_t length = mslip_state_length(1);
+
+    p.friction_coefficient = 0.0;
+    CHECK(mslip_contact_init(&p, &contact) == MSLIP_OK);
+    CHECK(mslip_monotonic_force(&contact, 1, &displacement, out[0], out[1], out[2]) == MSLIP_OK);
+    CHECK(out[0][0] == 0.0 && out[1][0] == 0.0 && out[2][0] == 0.0);
+    CHECK(mslip_monotonic_displacement(&contact, 1, &zero, out[0], out[1], out[2]) == MSLIP_OK && out[0][0] == 0.0);
+    REFUSED(mslip_monotonic_displacement(&contact, 1, &force, out[0], out[1], out[2]), MSLIP_FORCE_EXCEEDS_SLIP);
+    CHECK(mslip_tractions(&contact, 0.0, 1, &zero, out[0], out[1]) == MSLIP_OK);
+    CHECK(out[0][0] > 0.0 && out[1][0] == 0.0);
+    CHECK(mslip_slip(&contact, 0.0, 1, &zero, out[0], out[1]) == MSLIP_OK && out[0][0] == 0.0 && out[1][0] == 0.0);
+    CHECK(mslip_complex_stiffness(&contact, 1, &displacement, out[0], out[1], out[2], out[3]) == MSLIP_OK);
+    CHECK(out[0][0] == 0.0 && out[1][0] == 0.0 && out[2][0] == 0.0 && out[3][0] == 0.0);
+    CHECK(mslip_hysteresis_loop(&contact, 1e-6, 1, out[0], out[1]) == MSLIP_OK && out[1][0] == 0.0);
+    CHECK(mslip_state_init(length, state) == MSLIP_OK);
+    CHECK(mslip_masing_update(&contact, length, state, 1e-6, state, out[0], out[1], out[2]) == MSLIP_OK);
+    CHECK(mslip_masing_update(&contact, length, state, -1e-6, state, out[0], out[1], out[2]) == MSLIP_OK);
+    CHECK(out[0][0] == 0.0 && out[1][0] == 0.0 && out[2][0] == 0.0);
+}
+
+/* The smallest and the largest displacements give finite numbers, and none in between overflows. */
+static void test_extremes(void)
+{
+    static const double size[] = { 5e-324, 1e-300, 1e-150, 1.0, 1e100, 1e150 };
+    const mslip_contact contacts[3] = { flat_contact(), cylinder_contact(), elliptic_contact() };
+    double state[64];
+    size_t length = mslip_state_length(2);
+
+    for (int c = 0; c < 3; ++c) {
+        const mslip_contact *contact = &contacts[c];
+        for (size_t i = 0; i < sizeof size / sizeof *size; ++i) {
+            const double large = size[i] > 0.5;
+            CHECK(mslip_complex_stiffness(contact, 1, &size[i], out[0], out[1], out[2], out[3]) == MSLIP_OK);
+            CHECK(isfinite(out[0][0]) && isfinite(out[1][0]) && isfinite(out[2][0]) && isfinite(out[3][0]));
+            CHECK(out[0][0] >= 0.0 && out[0][0] <= contact->initial_stiffness * (1.0 + 1e-15) && out[1][0] >= 0.0);
+            CHECK(mslip_monotonic_force(contact, 1, &size[i], out[0], out[1], out[2]) == MSLIP_OK);
+            CHECK(large ? out[0][0] == contact->slip_force
+                        : is_near(out[0][0], contact->initial_stiffness * size[i], 1e-15 * out[0][0] + 1e-300));
+            CHECK(mslip_hysteresis_loop(contact, size[i], 8, out[0], out[1]) == MSLIP_OK);
+            CHECK(fabs(out[1][3]) <= contact->slip_force && fabs(out[0][3]) <= size[i]);
+            CHECK(mslip_jenkins_equivalent(contact, size[i], out[0], out[1]) == MSLIP_OK);
+            CHECK(isfinite(out[0][0]) && out[0][0] >= 0.0 && isfinite(out[1][0]) && out[1][0] >= 0.0);
+            CHECK(mslip_state_init(length, state) == MSLIP_OK);
+            CHECK(mslip_masing_update(contact, length, state, size[i], state, out[0], out[1], out[2]) == MSLIP_OK);
+            CHECK(mslip_masing_update(contact, length, state, -size[i], state, out[0], out[1], out[2]) == MSLIP_OK);
+            CHECK(isfinite(out[2][0]) && out[2][0] >= 0.0 && (!large || out[0][0] == -contact->slip_force));
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     check_arguments(argc, argv);
@@ -532,5 +589,7 @@ int main(int argc, char **argv)
     test_hysteresis_loop();
     test_dissipated_energy();
     test_complex_stiffness();
+    test_frictionless();
+    test_extremes();
     return check_report();
 }
