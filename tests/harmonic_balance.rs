@@ -1,0 +1,616 @@
+//! Harmonic balance of two masses with one contact, by other means than the Fortran programs of `fortran_examples`.
+//!
+//! They condense the structure to the contact, work with complex amplitudes and take force and Jacobian from the library.
+//! Here all harmonics of all degrees of freedom are real unknowns, the force comes from leading the contact's memory step by
+//! step through the period, and the Jacobian from central differences. Both are to give the same motion, and both that of
+//! time marching.
+
+use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
+use microslip::masing::{self, state_init, state_length};
+use microslip::{Contact, Material, Parameters};
+use nalgebra::{DMatrix, DVector};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fortran_examples")
+}
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// A real matrix of a Matrix Market file: `coordinate` or `array`, `general` or `symmetric` with its lower triangle.
+fn matrix_market(path: &Path) -> DMatrix<f64> {
+    let text = text(path).to_lowercase();
+    let kind: Vec<&str> = text.lines().next().unwrap().split_whitespace().collect();
+    let &["%%matrixmarket", "matrix", format, "real", symmetry] = &kind[..] else { panic!("{kind:?}") };
+    let symmetric = match symmetry {
+        "symmetric" => true,
+        "general" => false,
+        _ => panic!("{symmetry}"),
+    };
+    let lines = text.lines().filter(|line| !line.starts_with('%') && !line.trim().is_empty());
+    let mut rows =
+        lines.map(|line| line.split_whitespace().map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
+    let size = rows.next().unwrap();
+    let mut matrix = DMatrix::zeros(size[0] as usize, size[1] as usize);
+    let mut set = |i: usize, j: usize, value: f64| {
+        matrix[(i, j)] = value;
+        if symmetric {
+            matrix[(j, i)] = value;
+        }
+    };
+    match format {
+        "coordinate" => {
+            let entries: Vec<_> = rows.collect();
+            assert_eq!(entries.len(), size[2] as usize);
+            entries.iter().for_each(|entry| set(entry[0] as usize - 1, entry[1] as usize - 1, entry[2]));
+        }
+        "array" => {
+            let mut values = rows.map(|row| row[0]);
+            for j in 0..size[1] as usize {
+                for i in if symmetric { j } else { 0 }..size[0] as usize {
+                    set(i, j, values.next().unwrap());
+                }
+            }
+            assert_eq!(values.next(), None);
+        }
+        _ => panic!("{format}"),
+    }
+    matrix
+}
+
+/// The variables of a namelist file as `group.name`, each a list of words; `2*x` is x twice.
+fn namelist(path: &Path) -> HashMap<String, Vec<String>> {
+    let (mut group, mut variables) = (String::new(), HashMap::new());
+    for line in text(path).lines().map(|line| line.split('!').next().unwrap().trim()) {
+        if let Some(name) = line.strip_prefix('&') {
+            group = name.to_string();
+        } else if let Some((name, values)) = line.split_once('=') {
+            let repeated = values.split(',').flat_map(|value| match value.trim().split_once('*') {
+                Some((times, value)) => vec![value.to_string(); times.parse().unwrap()],
+                None => vec![value.trim().trim_matches('\'').to_string()],
+            });
+            let before = variables.insert(format!("{group}.{}", name.trim()), repeated.collect());
+            assert!(before.is_none(), "{line} twice");
+        }
+    }
+    variables
+}
+
+/// The case `two_dof`: one excited degree of freedom, one contact to the ground.
+struct Case {
+    mass: DMatrix<f64>,
+    damping: DMatrix<f64>,
+    stiffness: DMatrix<f64>,
+    /// Amplitudes of the cosine.
+    excitation: DVector<f64>,
+    touching: usize,
+    contact: Contact,
+    harmonics: usize,
+    samples: usize,
+    frequencies: Vec<f64>,
+}
+
+fn case() -> Case {
+    let variables = namelist(&examples().join("cases/two_dof.nml"));
+    let words = |name: &str| &variables.get(name).unwrap_or_else(|| panic!("no {name}"))[..];
+    let numbers = |name: &str| words(name).iter().map(|word| word.parse().unwrap()).collect::<Vec<f64>>();
+    let number = |name: &str| numbers(name)[0];
+    let matrix = |name: &str| matrix_market(&examples().join(&words(name)[0]));
+    let [modulus, ratio] = ["contact.young_modulus", "contact.poisson_ratio"].map(numbers);
+    let body = [0, 1].map(|one| Material { young_modulus: modulus[one], poisson_ratio: ratio[one] });
+    let parameters = Parameters {
+        flat_half_width: number("contact.flat_half_width"),
+        edge_radius: number("contact.edge_radius"),
+        length: number("contact.length"),
+        normal_force: number("contact.normal_force"),
+        friction_coefficient: number("contact.friction_coefficient"),
+        material: body,
+        ..Parameters::default()
+    };
+    // What this program leaves out must not be asked for.
+    assert_eq!(words("contact.law")[0], "microslip");
+    assert_eq!(numbers("contact.dof")[1], 0.0);
+    assert_eq!(number("excitation.phase"), 0.0);
+    assert!(!variables.contains_key("contact.count") && !variables.contains_key("contact.displacement_reference"));
+    let mass = matrix("model.mass");
+    let mut excitation = DVector::zeros(mass.nrows());
+    excitation[number("excitation.dof") as usize - 1] = number("excitation.amplitude");
+    Case {
+        mass,
+        damping: matrix("model.damping"),
+        stiffness: matrix("model.stiffness"),
+        excitation,
+        touching: numbers("contact.dof")[0] as usize - 1,
+        contact: Contact::rounded_flat(&parameters).unwrap(),
+        harmonics: number("harmonic_balance.harmonics") as usize,
+        samples: number("harmonic_balance.samples") as usize,
+        frequencies: numbers("points.frequency"),
+    }
+}
+
+/// Row of the Fourier series at a phase: 1, cos t, sin t, cos 2t, ...
+fn fourier_row(coefficients: usize, phase: f64) -> Vec<f64> {
+    (0..coefficients)
+        .map(|c| {
+            let angle = c.div_ceil(2) as f64 * phase;
+            if c % 2 == 1 || c == 0 { angle.cos() } else { angle.sin() }
+        })
+        .collect()
+}
+
+/// Contact force from its displacement, coefficients [c0, cos1, sin1, ...] both.
+trait ContactForce {
+    fn force(&mut self, displacement: &[f64]) -> Vec<f64>;
+    /// Column-major.
+    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64>;
+}
+
+/// The contact's memory led through three periods; derivatives by central differences.
+struct Stepped<'a> {
+    contact: &'a Contact,
+    samples: usize,
+}
+
+impl ContactForce for Stepped<'_> {
+    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
+        let rows: Vec<Vec<f64>> = (0..self.samples)
+            .map(|sample| fourier_row(displacement.len(), 2.0 * PI * sample as f64 / self.samples as f64))
+            .collect();
+        let mut state = vec![0.0; state_length(self.samples + 1)];
+        state_init(&mut state).unwrap();
+        let mut sums = vec![0.0; displacement.len()];
+        for period in 0..3 {
+            for row in &rows {
+                let place: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
+                let step = masing::step(self.contact, &state, place).unwrap();
+                step.write(&mut state);
+                if period == 2 {
+                    sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
+                }
+            }
+        }
+        let mean = |(c, sum): (usize, f64)| sum * if c == 0 { 1.0 } else { 2.0 } / self.samples as f64;
+        sums.into_iter().enumerate().map(mean).collect()
+    }
+
+    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
+        let n = displacement.len();
+        // Rounding of 1e-16/1e-5 and truncation of (1e-5)² are both far below what Newton's method needs.
+        let width = 1e-5 * displacement.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        let mut jacobian = DMatrix::zeros(n, n);
+        for j in 0..n {
+            let mut at = |sign: f64| {
+                let mut moved = displacement.to_vec();
+                moved[j] += sign * width;
+                self.force(&moved)
+            };
+            for (i, (high, low)) in at(1.0).iter().zip(at(-1.0)).enumerate() {
+                jacobian[(i, j)] = (high - low) / (2.0 * width);
+            }
+        }
+        jacobian
+    }
+}
+
+/// The library's harmonic force with its own Jacobian.
+struct Library<'a> {
+    contact: &'a Contact,
+    memory: Vec<f64>,
+}
+
+impl Library<'_> {
+    fn new(contact: &Contact, harmonics: usize, samples: usize) -> Library<'_> {
+        let mut memory = vec![0.0; workspace_length(harmonics, samples)];
+        workspace_init(harmonics, samples, &mut memory).unwrap();
+        Library { contact, memory }
+    }
+}
+
+impl ContactForce for Library<'_> {
+    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
+        let mut force = vec![0.0; displacement.len()];
+        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+        harmonic_force(self.contact, &mut Workspace::new(&mut self.memory).unwrap(), displacement, output).unwrap();
+        force
+    }
+
+    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
+        let n = displacement.len();
+        let mut jacobian = DMatrix::zeros(n, n);
+        let output = HarmonicOutput { force: None, jacobian: Some(jacobian.as_mut_slice()), dissipated: None };
+        harmonic_force(self.contact, &mut Workspace::new(&mut self.memory).unwrap(), displacement, output).unwrap();
+        jacobian
+    }
+}
+
+/// The balance at one frequency. Unknown `coefficient * dofs + dof`.
+struct Balance<'a> {
+    case: &'a Case,
+    coefficients: usize,
+    linear: DMatrix<f64>,
+    excitation: DVector<f64>,
+}
+
+/// A motion, and the size of the residual over that of the excitation along the way to it.
+struct Solution {
+    motion: DVector<f64>,
+    residuals: Vec<f64>,
+}
+
+impl<'a> Balance<'a> {
+    fn new(case: &'a Case, frequency: f64, harmonics: usize) -> Balance<'a> {
+        let (dofs, coefficients) = (case.mass.nrows(), 2 * harmonics + 1);
+        let mut linear = DMatrix::zeros(dofs * coefficients, dofs * coefficients);
+        for harmonic in 0..=harmonics {
+            let omega = 2.0 * PI * frequency * harmonic as f64;
+            let direct = &case.stiffness - &case.mass * (omega * omega);
+            let across = &case.damping * omega;
+            let size = (dofs, dofs);
+            if harmonic == 0 {
+                linear.view_mut((0, 0), size).copy_from(&direct);
+            } else {
+                let (cosine, sine) = ((2 * harmonic - 1) * dofs, 2 * harmonic * dofs);
+                linear.view_mut((cosine, cosine), size).copy_from(&direct);
+                linear.view_mut((cosine, sine), size).copy_from(&across);
+                linear.view_mut((sine, cosine), size).copy_from(&-&across);
+                linear.view_mut((sine, sine), size).copy_from(&direct);
+            }
+        }
+        let mut excitation = DVector::zeros(dofs * coefficients);
+        excitation.rows_mut(dofs, dofs).copy_from(&case.excitation);
+        Balance { case, coefficients, linear, excitation }
+    }
+
+    fn at(&self, coefficient: usize, dof: usize) -> usize {
+        coefficient * self.case.mass.nrows() + dof
+    }
+
+    /// Coefficients of one degree of freedom.
+    fn of_dof(&self, motion: &DVector<f64>, dof: usize) -> Vec<f64> {
+        (0..self.coefficients).map(|c| motion[self.at(c, dof)]).collect()
+    }
+
+    fn residual(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DVector<f64> {
+        let mut residual = &self.linear * motion - &self.excitation;
+        for (c, force) in law.force(&self.of_dof(motion, self.case.touching)).iter().enumerate() {
+            residual[self.at(c, self.case.touching)] += force;
+        }
+        residual
+    }
+
+    fn jacobian(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DMatrix<f64> {
+        let mut jacobian = self.linear.clone();
+        let contact = law.jacobian(&self.of_dof(motion, self.case.touching));
+        for i in 0..self.coefficients {
+            for j in 0..self.coefficients {
+                jacobian[(self.at(i, self.case.touching), self.at(j, self.case.touching))] += contact[(i, j)];
+            }
+        }
+        jacobian
+    }
+
+    /// The motion with a spring of that stiffness for a contact.
+    fn with_spring(&self, stiffness: f64) -> DVector<f64> {
+        let mut linear = self.linear.clone();
+        for c in 0..self.coefficients {
+            linear[(self.at(c, self.case.touching), self.at(c, self.case.touching))] += stiffness;
+        }
+        linear.lu().solve(&self.excitation).unwrap()
+    }
+
+    /// Newton's method from a motion, steps halved while they do not help. It goes on until rounding stops it.
+    fn newton(&self, law: &mut impl ContactForce, start: DVector<f64>, share: f64) -> Solution {
+        let excitation = &self.excitation * share;
+        let residual_at = |law: &mut _, motion: &_| self.residual(law, motion) + &self.excitation - &excitation;
+        let mut motion = start;
+        let mut residual = residual_at(law, &motion);
+        let mut residuals = vec![residual.norm() / excitation.norm()];
+        for _ in 0..60 {
+            let step = self.jacobian(law, &motion).lu().solve(&residual).unwrap();
+            let halved = (0..10).map(|halvings| &motion - &step * 0.5f64.powi(halvings));
+            let better =
+                halved.map(|trial| (residual_at(law, &trial), trial)).find(|(left, _)| left.norm() < residual.norm());
+            let Some((left, next)) = better else { break };
+            (motion, residual) = (next, left);
+            residuals.push(residual.norm() / excitation.norm());
+        }
+        Solution { motion, residuals }
+    }
+
+    /// The motion, found with the excitation growing in steps that get finer until Newton's method holds.
+    fn solve(&self, law: &mut impl ContactForce) -> Solution {
+        for steps in [1, 4, 16, 64] {
+            let mut solution = Solution {
+                motion: self.with_spring(self.case.contact.initial_stiffness) / steps as f64,
+                residuals: vec![],
+            };
+            for step in 1..=steps {
+                solution = self.newton(law, solution.motion, step as f64 / steps as f64);
+            }
+            if solution.residuals.last().is_some_and(|left| *left < 1e-11) {
+                return solution;
+            }
+        }
+        panic!("no balance");
+    }
+}
+
+/// A steady period found by time marching, sampled at equal steps from the phase 0.
+struct March {
+    /// Displacement of each degree of freedom, step by step.
+    displacement: Vec<Vec<f64>>,
+    periods: usize,
+}
+
+impl March {
+    /// Newmark's method with constant average acceleration, from rest, until a period differs from the one before by less
+    /// than `change` of its size.
+    fn until_steady(case: &Case, frequency: f64, steps: usize, change: f64) -> March {
+        let omega = 2.0 * PI * frequency;
+        let h = 2.0 * PI / omega / steps as f64;
+        let dofs = case.mass.nrows();
+        let inverse =
+            (&case.mass + &case.damping * (0.5 * h) + &case.stiffness * (0.25 * h * h)).try_inverse().unwrap();
+        let by_force = inverse.column(case.touching) * (0.25 * h * h);
+        let (mut x, mut v) = (DVector::zeros(dofs), DVector::zeros(dofs));
+        let mut a = case.mass.clone().try_inverse().unwrap() * &case.excitation;
+        let mut state = vec![0.0; state_length(4096)];
+        state_init(&mut state).unwrap();
+        let mut force = 0.0;
+        let mut before: Vec<Vec<f64>> = vec![vec![0.0; steps]; dofs];
+        for periods in 1..=5000 {
+            let mut now = vec![Vec::with_capacity(steps); dofs];
+            for step in 1..=steps {
+                let phase = 2.0 * PI * step as f64 / steps as f64;
+                now.iter_mut().zip(x.iter()).for_each(|(kept, x): (&mut Vec<f64>, &f64)| kept.push(*x));
+                let (x_free, v_free) = (&x + &v * h + &a * (0.25 * h * h), &v + &a * (0.5 * h));
+                let load = &case.excitation * phase.cos() - &case.damping * &v_free - &case.stiffness * &x_free;
+                let a_free = &inverse * load;
+                // u + compliance f(u) = u_free by Newton's method: f rises.
+                let (compliance, u_free) =
+                    (by_force[case.touching], x_free[case.touching] + 0.25 * h * h * a_free[case.touching]);
+                let mut u = u_free - compliance * force;
+                let found = loop {
+                    let found = masing::step(&case.contact, &state, u).unwrap();
+                    let error = u + compliance * found.force() - u_free;
+                    if error.abs() <= 1e-13 * case.contact.slip_displacement {
+                        break found;
+                    }
+                    u -= error / (1.0 + compliance * found.stiffness());
+                };
+                found.write(&mut state);
+                force = found.force();
+                a = a_free - inverse.column(case.touching) * force;
+                x = x_free + &a * (0.25 * h * h);
+                v = v_free + &a * (0.5 * h);
+            }
+            let pairs = || now.iter().flatten().zip(before.iter().flatten());
+            let moved = pairs().map(|(now, before)| (now - before).powi(2)).sum::<f64>();
+            let size = pairs().map(|(now, _)| now * now).sum::<f64>();
+            before = now;
+            if moved <= change * change * size {
+                return March { displacement: before, periods };
+            }
+        }
+        panic!("not steady");
+    }
+}
+
+impl March {
+    fn steps(&self) -> usize {
+        self.displacement[0].len()
+    }
+
+    /// Coefficients of a degree of freedom.
+    fn harmonics(&self, dof: usize, coefficients: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; coefficients];
+        for (step, x) in self.displacement[dof].iter().enumerate() {
+            let row = fourier_row(coefficients, 2.0 * PI * step as f64 / self.steps() as f64);
+            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += x * value * 2.0 / self.steps() as f64);
+        }
+        sums[0] *= 0.5;
+        sums
+    }
+}
+
+/// A periodic displacement from its coefficients, at so many instants from the phase 0.
+fn waveform(coefficients: &[f64], instants: usize) -> Vec<f64> {
+    let value = |row: Vec<f64>| row.iter().zip(coefficients).map(|(value, coefficient)| value * coefficient).sum();
+    (0..instants).map(|k| value(fourier_row(coefficients.len(), 2.0 * PI * k as f64 / instants as f64))).collect()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+fn difference(one: &[f64], two: &[f64]) -> f64 {
+    norm(&one.iter().zip(two).map(|(one, two)| one - two).collect::<Vec<_>>())
+}
+
+/// Numbers for the log.
+fn scientific(values: &[f64]) -> Vec<String> {
+    values.iter().map(|value| format!("{value:.1e}")).collect()
+}
+
+/// Amplitude of the first harmonic.
+fn fundamental(coefficients: &[f64]) -> f64 {
+    coefficients[1].hypot(coefficients[2])
+}
+
+/// Half of the way from the lowest to the highest.
+fn swing(waveform: &[f64]) -> f64 {
+    0.5 * (waveform.iter().fold(f64::MIN, |top, x| top.max(*x)) - waveform.iter().fold(f64::MAX, |low, x| low.min(*x)))
+}
+
+/// Rows of a table `frequency_hz, dof, c0, cos1, sin1, ...` of the Fortran program against the balance here.
+fn compare(case: &Case, table: &str, name: &str) {
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(names[..5], ["frequency_hz", "dof", "c0", "cos1", "sin1"], "{name}");
+    assert_eq!(names.len(), 3 + 2 * case.harmonics, "{name}");
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|word| word.trim().parse().unwrap()).collect()).collect();
+    let dofs = case.mass.nrows();
+    assert_eq!(rows.len(), dofs * case.frequencies.len(), "{name}");
+    let mut worst: f64 = 0.0;
+    for (rows, &frequency) in rows.chunks(dofs).zip(&case.frequencies) {
+        let balance = Balance::new(case, frequency, case.harmonics);
+        let solution = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
+        for (dof, row) in rows.iter().enumerate() {
+            assert_eq!(row[..2], [frequency, (dof + 1) as f64], "{name}");
+            let here = balance.of_dof(&solution.motion, dof);
+            worst = worst.max(difference(&here, &row[2..]) / norm(&here));
+        }
+    }
+    println!("{name}: largest difference {worst:.1e} of the motion");
+    // The Fortran program leaves a residual of up to 1e-12 (its `tolerance`), which the Jacobian's inverse, near the
+    // resonances of the stuck and of the slipping contact, turns into five times that.
+    assert!(worst < 1e-11, "{name}: {worst:e}");
+}
+
+#[test]
+fn the_fortran_program_found_the_same_motion() {
+    compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
+}
+
+/// The Fortran program itself, where `MICROSLIP_PREFIX` says what is installed and there is a compiler.
+#[test]
+fn the_fortran_program_finds_the_same_motion() {
+    let compiler = std::env::var("FC").unwrap_or("gfortran".to_string());
+    let Some(prefix) = std::env::var_os("MICROSLIP_PREFIX") else { return println!("MICROSLIP_PREFIX is not set") };
+    if !Command::new(&compiler).arg("--version").output().is_ok_and(|output| output.status.success()) {
+        return println!("no {compiler}");
+    }
+    // Built in a copy: the examples may be built elsewhere at the same time, with another library.
+    let copy = Path::new(env!("CARGO_TARGET_TMPDIR")).join("harmonic_balance");
+    let _ = std::fs::remove_dir_all(&copy);
+    for directory in ["src", "cases", "model", "results"] {
+        std::fs::create_dir_all(copy.join(directory)).unwrap();
+        let entries =
+            std::fs::read_dir(examples().join(directory)).into_iter().flatten().filter(|_| directory != "results");
+        for entry in entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {
+            std::fs::copy(&entry, copy.join(directory).join(entry.file_name().unwrap())).unwrap();
+        }
+    }
+    std::fs::copy(examples().join("Makefile"), copy.join("Makefile")).unwrap();
+    let run = |command: &mut Command| {
+        let output = command.current_dir(&copy).output().unwrap();
+        assert!(output.status.success(), "{command:?}\n{}", String::from_utf8_lossy(&output.stderr));
+    };
+    let prefix = std::fs::canonicalize(&prefix).unwrap();
+    let mut make = Command::new("make");
+    // The make that may have started this is not its parent.
+    ["MAKEFLAGS", "MFLAGS", "MAKELEVEL"].iter().for_each(|name| _ = make.env_remove(name));
+    run(make.arg("build/forced_response").arg(format!("FC={compiler}")).arg(format!("PREFIX={}", prefix.display())));
+    run(Command::new("build/forced_response").args(["cases/two_dof.nml", "results"]));
+    compare(&case(), &text(&copy.join("results/two_dof_coefficients.csv")), "fresh");
+}
+
+#[test]
+fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
+    let case = case();
+    let mut regimes = [false; 2];
+    for &frequency in &case.frequencies {
+        let balance = Balance::new(&case, frequency, case.harmonics);
+        let stepped = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
+        let library = balance.solve(&mut Library::new(&case.contact, case.harmonics, case.samples));
+        let moved = norm((&stepped.motion - &library.motion).as_slice()) / norm(library.motion.as_slice());
+        // Both balances hold to rounding, and are one.
+        assert!(moved < 1e-12, "{frequency} Hz: {moved:e}");
+        println!("{frequency} Hz, moved {moved:.1e}: {:?}", scientific(&library.residuals));
+        // Once near, each residual over the excitation is at most the square of the one before: the force's curvature over
+        // its slope is of order 1 in these units. A Jacobian that is wrong by 1 % only would gain two digits a step.
+        let mut squares = 0;
+        for pair in library.residuals.windows(2).filter(|pair| (1e-11..0.1).contains(&pair[0])) {
+            let allowed = (pair[0] * pair[0]).max(1e-14);
+            // Far from the solution samples still change between the branches.
+            let near = pair[0] < 1e-2;
+            assert!(!near || pair[1] <= allowed, "{frequency} Hz: {:e} after {:e}", pair[1], pair[0]);
+            squares += usize::from(pair[1] <= allowed);
+        }
+        assert!(squares >= 2, "{frequency} Hz");
+        regimes[usize::from(
+            fundamental(&balance.of_dof(&library.motion, case.touching)) > case.contact.slip_displacement,
+        )] = true;
+    }
+    // Microslip and gross slip are both among the frequencies.
+    assert_eq!(regimes, [true; 2]);
+}
+
+/// The balance with so many harmonics as the steady motion to compare with. Its sampling error falls as the samples
+/// squared: with 1024 it is far below that of the harmonics left out.
+fn finely_sampled(case: &Case, frequency: f64, harmonics: usize) -> [Vec<f64>; 2] {
+    let balance = Balance::new(case, frequency, harmonics);
+    let solution = balance.solve(&mut Library::new(&case.contact, harmonics, 1024));
+    [0, 1].map(|dof| balance.of_dof(&solution.motion, dof))
+}
+
+/// In gross slip, which leaves no memory of how the motion began, the steady motion is the only one.
+#[test]
+fn more_harmonics_come_nearer_to_time_marching() {
+    let case = case();
+    let mut gross_slip = 0;
+    for &frequency in &case.frequencies {
+        let balances = [1, 3, 5, 9].map(|harmonics| finely_sampled(&case, frequency, harmonics));
+        if fundamental(&balances[3][case.touching]) < 1.2 * case.contact.slip_displacement {
+            continue;
+        }
+        gross_slip += 1;
+        let march = March::until_steady(&case, frequency, 1024, 1e-7);
+        // What the contact moves beyond the ninth harmonic, and the motion would change by if it did not.
+        let touching = &march.displacement[case.touching];
+        let kept = waveform(&march.harmonics(case.touching, 19), march.steps());
+        let left_out = difference(&kept, touching) / norm(touching);
+        for (dof, steady) in march.displacement.iter().enumerate() {
+            let off = [0, 1, 2, 3].map(|k| {
+                let balanced = waveform(&balances[k][dof], march.steps());
+                difference(&balanced, steady) / norm(steady)
+            });
+            let nine = &balances[3][dof];
+            let first = fundamental(nine) / fundamental(&march.harmonics(dof, 3)) - 1.0;
+            let peak = swing(&waveform(nine, march.steps())) / swing(steady) - 1.0;
+            let place = format!(
+                "{frequency} Hz, dof {}, {} periods: {:?}, left out {left_out:.1e}, fundamental {first:.1e}, swing {peak:.1e}",
+                dof + 1,
+                march.periods,
+                scientific(&off)
+            );
+            println!("{place}");
+            assert!(off.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{place}");
+            // The force that the missing harmonics would have had comes back through the contact as a few times that.
+            let bound = 4.0 * left_out;
+            assert!(left_out < 2e-3 && off[3] < bound && first.abs() < bound && peak.abs() < bound, "{place}");
+        }
+    }
+    assert!(gross_slip >= 3);
+}
+
+/// In microslip the mean displacement depends on how the motion began, by Masing's rule its amplitude does not.
+#[test]
+fn time_marching_has_the_amplitude_of_the_balance_in_microslip() {
+    let case = case();
+    let mut microslip = 0;
+    for &frequency in &case.frequencies {
+        let balance = finely_sampled(&case, frequency, 9);
+        if fundamental(&balance[case.touching]) > 0.5 * case.contact.slip_displacement {
+            continue;
+        }
+        microslip += 1;
+        let [coarse, fine] = [512, 1024].map(|steps| March::until_steady(&case, frequency, steps, 1e-8));
+        for (dof, balanced) in balance.iter().enumerate() {
+            let [coarse, fine] = [&coarse, &fine].map(|march| fundamental(&march.harmonics(dof, 3)));
+            // Newmark's own error falls as the steps squared: a third of the last change is what is left of it.
+            let limit = fine + (fine - coarse) / 3.0;
+            let (off, newmark) = (fundamental(balanced) / limit - 1.0, (limit - fine) / limit);
+            println!("{frequency} Hz, dof {}: {off:.1e}, taken off {newmark:.1e}", dof + 1);
+            // The transient that is left changes by 1e-8 a period, and the samples of the balance cost as much.
+            assert!(off.abs() < 5e-8 && off.abs() < 0.05 * newmark.abs(), "{frequency} Hz, dof {}: {off:.1e}", dof + 1);
+        }
+    }
+    assert!(microslip >= 2);
+}
