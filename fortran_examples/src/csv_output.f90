@@ -1,0 +1,76 @@
+!> Comma-separated tables with a header.
+module csv_output
+  use kinds, only: wp
+  use messages, only: fail, text
+  implicit none
+  private
+
+  type, public :: csv_file
+    integer, private :: unit = 0
+    character(len=:), allocatable, private :: line
+  contains
+    procedure :: open => open_csv
+    procedure, private :: add_text, add_integer, add_real, add_reals
+    generic :: add => add_text, add_integer, add_real, add_reals
+    procedure :: end_row
+    procedure :: close => close_csv
+  end type csv_file
+
+contains
+
+  subroutine open_csv(self, path)
+    class(csv_file), intent(inout) :: self
+    character(len=*), intent(in) :: path
+    character(len=200) :: message
+    integer :: status
+
+    open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
+    if (status /= 0) call fail(path//': cannot be written: '//trim(message))
+    self%line = ''
+  end subroutine open_csv
+
+  subroutine add_text(self, field)
+    class(csv_file), intent(inout) :: self
+    character(len=*), intent(in) :: field
+
+    if (len(self%line) > 0) self%line = self%line//','
+    self%line = self%line//trim(field)
+  end subroutine add_text
+
+  subroutine add_integer(self, field)
+    class(csv_file), intent(inout) :: self
+    integer, intent(in) :: field
+
+    call self%add_text(text(field))
+  end subroutine add_integer
+
+  !> 17 digits, so that a table read again gives the same doubles.
+  subroutine add_real(self, field)
+    class(csv_file), intent(inout) :: self
+    real(wp), intent(in) :: field
+
+    call self%add_text(text(field, '(es24.16e3)'))
+  end subroutine add_real
+
+  subroutine add_reals(self, fields)
+    class(csv_file), intent(inout) :: self
+    real(wp), intent(in) :: fields(:)
+    integer :: i
+
+    do i = 1, size(fields)
+      call self%add_real(fields(i))
+    end do
+  end subroutine add_reals
+
+  subroutine end_row(self)
+    class(csv_file), intent(inout) :: self
+
+    write (self%unit, '(a)') self%line
+    self%line = ''
+  end subroutine end_row
+
+  subroutine close_csv(self)
+    class(csv_file), intent(inout) :: self
+    close (self%unit)
+  end subroutine close_csv
+end module csv_output

@@ -1,0 +1,206 @@
+!> Forced response of a structure with friction contacts by multi-harmonic balance.
+!>
+!>     forced_response CASE DIRECTORY
+!>
+!> CASE is a file of namelist groups (cases/README.md). Written to DIRECTORY, for a case called NAME:
+!> * with a group &sweep, for every load factor,
+!>   NAME_response.csv  the response along the frequency,
+!>   NAME_peaks.csv     the resonance peaks,
+!>   NAME_loops.csv     displacement and force of every contact over a period of the peak;
+!> * with a group &points,
+!>   NAME_coefficients.csv  the harmonic coefficients of all degrees of freedom at single frequencies.
+program forced_response
+  use, intrinsic :: iso_fortran_env, only: int64
+  use case_input, only: case_data, read_case
+  use case_problem, only: prepare_problem
+  use continuation, only: follow_response, response_path, step_control
+  use csv_output, only: csv_file
+  use fourier_series, only: harmonic_amplitude, series_peak
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_at, solve_from_rest, structure_response
+  use kinds, only: path_length, pi, wp
+  use messages, only: fail, progress, text
+  use resonance, only: refine_peak
+  implicit none
+
+  integer, parameter :: loop_points = 256
+  character(len=path_length) :: case_file, directory
+  type(case_data) :: data
+
+  if (command_argument_count() /= 2) call fail('usage: forced_response CASE DIRECTORY')
+  call get_command_argument(1, case_file)
+  call get_command_argument(2, directory)
+  call read_case(trim(case_file), data)
+  if (size(data%load_factors) == 0 .and. size(data%frequencies) == 0) then
+    call fail(trim(case_file)//': a group &sweep or &points is needed')
+  end if
+  if (size(data%frequencies) > 0) call solve_points()
+  if (size(data%load_factors) > 0) call solve_sweeps()
+
+contains
+
+  !> Columns: frequency_hz, dof, then c0, cos1, sin1, ... in metres: x(t) = c0 + sum of cosk cos(k omega t) +
+  !> sink sin(k omega t), where the excitation is amplitude * cos(omega t + phase). 17 digits.
+  subroutine solve_points()
+    type(balance_problem) :: problem
+    type(balance_point) :: point
+    type(csv_file) :: table
+    real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts))
+    real(wp) :: response(2 * data%harmonics + 1, size(data%model%dof_name))
+    logical :: converged
+    integer :: i, k, dof
+
+    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
+    call table%open(trim(directory)//'/'//trim(data%name)//'_coefficients.csv')
+    call table%add('frequency_hz')
+    call table%add('dof')
+    call table%add('c0')
+    do k = 1, data%harmonics
+      call table%add('cos'//text(k))
+      call table%add('sin'//text(k))
+    end do
+    call table%end_row()
+    do i = 1, size(data%frequencies)
+      call solve_from_rest(problem, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
+      if (.not. converged) then
+        call fail('no harmonic balance found at '//text(data%frequencies(i))//' Hz within tolerance '// &
+                  text(data%tolerance))
+      end if
+      response = structure_response(problem, point)
+      do dof = 1, size(response, 2)
+        call table%add(data%frequencies(i))
+        call table%add(dof)
+        call table%add(response(:, dof))
+        call table%end_row()
+      end do
+      call progress(trim(data%name)//' '//text(i)//'/'//text(size(data%frequencies))//': '// &
+                    text(data%frequencies(i), '(f12.3)')//' Hz, '//trim(data%model%dof_name(data%response_dof))// &
+                    ' '//text(series_peak(response(:, data%response_dof)))//' m')
+    end do
+    call table%close()
+  end subroutine solve_points
+
+  subroutine solve_sweeps()
+    type(balance_problem) :: problem
+    type(balance_point) :: point
+    type(response_path) :: path
+    type(step_control) :: control
+    type(csv_file) :: responses, peaks, loops
+    real(wp), allocatable :: amplitude(:), displacement(:,:)
+    real(wp) :: omega
+    integer(int64) :: clock_start, clock_end, clock_rate
+    integer :: load, i
+    character(len=:), allocatable :: prefix
+
+    prefix = trim(directory)//'/'//trim(data%name)
+    call responses%open(prefix//'_response.csv')
+    call response_header(responses)
+    call peaks%open(prefix//'_peaks.csv')
+    call response_header(peaks)
+    call loops%open(prefix//'_loops.csv')
+    call loops%add('load')
+    call loops%add('contact')
+    call loops%add('phase_rad')
+    call loops%add('displacement_m')
+    call loops%add('force_N')
+    call loops%add('slip_part_m')
+    call loops%end_row()
+
+    allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
+    do load = 1, size(data%load_factors)
+      call system_clock(clock_start, clock_rate)
+      call prepare_problem(data, data%load_factors(load), data%harmonics, data%samples, problem)
+      call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, control, path)
+      allocate (amplitude(path%points))
+      do i = 1, path%points
+        call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
+        call response_row(responses, problem, point, load, path%omega(i), path%displacement(:, :, i), amplitude(i))
+      end do
+      call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
+      call evaluate(problem, omega, displacement, point)
+      call response_row(peaks, problem, point, load, omega, displacement, amplitude(1))
+      call write_loops(loops, problem, load, displacement)
+      call system_clock(clock_end)
+      call progress(trim(data%name)//' '//text(load)//'/'//text(size(data%load_factors))//': load factor '// &
+                    text(data%load_factors(load), '(f10.2)')//', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')// &
+                    ' um at '//text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points, '// &
+                    text(real(clock_end - clock_start, wp) / real(clock_rate, wp), '(f8.2)')//' s')
+      deallocate (amplitude)
+    end do
+    call responses%close()
+    call peaks%close()
+    call loops%close()
+  end subroutine solve_sweeps
+
+  subroutine response_header(table)
+    type(csv_file), intent(inout) :: table
+    integer :: i, k
+
+    call table%add('load')
+    call table%add('load_factor')
+    call table%add('frequency_hz')
+    call table%add('peak_m')
+    do k = 0, data%harmonics
+      call table%add('harmonic_'//text(k)//'_m')
+    end do
+    do i = 1, size(data%contacts)
+      call table%add(trim(data%contacts(i)%name)//'_normal_force_N')
+      call table%add(trim(data%contacts(i)%name)//'_dissipated_J')
+      call table%add(trim(data%contacts(i)%name)//'_smallest_stick_half_width_m')
+    end do
+    call table%end_row()
+  end subroutine response_header
+
+  !> One row for a balance that holds; `amplitude` is the peak over the period of the response.
+  subroutine response_row(table, problem, point, load, omega, displacement, amplitude)
+    type(csv_file), intent(inout) :: table
+    type(balance_problem), intent(in) :: problem
+    type(balance_point), intent(in) :: point
+    integer, intent(in) :: load
+    real(wp), intent(in) :: omega, displacement(:,:)
+    real(wp), intent(out) :: amplitude
+    real(wp) :: response(size(displacement, 1), size(data%model%dof_name)), normal_force
+    integer :: i
+
+    response = structure_response(problem, point)
+    amplitude = series_peak(response(:, data%response_dof))
+    call table%add(load)
+    call table%add(data%load_factors(load))
+    call table%add(omega / (2.0_wp * pi))
+    call table%add(amplitude)
+    call table%add(harmonic_amplitude(response(:, data%response_dof)))
+    do i = 1, size(data%contacts)
+      normal_force = data%contacts(i)%parameters%normal_force
+      if (data%contacts(i)%load_varied) normal_force = data%load_factors(load) * normal_force
+      call table%add(normal_force)
+      call table%add(point%dissipated(i))
+      call table%add(problem%contacts%smallest_stick(i, displacement(:, i)))
+    end do
+    call table%end_row()
+  end subroutine response_row
+
+  !> Beside displacement and force: the displacement less that of a contact that sticks everywhere.
+  subroutine write_loops(table, problem, load, displacement)
+    type(csv_file), intent(inout) :: table
+    type(balance_problem), intent(in) :: problem
+    integer, intent(in) :: load
+    real(wp), intent(in) :: displacement(:,:)
+    real(wp) :: u(loop_points), force(loop_points), slip_part(loop_points)
+    integer :: i, j
+
+    do i = 1, size(data%contacts)
+      call problem%contacts%steady_loop(i, displacement(:, i), u, force)
+      slip_part = 0.0_wp
+      if (problem%contacts%initial_stiffness(i) > 0.0_wp) slip_part = u - force / problem%contacts%initial_stiffness(i)
+      ! The first point again at the end closes the loop.
+      do j = 0, loop_points
+        call table%add(load)
+        call table%add(data%contacts(i)%name)
+        call table%add(2.0_wp * pi * real(j, wp) / real(loop_points, wp))
+        call table%add(u(modulo(j, loop_points) + 1))
+        call table%add(force(modulo(j, loop_points) + 1))
+        call table%add(slip_part(modulo(j, loop_points) + 1))
+        call table%end_row()
+      end do
+    end do
+  end subroutine write_loops
+end program forced_response

@@ -1,0 +1,245 @@
+!> Multi-harmonic balance of a linear structure with friction contacts, condensed to the contacts.
+!>
+!> The structure is linear, so at one frequency the relative displacements u of the contacts follow from the contact
+!> forces f(u) through the dynamic compliance C seen from the contacts:
+!>
+!>     R(u, omega) = u + C(omega) f(u) - u_free(omega) = 0,    C_k = B^T (K + i k omega D - (k omega)^2 M)^-1 B,
+!>
+!> with u_free the relative displacements without contact forces. A contact force is an internal force, positive with
+!> the relative displacement, hence its sign. Newton's method works on u alone, and R is a displacement for all contacts.
+module harmonic_balance
+  use dense_algebra, only: solve
+  use fourier_series, only: as_complex, coefficient_count
+  use friction_contacts, only: contact_set
+  use kinds, only: wp
+  use linear_structure, only: structure
+  implicit none
+  private
+  public :: contact_incidence, evaluate, newton_error, solve_at, solve_from_rest, structure_response
+
+  type, public :: balance_problem
+    type(structure) :: model
+    type(contact_set) :: contacts
+    real(wp), allocatable :: incidence(:,:)       !! B: contact forces to degrees of freedom
+    complex(wp), allocatable :: excitation(:)     !! F in Re(F exp(i omega t)), for each degree of freedom
+    integer :: harmonics = 0
+    real(wp) :: tolerance = 0.0_wp                !! of R, relative to the displacement of each contact
+  end type balance_problem
+
+  !> The balance at one frequency and one set of displacements.
+  type, public :: balance_point
+    real(wp), allocatable :: residual(:,:)        !! R, (coefficient, contact)
+    real(wp), allocatable :: jacobian(:,:)        !! dR/du, order as in memory
+    real(wp), allocatable :: by_omega(:,:)        !! dR/domega
+    real(wp), allocatable :: force(:,:)           !! f(u)
+    real(wp), allocatable :: dissipated(:)        !! per period and contact
+    real(wp) :: free_size = 0.0_wp                !! largest relative displacement without contact forces
+    !> Response of all degrees of freedom, (dof, contact, harmonic), and to the excitation.
+    complex(wp), allocatable, private :: by_force(:,:,:), by_excitation(:)
+  end type balance_point
+
+  integer, parameter :: newton_steps = 40
+
+contains
+
+  !> B for contacts between the pairs dof(1, i) and dof(2, i); 0 is the ground.
+  pure function contact_incidence(dof, size_of_model) result(incidence)
+    integer, intent(in) :: dof(:,:), size_of_model
+    real(wp) :: incidence(size_of_model, size(dof, 2))
+    integer :: i
+
+    incidence = 0.0_wp
+    do i = 1, size(dof, 2)
+      if (dof(1, i) > 0) incidence(dof(1, i), i) = 1.0_wp
+      if (dof(2, i) > 0) incidence(dof(2, i), i) = -1.0_wp
+    end do
+  end function contact_incidence
+
+  !> R and its exact derivatives.
+  subroutine evaluate(problem, omega, displacement, point)
+    type(balance_problem), intent(inout) :: problem
+    real(wp), intent(in) :: omega
+    real(wp), intent(in), contiguous :: displacement(:,:)
+    type(balance_point), intent(inout) :: point
+    complex(wp), dimension(size(problem%incidence, 1), size(problem%incidence, 1)) :: stiffness, rate
+    complex(wp) :: solution(size(problem%incidence, 1), size(problem%incidence, 2) + 1)
+    complex(wp), dimension(size(problem%incidence, 2), size(problem%incidence, 2) + 1) :: seen, seen_rate
+    complex(wp) :: residual, residual_rate
+    real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), size(displacement, 2))
+    integer :: n, contacts, m, k, i, j, row, column
+
+    n = size(problem%incidence, 1)
+    contacts = size(problem%incidence, 2)
+    m = size(displacement, 1)
+    if (.not. allocated(point%force)) then
+      allocate (point%residual(m, contacts), point%by_omega(m, contacts), point%force(m, contacts))
+      allocate (point%jacobian(m * contacts, m * contacts), point%dissipated(contacts))
+      allocate (point%by_force(n, contacts, 0:problem%harmonics), point%by_excitation(n))
+    end if
+    call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated)
+
+    do k = 0, problem%harmonics
+      stiffness = cmplx(problem%model%stiffness - (k * omega)**2 * problem%model%mass, &
+                        k * omega * problem%model%damping, wp)
+      rate = cmplx(-2.0_wp * k**2 * omega * problem%model%mass, k * problem%model%damping, wp)
+      solution(:, :contacts) = problem%incidence
+      solution(:, contacts + 1) = merge(problem%excitation, (0.0_wp, 0.0_wp), k == 1)
+      call solve(stiffness, solution)
+      ! The matrices are symmetric: B^T d(Z^-1) = -(Z^-1 B)^T dZ Z^-1.
+      seen = matmul(transpose(problem%incidence), solution)
+      seen_rate = -matmul(transpose(solution(:, :contacts)), matmul(rate, solution))
+
+      point%by_force(:, :, k) = solution(:, :contacts)
+      if (k == 1) then
+        point%by_excitation = solution(:, contacts + 1)
+        point%free_size = maxval(abs(seen(:, contacts + 1)))
+      end if
+      do i = 1, contacts
+        residual = as_complex(displacement(:, i), k) - seen(i, contacts + 1)
+        residual_rate = -seen_rate(i, contacts + 1)
+        do j = 1, contacts
+          residual = residual + seen(i, j) * as_complex(point%force(:, j), k)
+          residual_rate = residual_rate + seen_rate(i, j) * as_complex(point%force(:, j), k)
+          row = (i - 1) * m + max(2*k, 1)
+          column = (j - 1) * m
+          call compose(seen(i, j), k, contact_jacobian(:, :, j), &
+                       point%jacobian(row:row + min(k, 1), column + 1:column + m))
+        end do
+        call store(residual, k, point%residual(:, i))
+        call store(residual_rate, k, point%by_omega(:, i))
+      end do
+    end do
+    do i = 1, m * contacts
+      point%jacobian(i, i) = point%jacobian(i, i) + 1.0_wp
+    end do
+  end subroutine evaluate
+
+  !> Rows of harmonic k of (compliance times contact Jacobian), with X = c - i s.
+  pure subroutine compose(compliance, k, contact_jacobian, rows)
+    complex(wp), intent(in) :: compliance
+    integer, intent(in) :: k
+    real(wp), intent(in) :: contact_jacobian(:,:)
+    real(wp), intent(out) :: rows(:,:)
+
+    if (k == 0) then
+      rows(1, :) = real(compliance) * contact_jacobian(1, :)
+    else
+      rows(1, :) = real(compliance) * contact_jacobian(2*k, :) + aimag(compliance) * contact_jacobian(2*k + 1, :)
+      rows(2, :) = real(compliance) * contact_jacobian(2*k + 1, :) - aimag(compliance) * contact_jacobian(2*k, :)
+    end if
+  end subroutine compose
+
+  pure subroutine store(amplitude, k, coefficients)
+    complex(wp), intent(in) :: amplitude
+    integer, intent(in) :: k
+    real(wp), intent(inout) :: coefficients(:)
+
+    if (k == 0) then
+      coefficients(1) = real(amplitude)
+    else
+      coefficients(2*k) = real(amplitude)
+      coefficients(2*k + 1) = -aimag(amplitude)
+    end if
+  end subroutine store
+
+  !> Coefficients (coefficient, dof) of all degrees of freedom; `point` is the balance where it holds.
+  pure function structure_response(problem, point) result(response)
+    type(balance_problem), intent(in) :: problem
+    type(balance_point), intent(in) :: point
+    real(wp) :: response(coefficient_count(problem%harmonics), size(problem%incidence, 1))
+    complex(wp) :: amplitude
+    integer :: dof, k, j
+
+    do dof = 1, size(response, 2)
+      do k = 0, problem%harmonics
+        amplitude = merge(point%by_excitation(dof), (0.0_wp, 0.0_wp), k == 1)
+        do j = 1, size(problem%incidence, 2)
+          amplitude = amplitude - point%by_force(dof, j, k) * as_complex(point%force(:, j), k)
+        end do
+        call store(amplitude, k, response(:, dof))
+      end do
+    end do
+  end function structure_response
+
+  !> Residual over what is allowed of it: the balance holds where this is at most 1. A stuck contact moves far less than
+  !> the free structure would, whose rounding error it inherits.
+  pure function newton_error(problem, displacement, point) result(error)
+    type(balance_problem), intent(in) :: problem
+    real(wp), intent(in) :: displacement(:,:)
+    type(balance_point), intent(in) :: point
+    real(wp) :: error
+    integer :: i
+
+    error = 0.0_wp
+    do i = 1, size(displacement, 2)
+      error = max(error, norm2(point%residual(:, i)) / (problem%tolerance * norm2(displacement(:, i)) &
+                                                        + 8.0_wp * epsilon(error) * point%free_size))
+    end do
+  end function newton_error
+
+  !> Newton's method at a fixed frequency, from the displacements given; steps are halved while they do not help.
+  subroutine solve_at(problem, omega, displacement, point, converged)
+    type(balance_problem), intent(inout) :: problem
+    real(wp), intent(in) :: omega
+    real(wp), intent(inout), contiguous :: displacement(:,:)
+    type(balance_point), intent(inout) :: point
+    logical, intent(out) :: converged
+    real(wp) :: matrix(size(displacement), size(displacement)), step(size(displacement), 1)
+    real(wp) :: start(size(displacement, 1), size(displacement, 2)), size_before, fraction
+    logical :: singular
+    integer :: iteration, halving
+    integer, parameter :: halvings = 8
+
+    call evaluate(problem, omega, displacement, point)
+    do iteration = 1, newton_steps
+      converged = newton_error(problem, displacement, point) <= 1.0_wp
+      if (converged) return
+      matrix = point%jacobian
+      step(:, 1) = -reshape(point%residual, [size(displacement)])
+      call solve(matrix, step, singular)
+      if (singular) return
+      start = displacement
+      size_before = norm2(point%residual)
+      fraction = 1.0_wp
+      do halving = 0, halvings
+        displacement = start + fraction * reshape(step, shape(start))
+        call evaluate(problem, omega, displacement, point)
+        if (norm2(point%residual) < size_before .or. newton_error(problem, displacement, point) <= 1.0_wp) exit
+        fraction = 0.5_wp * fraction
+      end do
+    end do
+    converged = newton_error(problem, displacement, point) <= 1.0_wp
+  end subroutine solve_at
+
+  !> Without a neighbouring solution: the excitation grows in steps that shrink where Newton's method fails.
+  subroutine solve_from_rest(problem, omega, displacement, point, converged)
+    type(balance_problem), intent(inout) :: problem
+    real(wp), intent(in) :: omega
+    real(wp), intent(out) :: displacement(:,:)
+    type(balance_point), intent(inout) :: point
+    logical, intent(out) :: converged
+    complex(wp) :: full(size(problem%excitation))
+    real(wp) :: trial(size(displacement, 1), size(displacement, 2)), reached, growth
+    real(wp), parameter :: smallest_growth = 1.0e-3_wp
+
+    full = problem%excitation
+    displacement = 0.0_wp
+    reached = 0.0_wp
+    growth = 1.0_wp
+    do
+      trial = displacement
+      problem%excitation = min(reached + growth, 1.0_wp) * full
+      call solve_at(problem, omega, trial, point, converged)
+      if (converged) then
+        displacement = trial
+        reached = min(reached + growth, 1.0_wp)
+        growth = 2.0_wp * growth
+        if (reached >= 1.0_wp) exit
+      else
+        growth = 0.25_wp * growth
+        if (growth < smallest_growth) exit
+      end if
+    end do
+    problem%excitation = full
+  end subroutine solve_from_rest
+end module harmonic_balance
