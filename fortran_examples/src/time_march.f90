@@ -1,0 +1,249 @@
+!> Harmonic balance held against direct time integration in the steady state.
+!>
+!>     time_march CASE DIRECTORY
+!>
+!> The group &march of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from the
+!> balance with the most harmonics, which leaves little of a transient, and marches until it is periodic. Written to
+!> DIRECTORY, for a case called NAME:
+!> * NAME_comparison.csv  the differences, for every frequency and number of harmonics;
+!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact.
+!>
+!> The exit code is 1 where the peak of the balance of the case itself (&harmonic_balance) differs by more than the
+!> allowed_difference of &march.
+program time_march
+  use case_input, only: case_data, read_case
+  use case_problem, only: prepare_problem
+  use csv_output, only: csv_file
+  use dense_algebra, only: symmetric_modes
+  use fourier_series, only: series_basis, series_peak
+  use harmonic_balance, only: balance_point, balance_problem, solve_from_rest, structure_response
+  use kinds, only: path_length, pi, wp
+  use messages, only: fail, progress, text
+  use newmark, only: initial_acceleration, motion, newmark_scheme, newmark_step, prepare_newmark
+  implicit none
+
+  integer, parameter :: shown_contact = 1
+  integer, parameter :: waveform_points = 256
+
+  !> One period of what is compared.
+  type :: waveform
+    real(wp), allocatable :: response(:), displacement(:), force(:)
+  end type waveform
+
+  character(len=path_length) :: case_file, directory
+  type(case_data) :: data
+  type(csv_file) :: table, waveforms
+  integer :: i
+
+  if (command_argument_count() /= 2) call fail('usage: time_march CASE DIRECTORY')
+  call get_command_argument(1, case_file)
+  call get_command_argument(2, directory)
+  call read_case(trim(case_file), data)
+  if (size(data%march_frequencies) == 0) call fail(trim(case_file)//': the group &march is missing')
+
+  call table%open(trim(directory)//'/'//trim(data%name)//'_comparison.csv')
+  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_march_m,peak_difference,response_difference')
+  call table%add('displacement_difference,force_difference,periods,steps_per_period,change_per_period,remaining_transient')
+  call table%end_row()
+  call waveforms%open(trim(directory)//'/'//trim(data%name)//'_waveforms.csv')
+  call waveforms%add('frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
+  call waveforms%end_row()
+  do i = 1, size(data%march_frequencies)
+    call compare_at(data%march_frequencies(i))
+  end do
+  call table%close()
+  call waveforms%close()
+
+contains
+
+  !> The balances of the list, and with them that of the case itself, with fewer samples.
+  subroutine compare_at(frequency)
+    real(wp), intent(in) :: frequency
+    type(balance_problem) :: problem
+    type(waveform), allocatable :: balances(:)
+    type(waveform) :: marched
+    real(wp), allocatable :: displacement(:,:), response(:,:), peak(:)
+    integer, dimension(1 + size(data%march_harmonics)) :: harmonics, samples
+    real(wp) :: change, remaining, march_peak, difference(3)
+    integer :: k, most, periods
+
+    harmonics = [data%harmonics, data%march_harmonics]
+    samples(1) = data%samples
+    samples(2:) = data%march_samples
+    allocate (balances(size(harmonics)), peak(size(harmonics)))
+    most = maxloc(harmonics, dim=1)
+    do k = 1, size(harmonics)
+      if (k /= most) call balance_at(frequency, harmonics(k), samples(k), problem, displacement, response, &
+                                     balances(k), peak(k))
+    end do
+    call balance_at(frequency, harmonics(most), samples(most), problem, displacement, response, &
+                    balances(most), peak(most))
+    call march(frequency, problem, displacement, response, marched, periods, change, remaining)
+
+    march_peak = maxval(abs(marched%response))
+    call add_waveform(frequency, 'march', 0, data%steps_per_period, marched)
+    do k = 1, size(balances)
+      difference = [relative_difference(balances(k)%response, marched%response), &
+                    relative_difference(balances(k)%displacement, marched%displacement), &
+                    relative_difference(balances(k)%force, marched%force)]
+      call table%add(data%march_load_factor)
+      call table%add(frequency)
+      call table%add(harmonics(k))
+      call table%add(samples(k))
+      call table%add(peak(k))
+      call table%add(march_peak)
+      call table%add(abs(peak(k) / march_peak - 1.0_wp))
+      call table%add(difference)
+      call table%add(periods)
+      call table%add(data%steps_per_period)
+      call table%add([change, remaining])
+      call table%end_row()
+      call add_waveform(frequency, 'balance', harmonics(k), samples(k), balances(k))
+      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
+                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, marched '//text(1.0e6_wp * march_peak, '(f10.4)')// &
+                    ' um, difference '//text(abs(peak(k) / march_peak - 1.0_wp), '(es8.1)')//', waveform '// &
+                    text(difference(1), '(es8.1)')//', contact '//text(difference(2), '(es8.1)'))
+    end do
+    if (.not. abs(peak(1) / march_peak - 1.0_wp) <= data%allowed_difference) then
+      call fail('the peak of the balance with '//text(harmonics(1))//' harmonics at '//text(frequency)// &
+                ' Hz differs from the marched one by more than '//text(data%allowed_difference))
+    end if
+  end subroutine compare_at
+
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
+  subroutine balance_at(frequency, harmonics, samples, problem, displacement, response, waves, peak)
+    real(wp), intent(in) :: frequency
+    integer, intent(in) :: harmonics, samples
+    type(balance_problem), intent(out) :: problem
+    real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
+    type(waveform), intent(out) :: waves
+    real(wp), intent(out) :: peak
+    type(balance_point) :: point
+    logical :: converged
+
+    call prepare_problem(data, data%march_load_factor, harmonics, samples, problem)
+    allocate (displacement(2 * harmonics + 1, size(data%contacts)))
+    call solve_from_rest(problem, 2.0_wp * pi * frequency, displacement, point, converged)
+    if (.not. converged) then
+      call fail('no harmonic balance with '//text(harmonics)//' harmonics found at '//text(frequency)//' Hz')
+    end if
+    response = structure_response(problem, point)
+    peak = series_peak(response(:, data%response_dof))
+    waves%response = matmul(series_basis(harmonics, data%steps_per_period), response(:, data%response_dof))
+    allocate (waves%displacement(data%steps_per_period), waves%force(data%steps_per_period))
+    call problem%contacts%steady_loop(shown_contact, displacement(:, shown_contact), waves%displacement, waves%force)
+  end subroutine balance_at
+
+  !> Marches until the transient left is below the tolerance of the case, relative to the response.
+  subroutine march(frequency, problem, contact_displacement, response, waves, periods, change, remaining)
+    real(wp), intent(in) :: frequency, contact_displacement(:,:), response(:,:)
+    type(balance_problem), intent(in) :: problem
+    type(waveform), intent(out) :: waves
+    integer, intent(out) :: periods
+    real(wp), intent(out) :: change, remaining
+    type(newmark_scheme) :: scheme
+    type(motion) :: state
+    real(wp) :: omega, decay, basis(data%steps_per_period, size(response, 1))
+    real(wp) :: rate(size(response, 1)), excitation(size(response, 2), data%steps_per_period)
+    real(wp), allocatable :: before(:), last_period(:,:)
+    logical :: memory_full
+    integer :: k, j, renewals
+
+    omega = 2.0_wp * pi * frequency
+    call prepare_newmark(problem%model, problem%incidence, 1.0_wp / (frequency * data%steps_per_period), &
+                         [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
+    basis = series_basis(size(response, 1) / 2, data%steps_per_period)
+    ! Velocity at t = 0: the sine terms only.
+    rate = 0.0_wp
+    do k = 1, size(rate) / 2
+      rate(2*k + 1) = k * omega
+    end do
+    state%displacement = matmul(basis(1, :), response)
+    state%velocity = matmul(rate, response)
+    allocate (state%contact_force(size(data%contacts)))
+    ! The instant t = 0 comes last.
+    last_period = cshift(matmul(basis, contact_displacement), 1, dim=1)
+    call problem%contacts%start_history(last_period, state%contacts, state%contact_force)
+    state%contact_displacement = matmul(state%displacement, problem%incidence)
+    do k = 1, size(excitation, 1)
+      excitation(k, :) = real(problem%excitation(k)) * basis(:, 2) - aimag(problem%excitation(k)) * basis(:, 3)
+    end do
+    call initial_acceleration(problem%model, problem%incidence, excitation(:, 1), state)
+
+    allocate (waves%response(data%steps_per_period), source=0.0_wp)
+    allocate (waves%displacement, waves%force, mold=waves%response)
+    decay = exp(-slowest_decay(problem) / frequency)
+    renewals = 0
+    do periods = 1, data%most_periods
+      before = waves%response
+      do j = 1, data%steps_per_period
+        k = modulo(j, data%steps_per_period) + 1
+        call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
+                          memory_full)
+        if (memory_full) then
+          ! Each period of a slowly decaying motion lies within the one before, and all of them are remembered. The steady
+          ! state looked for remembers its own period alone, so the memory is made anew from the last one.
+          call problem%contacts%start_history(cshift(last_period, j - 1, dim=1), state%contacts, state%contact_force)
+          call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
+                            memory_full)
+          if (memory_full) call fail('the memory of the contacts is full right after it was made anew')
+          renewals = renewals + 1
+        end if
+        last_period(j, :) = state%contact_displacement
+        waves%response(k) = state%displacement(data%response_dof)
+        waves%displacement(k) = state%contact_displacement(shown_contact)
+        waves%force(k) = state%contact_force(shown_contact) / data%contacts(shown_contact)%count
+      end do
+      change = relative_difference(before, waves%response)
+      ! What a transient that shrinks by `decay` in each period will still change.
+      remaining = change * decay / (1.0_wp - decay)
+      if (remaining <= data%steady_tolerance) exit
+    end do
+    if (periods > data%most_periods) then
+      call fail('the motion at '//text(frequency)//' Hz is not periodic after '//text(data%most_periods)// &
+                ' periods: it still changes by '//text(change)//'; raise most_periods or steady_tolerance')
+    end if
+    call progress(text(frequency, '(f10.2)')//' Hz: periodic after '//text(periods)//' periods of '// &
+                  text(data%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
+                  ', transient left '//text(remaining, '(es8.1)')//', memory renewed '//text(renewals)//' times')
+  end subroutine march
+
+  !> Rate at which the slowest mode decays by the damping of the structure alone, which friction can only help.
+  function slowest_decay(problem) result(rate)
+    type(balance_problem), intent(in) :: problem
+    real(wp) :: rate
+    real(wp) :: omega(size(problem%excitation)), modes(size(problem%excitation), size(problem%excitation))
+    integer :: i
+
+    call symmetric_modes(problem%model%stiffness, problem%model%mass, omega, modes)
+    rate = minval([(0.5_wp * dot_product(modes(:, i), matmul(problem%model%damping, modes(:, i))), i=1, size(omega))])
+    if (rate <= 0.0_wp) call fail('time marching needs a structure whose modes are all damped')
+  end function slowest_decay
+
+  !> Largest difference over the period, relative to the largest value.
+  pure real(wp) function relative_difference(a, reference)
+    real(wp), intent(in) :: a(:), reference(:)
+    relative_difference = maxval(abs(a - reference)) / maxval(abs(reference))
+  end function relative_difference
+
+  !> `points` are the samples of a balance, or the steps of marching.
+  subroutine add_waveform(frequency, source, harmonics, points, waves)
+    real(wp), intent(in) :: frequency
+    character(len=*), intent(in) :: source
+    integer, intent(in) :: harmonics, points
+    type(waveform), intent(in) :: waves
+    integer :: j, k, stride
+
+    stride = max(1, data%steps_per_period / waveform_points)
+    do j = 1, data%steps_per_period + 1, stride
+      k = modulo(j - 1, data%steps_per_period) + 1
+      call waveforms%add(frequency)
+      call waveforms%add(source)
+      call waveforms%add(harmonics)
+      call waveforms%add(points)
+      call waveforms%add(2.0_wp * pi * real(j - 1, wp) / real(data%steps_per_period, wp))
+      call waveforms%add([waves%response(k), waves%displacement(k), waves%force(k)])
+      call waveforms%end_row()
+    end do
+  end subroutine add_waveform
+end program time_march
