@@ -1,0 +1,39 @@
+# Hysteresis loops over one period of the resonance peak. Below, the displacement is less that of a contact that sticks
+# everywhere, force / initial stiffness: what is left is slip, which a spring-slider has none of before gross slip.
+load 'plots/style.gp'
+name = 'loops'
+wide = 1060
+high = 820
+
+# Panels: contact, number of the load.
+contacts = 'damper damper damper root_1'
+numbers  = '7 10 10 1'
+
+stats 'results/cylinder_peaks.csv' using (column('load')) nooutput
+array normal_force[STATS_records]
+stats 'results/cylinder_peaks.csv' using (normal_force[int(column('load'))] = column('damper_normal_force_N')) nooutput
+loops(law) = sprintf('results/%s_loops.csv', law)
+in_panel(value) = (strcol('contact') eq contact && int(column('load')) == number ? value : NaN)
+across(dummy) = in_panel(panel < 3 ? 1e6 * column('displacement_m') : 1e9 * column('slip_part_m'))
+
+set ylabel 'tangential force (N)' offset 0.6, 0
+set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
+
+do for [extension in 'svg png'] {
+  @set_terminal
+  set multiplot layout 2, 2 margins 0.085, 0.98, 0.085, 0.955 spacing 0.1, 0.15
+  do for [panel=1:4] {
+    contact = word(contacts, panel)
+    number = int(word(numbers, panel))
+    set title sprintf(contact eq 'damper' ? 'damper at %g N' : 'flank of the root, damper at %g N', normal_force[number])
+    if (panel == 4) { set xtics 0.1 } else { set xtics autofreq }
+    if (panel < 3) { set xlabel 'relative displacement (µm)' offset 0, 0.4 } \
+    else { set xlabel 'slip part of the displacement (nm)' offset 0, 0.4 }
+    if (panel == 2) { set key top left Left reverse samplen 3 spacing 1.15 } else { unset key }
+    plot loops('cylinder') using (across(0)):'force_N' with lines ls 1 title 'microslip, cylinder', \
+         loops('flat') using (across(0)):'force_N' with lines ls 2 title 'microslip, flat', \
+         loops('spring_slider') using (across(0)):'force_N' with lines ls 3 title 'spring-slider'
+  }
+  unset multiplot
+  unset output
+}

@@ -1,0 +1,77 @@
+# Harmonic balance against Newmark's method: one period at the damper, and the differences against the number of harmonics.
+load 'plots/style.gp'
+name = 'newmark'
+wide = 1060
+high = 820
+
+set style line 21 lc rgb '#b0b0b0' lw 6.0 dt 1       # marching: broad, below the others
+set style line 22 lc rgb '#CC79A7' lw 1.8 dt (8,4)   # 1 harmonic
+set style line 23 lc rgb '#0072B2' lw 1.8 dt 1       # 5 harmonics
+set style line 24 lc rgb '#222222' lw 1.6 dt (2,3)   # 25 harmonics
+set style line 31 lc rgb '#0072B2' lw 1.8 dt 1     pt 7 ps 0.9
+set style line 32 lc rgb '#D55E00' lw 1.8 dt (8,4) pt 5 ps 0.9
+set style line 33 lc rgb '#222222' lw 1.6 dt (2,3) pt 9 ps 1.0
+
+# Columns of panels: the two cases; above, the middle one of their three frequencies.
+cases = 'newmark newmark_optimum'
+table(case)     = sprintf('results/%s_comparison.csv', case)
+waveforms(case) = sprintf('results/%s_waveforms.csv', case)
+
+# Normal forces and frequencies of the cases, in their order.
+array normal_force[2]
+array frequency[6]
+do for [c=1:2] {
+  stats table(word(cases, c)) using 'load_factor' nooutput
+  normal_force[c] = STATS_max
+  do for [i=1:3] {
+    stats table(word(cases, c)) using ($0 == 7*(i-1) ? column('frequency_hz') : NaN) nooutput
+    frequency[3*(c-1) + i] = STATS_max
+  }
+}
+same(a, b) = abs(a - b) < 1e-6 * abs(b)
+wave(source, harmonics, f, value) = (strcol('source') eq source && column('harmonics') == harmonics \
+  && (source eq 'march' || column('points') > 128) && same(column('frequency_hz'), f) ? value : NaN)
+row(f, value) = (same(column('frequency_hz'), f) && column('samples') > 128 ? value : NaN)
+
+do for [extension in 'svg png'] {
+  @set_terminal
+  set multiplot layout 2, 2 margins 0.085, 0.975, 0.085, 0.95 spacing 0.1, 0.13
+  do for [c=1:2] {
+    f = frequency[3*(c-1) + 2]
+    unset logscale
+    set title sprintf('damper at %g N, %g Hz', normal_force[c], f)
+    set xlabel 'phase of the excitation (degrees)' offset 0, 0.4
+    set ylabel 'displacement at the damper (µm)' offset 0.6, 0
+    set format '%g'
+    set xrange [0:360]
+    set xtics 0, 90, 360
+    set yrange [*:*]
+    set offsets 0, 0, graph 0.35, graph 0.05
+    if (c == 1) { set key top left Left reverse samplen 3 maxrows 2 } else { unset key }
+    plot waveforms(word(cases, c)) \
+           using (57.29578*column('phase_rad')):(wave('march', 0, f, micro(column('contact_displacement_m')))) \
+           with lines ls 21 title 'Newmark', \
+         '' using (57.29578*column('phase_rad')):(wave('balance', 1, f, micro(column('contact_displacement_m')))) \
+           with lines ls 22 title '1 harmonic', \
+         '' using (57.29578*column('phase_rad')):(wave('balance', 5, f, micro(column('contact_displacement_m')))) \
+           with lines ls 23 title '5 harmonics', \
+         '' using (57.29578*column('phase_rad')):(wave('balance', 25, f, micro(column('contact_displacement_m')))) \
+           with lines ls 24 title '25 harmonics'
+  }
+  set offsets 0, 0, 0, 0
+  set logscale y
+  set format y '10^{%T}'
+  set xlabel 'harmonics of the balance' offset 0, 0.4
+  set ylabel 'largest difference of the tip, relative' offset 0.6, 0
+  set xrange [0:26]
+  set xtics (1, 3, 5, 9, 15, 25)
+  do for [c=1:2] {
+    set title sprintf('damper at %g N', normal_force[c])
+    set yrange [3e-5:1]
+    set key top right Left reverse samplen 3
+    plot for [i=1:3] table(word(cases, c)) using 'harmonics':(row(frequency[3*(c-1) + i], column('response_difference'))) \
+      with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
+  }
+  unset multiplot
+  unset output
+}
