@@ -391,6 +391,31 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
+// The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
+// amplitude 0: the initial stiffness, and mu N.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
+// force.
+//
+// Memory: Pointers are NULL or point to one item; outputs overlap nothing.
+int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
+                                 double amplitude,
+                                 double *stiffness,
+                                 double *slip_force);
+
+// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n allow: stiffness[n] [N/m],
+// slip_force[n] [N], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
+// that carries no force.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
+//
+// Memory: Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
+int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
+                              size_t n,
+                              double *stiffness,
+                              double *slip_force,
+                              double *force_error);
+
 // mslip_complex_stiffness of n contacts, one amplitude each. Items whose active flag is 0 are skipped.
 //
 // Returns the codes of mslip_complex_stiffness; then no item has written anything.
@@ -436,31 +461,6 @@ int32_t mslip_interface_harmonic_force(size_t n,
                                        double *force,
                                        double *jacobian,
                                        double *dissipated);
-
-// The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
-// amplitude 0: the initial stiffness, and mu N.
-//
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
-// force.
-//
-// Memory: Pointers are NULL or point to one item; outputs overlap nothing.
-int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
-                                 double amplitude,
-                                 double *stiffness,
-                                 double *slip_force);
-
-// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n allow: stiffness[n] [N/m],
-// slip_force[n] [N], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
-// that carries no force.
-//
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
-//
-// Memory: Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
-int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
-                              size_t n,
-                              double *stiffness,
-                              double *slip_force,
-                              double *force_error);
 
 #ifdef __cplusplus
 }  // extern "C"

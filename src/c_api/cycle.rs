@@ -1,0 +1,237 @@
+//! One contact in cycles: loops, energy, complex stiffness, harmonic force, and the spring-sliders that stand in for it.
+
+use super::mslip_contact;
+use super::pointer::{self, check_length, input, output, set, status};
+use crate::contact::Contact;
+use crate::equivalent;
+use crate::error::Error;
+use crate::harmonic::check_amplitude;
+use crate::harmonic_force::{self, HarmonicOutput};
+use libc::size_t;
+
+/// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n equidistant instants of one
+/// period of amplitude cos(t), from t = 0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_hysteresis_loop(
+    contact: *const mslip_contact,
+    amplitude: f64,
+    n: size_t,
+    displacement: *mut f64,
+    force: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        check_length::<f64>(n)?;
+        check_amplitude(amplitude)?;
+        let (mut displacement, mut force) = unsafe { (output(displacement, n), output(force, n)) };
+        if displacement.is_none() && force.is_none() {
+            return Ok(());
+        }
+        for i in 0..n {
+            let (u, t) = contact.hysteresis_loop(amplitude, i as f64 / n as f64)?;
+            set(&mut displacement, i, || u);
+            set(&mut force, i, || t);
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Energy \[J\] dissipated per cycle between ± force_amplitude\[n\] \[N\], from 0 to mu N (Eq. 13-16).
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_dissipated_energy(
+    contact: *const mslip_contact,
+    n: size_t,
+    force_amplitude: *const f64,
+    energy: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let amplitude = unsafe { input(force_amplitude, n) }?;
+        amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
+        let Some(energy) = (unsafe { output(energy, n) }) else { return Ok(()) };
+        for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
+            *energy = contact.dissipated_energy(amplitude)?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Complex (harmonic) stiffness K' + iK'' \[N/m\] at displacement amplitude\[n\] >= 0 \[m\] and its derivatives by the amplitude
+/// \[N/m^2\] (section 3.4); an amplitude of 0 gives the initial stiffness.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_complex_stiffness(
+    contact: *const mslip_contact,
+    n: size_t,
+    amplitude: *const f64,
+    k_real: *mut f64,
+    k_imag: *mut f64,
+    dk_real: *mut f64,
+    dk_imag: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let amplitude = unsafe { input(amplitude, n) }?;
+        amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
+        let mut outputs = [k_real, k_imag, dk_real, dk_imag].map(|pointer| unsafe { output(pointer, n) });
+        for (i, &amplitude) in amplitude.iter().enumerate() {
+            write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// The outputs that are wanted, in the order of `mslip_complex_stiffness`.
+pub(super) fn write_complex_stiffness(
+    contact: &Contact,
+    amplitude: f64,
+    i: usize,
+    outputs: &mut [Option<&mut [f64]>; 4],
+) -> Result<(), Error> {
+    if outputs.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    let stiffness = contact.complex_stiffness(amplitude)?;
+    let [k_real, k_imag, dk_real, dk_imag] = outputs;
+    set(k_real, i, || stiffness.real());
+    set(k_imag, i, || stiffness.imaginary());
+    set(dk_real, i, || stiffness.real_slope());
+    set(dk_imag, i, || stiffness.imaginary_slope());
+    Ok(())
+}
+
+/// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: size_t) -> size_t {
+    harmonic_force::workspace_length(harmonics, samples)
+}
+
+/// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread.
+///
+/// Returns MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+///
+/// # Safety
+/// `workspace` is NULL or points to workspace_length numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_harmonic_workspace_init(
+    harmonics: size_t,
+    samples: size_t,
+    workspace_length: size_t,
+    workspace: *mut f64,
+) -> i32 {
+    let init = || {
+        check_length::<f64>(workspace_length)?;
+        if workspace.is_null() {
+            return Err(Error::NullPointer);
+        }
+        let workspace = unsafe { output(workspace, workspace_length) }.unwrap_or(&mut []);
+        harmonic_force::workspace_init(harmonics, samples, workspace)
+    };
+    status(init())
+}
+
+/// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
+/// state). Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\], force \[N\]; jacobian \[N/m\] is
+/// d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated \[J\] is per period.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_harmonic_force(
+    contact: *const mslip_contact,
+    workspace: *mut f64,
+    displacement: *const f64,
+    force: *mut f64,
+    jacobian: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let mut workspace = unsafe { pointer::workspace(workspace) }?;
+        let n = workspace.coefficients();
+        let displacement = unsafe { input(displacement, n) }?;
+        let output = HarmonicOutput {
+            force: unsafe { output(force, n) },
+            jacobian: unsafe { output(jacobian, n * n) },
+            dissipated: unsafe { dissipated.as_mut() },
+        };
+        harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
+    };
+    status(compute())
+}
+
+/// The spring-slider with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip force \[N\]. At the
+/// amplitude 0: the initial stiffness, and mu N.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
+/// force.
+///
+/// # Safety
+/// Pointers are NULL or point to one item; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_jenkins_equivalent(
+    contact: *const mslip_contact,
+    amplitude: f64,
+    stiffness: *mut f64,
+    slip_force: *mut f64,
+) -> i32 {
+    let compute = || {
+        let slider = equivalent::jenkins(unsafe { pointer::contact(contact) }?, amplitude)?;
+        let (mut stiffness, mut slip_force) = unsafe { (output(stiffness, 1), output(slip_force, 1)) };
+        set(&mut stiffness, 0, || slider.stiffness);
+        set(&mut slip_force, 0, || slider.slip_force);
+        Ok(())
+    };
+    status(compute())
+}
+
+/// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n allow: stiffness\[n\] \[N/m\],
+/// slip_force\[n\] \[N\], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
+/// that carries no force.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_iwan_equivalent(
+    contact: *const mslip_contact,
+    n: size_t,
+    stiffness: *mut f64,
+    slip_force: *mut f64,
+    force_error: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        check_length::<f64>(n)?;
+        let (mut stiffness, mut slip_force) = unsafe { (output(stiffness, n), output(slip_force, n)) };
+        let mut i = 0;
+        let error = equivalent::iwan(contact, n, |slider| {
+            set(&mut stiffness, i, || slider.stiffness);
+            set(&mut slip_force, i, || slider.slip_force);
+            i += 1;
+        })?;
+        set(&mut unsafe { output(force_error, 1) }, 0, || error);
+        Ok(())
+    };
+    status(compute())
+}

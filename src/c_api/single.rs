@@ -1,0 +1,376 @@
+//! One contact: preparation, tractions, monotonic curve and memory.
+
+use super::mslip_contact;
+use super::pointer::{self, check_length, input, output, set, status};
+use crate::contact::Contact;
+use crate::error::Error;
+use crate::masing;
+use crate::parameters::{EllipticParameters, Parameters};
+use core::ptr;
+use libc::size_t;
+
+/// Parameters with every number unset (NaN), so that a forgotten one is refused by name; the centre point as reference.
+/// NULL is ignored.
+///
+/// # Safety
+/// `p` is NULL or points to parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
+    if !p.is_null() {
+        unsafe { p.write(Parameters::default()) }
+    }
+}
+
+/// Elliptical parameters with every number unset (NaN). NULL is ignored.
+///
+/// # Safety
+/// `p` is NULL or points to parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
+    if !p.is_null() {
+        unsafe { p.write(EllipticParameters::default()) }
+    }
+}
+
+/// Prepares the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
+///
+/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
+/// MSLIP_OUT_OF_RANGE; then the contact is unchanged.
+///
+/// # Safety
+/// `p` and `contact` are NULL or point to what their types say.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
+    let prepare = || {
+        let parameters = unsafe { p.as_ref() }.ok_or(Error::NullPointer)?;
+        if contact.is_null() {
+            return Err(Error::NullPointer);
+        }
+        unsafe { contact.cast::<Contact>().write(Contact::rounded_flat(parameters)?) };
+        Ok(())
+    };
+    status(prepare())
+}
+
+/// Prepares an elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
+///
+/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; then the contact
+/// is unchanged.
+///
+/// # Safety
+/// `p` and `contact` are NULL or point to what their types say.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
+    let prepare = || {
+        let parameters = unsafe { p.as_ref() }.ok_or(Error::NullPointer)?;
+        if contact.is_null() {
+            return Err(Error::NullPointer);
+        }
+        unsafe { contact.cast::<Contact>().write(Contact::elliptic(parameters)?) };
+        Ok(())
+    };
+    status(prepare())
+}
+
+/// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically grown force \[N\] (Eq. 17, 21-24); 0 outside the
+/// contact. Elliptical: on the x axis.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_tractions(
+    contact: *const mslip_contact,
+    force: f64,
+    n: size_t,
+    x: *const f64,
+    pressure: *mut f64,
+    shear: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let x = unsafe { input(x, n) }?;
+        let point = contact.curve_at_force(force)?;
+        check_positions(x)?;
+        let (mut pressure, mut shear) = unsafe { (output(pressure, n), output(shear, n)) };
+        for (i, &x) in x.iter().enumerate() {
+            set(&mut pressure, i, || contact.pressure(x));
+            set(&mut shear, i, || point.shear(x));
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+fn check_positions(x: &[f64]) -> Result<(), Error> {
+    if x.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Error::BadPosition) }
+}
+
+/// Relative slip \[m\] (Eq. 15) and frictional damage parameter mu p |s| \[N/m\] (section 3.5) at x\[n\] \[m\], under a
+/// monotonically grown force \[N\]; 0 in the stick zone and outside the contact.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
+/// MSLIP_NOT_AVAILABLE for an elliptical contact.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_slip(
+    contact: *const mslip_contact,
+    force: f64,
+    n: size_t,
+    x: *const f64,
+    slip: *mut f64,
+    damage: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let x = unsafe { input(x, n) }?;
+        let point = contact.curve_at_force(force)?;
+        check_positions(x)?;
+        point.slip(0.0)?;
+        let (mut slip, mut damage) = unsafe { (output(slip, n), output(damage, n)) };
+        for (i, &x) in x.iter().enumerate() {
+            let here = point.slip(x)?;
+            set(&mut slip, i, || here);
+            set(&mut damage, i, || point.damage(x, here));
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Monotonic curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
+/// force\[n\] \[N\]. The compliance at mu N is infinite for a cylinder and an elliptical contact.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_monotonic_displacement(
+    contact: *const mslip_contact,
+    n: size_t,
+    force: *const f64,
+    displacement: *mut f64,
+    compliance: *mut f64,
+    stick_half_width: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let force = unsafe { input(force, n) }?;
+        force.iter().try_for_each(|&force| contact.check_force(force))?;
+        let (mut displacement, mut compliance) = unsafe { (output(displacement, n), output(compliance, n)) };
+        let mut stick_half_width = unsafe { output(stick_half_width, n) };
+        for (i, &force) in force.iter().enumerate() {
+            let point = contact.curve_at_force(force)?;
+            set(&mut displacement, i, || point.displacement());
+            set(&mut compliance, i, || point.compliance());
+            set(&mut stick_half_width, i, || point.stick_half_width());
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Inverse of the monotonic curve, odd in the displacement: force \[N\], stiffness \[N/m\] and stick half-width \[m\] at
+/// displacement\[n\] \[m\]. Beyond slip_displacement the force stays at mu N, and stiffness and stick half-width are 0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// Pointers are NULL or point to n numbers; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_monotonic_force(
+    contact: *const mslip_contact,
+    n: size_t,
+    displacement: *const f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    stick_half_width: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let displacement = unsafe { input(displacement, n) }?;
+        displacement.iter().try_for_each(|&displacement| crate::curve::check_displacement(displacement))?;
+        let (mut force, mut stiffness) = unsafe { (output(force, n), output(stiffness, n)) };
+        let mut stick_half_width = unsafe { output(stick_half_width, n) };
+        for (i, &displacement) in displacement.iter().enumerate() {
+            let point = contact.curve_at_displacement(displacement)?;
+            set(&mut force, i, || point.force());
+            set(&mut stiffness, i, || point.stiffness());
+            set(&mut stick_half_width, i, || point.stick_half_width());
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Doubles of a state that holds that many nested reversals.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
+    masing::state_length(reversals)
+}
+
+/// Makes a virgin state: no force, no displacement.
+///
+/// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+///
+/// # Safety
+/// `state` is NULL or points to state_length numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
+    let init = || {
+        check_length::<f64>(state_length)?;
+        if state.is_null() {
+            return Err(Error::NullPointer);
+        }
+        masing::state_init(unsafe { output(state, state_length) }.ok_or(Error::StateTooShort)?)
+    };
+    status(init())
+}
+
+/// Leads a contact from a state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated by this
+/// step \[J\] (Eq. 11, 12). state1 may be state0; where it is NULL the new state is not kept.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
+/// MSLIP_STATE_FULL where a further reversal would have to be remembered than the state holds.
+///
+/// # Safety
+/// Pointers are NULL or point to state_length numbers (states) or one; state1 is state0 or overlaps nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_update(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state0: *const f64,
+    displacement: f64,
+    state1: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let update = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        unsafe { update_one(contact, state_length, state0, displacement, state1, [force, stiffness, dissipated]) }
+    };
+    status(update())
+}
+
+/// One update; nothing is written unless all is well.
+///
+/// # Safety
+/// As `mslip_masing_update`; outputs in the order force, stiffness, dissipated.
+pub(super) unsafe fn update_one(
+    contact: &Contact,
+    state_length: usize,
+    state0: *const f64,
+    displacement: f64,
+    state1: *mut f64,
+    outputs: [*mut f64; 3],
+) -> Result<(), Error> {
+    let (step, energy) = {
+        let state = unsafe { input(state0, state_length) }?;
+        let step = masing::step(contact, state, displacement)?;
+        let wanted = outputs.get(2).is_some_and(|dissipated| !dissipated.is_null());
+        (step, if wanted { step.dissipated(state)? } else { 0.0 })
+    };
+    if !state1.is_null() {
+        if !ptr::eq(state0, state1) {
+            unsafe { ptr::copy(state0, state1, state_length) };
+        }
+        if let Some(state) = unsafe { output(state1, state_length) } {
+            step.write(state);
+        }
+    }
+    let [mut force, mut stiffness, mut dissipated] = outputs.map(|pointer| unsafe { output(pointer, 1) });
+    set(&mut force, 0, || step.force());
+    set(&mut stiffness, 0, || step.stiffness());
+    set(&mut dissipated, 0, || energy);
+    Ok(())
+}
+
+/// Leads a contact through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those of
+/// each step. state1 holds the last state and may be state0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
+/// MSLIP_STATE_FULL where the path nests more reversals than the state holds, or more than 512 beyond which a path has to
+/// be walked step by step.
+///
+/// # Safety
+/// Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_path(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state0: *const f64,
+    n: size_t,
+    displacement: *const f64,
+    state1: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let walk = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let path = unsafe { input(displacement, n) }?;
+        masing::check_path(contact, unsafe { input(state0, state_length) }?, path)?;
+        if state1.is_null() {
+            return Err(Error::NullPointer);
+        }
+        if !ptr::eq(state0, state1) {
+            unsafe { ptr::copy(state0, state1, state_length) };
+        }
+        let state = unsafe { output(state1, state_length) }.ok_or(Error::StateTooShort)?;
+        let [mut force, mut stiffness, mut dissipated] =
+            [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
+        for (i, &displacement) in path.iter().enumerate() {
+            let step = masing::step(contact, state, displacement)?;
+            if dissipated.is_some() {
+                let energy = step.dissipated(state)?;
+                set(&mut dissipated, i, || energy);
+            }
+            step.write(state);
+            set(&mut force, i, || step.force());
+            set(&mut stiffness, i, || step.stiffness());
+        }
+        Ok(())
+    };
+    status(walk())
+}
+
+/// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
+/// MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
+///
+/// # Safety
+/// Pointers are NULL or point to state_length numbers (the state) or n; outputs overlap nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_tractions(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state: *const f64,
+    n: size_t,
+    x: *const f64,
+    pressure: *mut f64,
+    shear: *mut f64,
+) -> i32 {
+    let compute = || {
+        let contact = unsafe { pointer::contact(contact) }?;
+        let state = unsafe { input(state, state_length) }?;
+        let x = unsafe { input(x, n) }?;
+        check_positions(x)?;
+        masing::shear_after(contact, state, 0.0)?;
+        let (mut pressure, mut shear) = unsafe { (output(pressure, n), output(shear, n)) };
+        for (i, &x) in x.iter().enumerate() {
+            set(&mut pressure, i, || contact.pressure(x));
+            if shear.is_some() {
+                let here = masing::shear_after(contact, state, x)?;
+                set(&mut shear, i, || here);
+            }
+        }
+        Ok(())
+    };
+    status(compute())
+}
