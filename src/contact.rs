@@ -268,3 +268,202 @@ fn strip_correction(pair: &Pair, slenderness: f64) -> f64 {
     let across = 8.0 / (PI * PI) * pair.mean(|nu| (1.0 - 2.0 * nu) / (1.0 - nu)) * slenderness;
     (1.0 - LN_2) + REDISTRIBUTION - across
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::parameters::{Material, RIGID_STRIP};
+
+    pub(crate) const TITANIUM: Material = Material { young_modulus: 114e9, poisson_ratio: 0.32 };
+
+    /// A small underplatform contact; half-widths of about 0.1 mm.
+    pub(crate) fn parameters(flat_half_width: f64) -> Parameters {
+        Parameters {
+            flat_half_width,
+            edge_radius: 5e-3,
+            length: 10e-3,
+            normal_force: 150.0,
+            friction_coefficient: 0.4,
+            material: [TITANIUM; 2],
+            ..Parameters::default()
+        }
+    }
+
+    /// Cylinder, slightly flattened, flat, and nearly all flat.
+    pub(crate) const FLATS: [f64; 4] = [0.0, 1e-6, 50e-6, 5e-3];
+
+    pub(crate) fn contact(flat_half_width: f64) -> Contact {
+        Contact::rounded_flat(&parameters(flat_half_width)).unwrap()
+    }
+
+    /// A cylinder of that ratio of 2L to b.
+    pub(crate) fn cylinder(slenderness: f64, poisson_ratio: f64, reference: i32) -> Result<Contact, Error> {
+        let body = Material { young_modulus: 2e11, poisson_ratio };
+        let half_width = 2.0 * 0.01 / slenderness;
+        let modulus = Pair::new(&[body; 2]).composite_modulus;
+        Contact::rounded_flat(&Parameters {
+            normal_force: PI * modulus * 0.01 * half_width * half_width / (4.0 * 5e-3),
+            material: [body; 2],
+            displacement_reference: reference,
+            ..parameters(0.0)
+        })
+    }
+
+    pub(crate) fn ellipse(semi_axis_x: f64, semi_axis_y: f64) -> Contact {
+        Contact::elliptic(&EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force: 150.0,
+            friction_coefficient: 0.4,
+            material: [TITANIUM; 2],
+        })
+        .unwrap()
+    }
+
+    /// Λ, from the initial stiffness.
+    fn compliance(contact: &Contact) -> f64 {
+        contact.stiffness_unit / contact.initial_stiffness
+    }
+
+    #[test]
+    fn the_half_width_obeys_equation_1() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let load = 4.0 * 150.0 / 10e-3 * 5e-3 / contact.composite_modulus;
+            let (b, sine) = (contact.half_width, flat / contact.half_width);
+            let angle = sine.asin();
+            // (π - 2φ0)/sin² φ0 - 2 cot φ0, times a² for the cylinder's sake.
+            let expected = b * b * ((PI - 2.0 * angle) - 2.0 * sine * angle.cos());
+            // What is left of terms (b/w)³ as large: 2e-4 of the digits for the flattest.
+            let lost = (1.0 - sine * sine).powf(-1.5);
+            assert!((expected / load - 1.0).abs() < 1e-15 * (4.0 + lost), "{flat}: {expected} {load}");
+        }
+    }
+
+    #[test]
+    fn unlike_bodies_have_each_their_own_compliance() {
+        let steel = Material { young_modulus: 2.1e11, poisson_ratio: 0.28 };
+        let one = Contact::rounded_flat(&Parameters { material: [steel, TITANIUM], ..parameters(20e-6) }).unwrap();
+        let other = Contact::rounded_flat(&Parameters { material: [TITANIUM, steel], ..parameters(20e-6) }).unwrap();
+        let of_body = |body: Material| {
+            let nu = body.poisson_ratio;
+            2.0 * (1.0 - nu * nu) / (PI * body.young_modulus) * ((2.0 * 10e-3 / one.half_width).ln() + nu / (1.0 - nu))
+        };
+        let expected = 10e-3 / (of_body(steel) + of_body(TITANIUM));
+        // A few units of rounding, as between both orders.
+        assert!((one.initial_stiffness / expected - 1.0).abs() < 2e-15);
+        assert!((one.initial_stiffness / other.initial_stiffness - 1.0).abs() < 2e-15);
+        assert!(one.initial_stiffness > contact(20e-6).initial_stiffness);
+    }
+
+    #[test]
+    fn a_rigid_strip_is_stiffer_by_the_corrections_named() {
+        for (nu, slenderness) in [(0.0, 4.0), (0.3, 10.0), (0.5, 100.0)] {
+            let [centre, strip] =
+                [CENTRE_POINT, RIGID_STRIP].map(|reference| cylinder(slenderness, nu, reference).unwrap());
+            let across = 8.0 / (PI * PI) * (1.0 - 2.0 * nu) / (1.0 - nu) * 2.0 / slenderness;
+            let expected = (1.0 - LN_2) + 0.093 - across;
+            assert!((compliance(&centre) - compliance(&strip) - expected).abs() < 1e-14, "{nu}");
+            assert_eq!((centre.half_width, centre.slip_force), (strip.half_width, strip.slip_force));
+        }
+        let two = cylinder(10.0, 0.3, 2).map(|_| ());
+        assert_eq!(two, Err(Error::BadDisplacementReference));
+    }
+
+    #[test]
+    fn a_length_below_half_the_half_width_is_refused() {
+        for nu in [0.0, 0.3, 0.5] {
+            for reference in [CENTRE_POINT, RIGID_STRIP] {
+                // 2L = b to 1e-9: far beyond the rounding of both.
+                let refused = cylinder(1.0 - 1e-9, nu, reference).map(|_| ());
+                assert_eq!(refused, Err(Error::LengthTooShort), "{nu}");
+                let barely = cylinder(1.0 + 1e-9, nu, reference).unwrap();
+                assert!(barely.initial_stiffness > 0.0 && compliance(&barely) > 0.0, "{nu}");
+            }
+        }
+        // A flat alone may be too wide for its length.
+        let wide = Contact::rounded_flat(&parameters(20.1e-3)).map(|_| ());
+        assert_eq!(wide, Err(Error::LengthTooShort));
+    }
+
+    /// Over numbers of any size: either refused, or finite and positive.
+    #[test]
+    fn what_is_accepted_is_representable() {
+        let sizes = [1e-300, 1e-120, 1e-30, 1e-3, 1e5, 1e40, 1e150, 1e300];
+        let (mut accepted, mut refused) = (0, 0);
+        let mut check = |contact: Result<Contact, Error>| match contact {
+            Ok(contact) => {
+                accepted += 1;
+                let Contact { half_width, slip_force, slip_displacement, initial_stiffness, slip_energy, .. } = contact;
+                for value in [half_width, slip_force, slip_displacement, initial_stiffness] {
+                    assert!(value > 0.0 && value.is_finite(), "{contact:?}");
+                }
+                // The flattest contacts dissipate less of their work than the smallest double is of 1e-200.
+                let work = slip_force * slip_displacement;
+                assert!((slip_energy > 0.0 || work < 1e-200) && slip_energy < 2.0 * work, "{contact:?}");
+            }
+            Err(error) => {
+                refused += 1;
+                assert!(matches!(error, Error::OutOfRange | Error::LengthTooShort), "{error:?}");
+            }
+        };
+        for one in sizes {
+            for two in sizes {
+                for three in sizes {
+                    for young_modulus in [1e-160, 1e11, 1e160] {
+                        let material = [Material { young_modulus, poisson_ratio: 0.3 }; 2];
+                        for flat in [0.0, 1e-200, 1e-4, 1e200] {
+                            check(Contact::rounded_flat(&Parameters {
+                                edge_radius: one,
+                                length: two,
+                                normal_force: three,
+                                material,
+                                ..parameters(flat)
+                            }));
+                        }
+                        check(Contact::elliptic(&EllipticParameters {
+                            semi_axis_x: one,
+                            semi_axis_y: two,
+                            normal_force: three,
+                            friction_coefficient: 0.3,
+                            material,
+                        }));
+                    }
+                }
+            }
+        }
+        assert!(accepted > 100 && refused > 1000, "{accepted} {refused}");
+    }
+
+    #[test]
+    fn an_open_contact_and_one_without_friction_carry_no_force() {
+        for flat in [0.0, 50e-6] {
+            let open = Contact::rounded_flat(&Parameters { normal_force: 0.0, ..parameters(flat) }).unwrap();
+            let smooth = Contact::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(flat) }).unwrap();
+            assert_eq!((open.half_width, open.pressure(0.0)), (0.0, 0.0));
+            assert_eq!((smooth.half_width, smooth.pressure(0.0)), {
+                let rough = contact(flat);
+                (rough.half_width, rough.pressure(0.0))
+            });
+            for contact in [open, smooth] {
+                assert!(contact.is_prepared() && contact.composite_modulus > 0.0);
+                let Contact { slip_force, slip_displacement, initial_stiffness, slip_energy, .. } = contact;
+                assert_eq!([slip_force, slip_displacement, initial_stiffness, slip_energy], [0.0; 4]);
+                let point = contact.curve_at_displacement(1.0).unwrap();
+                assert_eq!((point.force(), point.stiffness(), point.shear(0.0)), (0.0, 0.0, 0.0));
+                let complex = contact.complex_stiffness(1.0).unwrap();
+                assert_eq!((complex.real(), complex.imaginary()), (0.0, 0.0));
+                assert_eq!((complex.real_slope(), complex.imaginary_slope()), (0.0, 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn memory_that_was_not_prepared_is_recognised() {
+        let contact = contact(0.0);
+        assert!(contact.is_prepared());
+        assert!(!Contact { mark: 0, ..contact }.is_prepared());
+        assert!(!Contact { end_mark: 0, ..contact }.is_prepared());
+        assert!(!Contact { law: 3, ..contact }.is_prepared());
+    }
+}

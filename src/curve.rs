@@ -183,3 +183,89 @@ impl Contact {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, TITANIUM, contact, ellipse};
+    use crate::quadrature::gauss;
+    use core::f64::consts::PI;
+
+    /// Eq. 10, from the stick half-width, which enters through ln c: its digits are absolute here.
+    #[test]
+    fn the_compliance_is_that_of_the_stick_zone_and_adds_up_to_the_displacement() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let nu = TITANIUM.poisson_ratio;
+            let compliance = |force: f64| {
+                let c = contact.curve_at_force(force).unwrap().stick_half_width();
+                2.0 / (PI * contact.composite_modulus * 10e-3) * ((2.0 * 10e-3 / c).ln() + nu / (1.0 - nu))
+            };
+            for part in [1e-9, 0.1, 0.499, 0.501, 0.9, 0.99] {
+                let force = part * contact.slip_force;
+                let point = contact.curve_at_force(force).unwrap();
+                let expected = compliance(force);
+                // Each of a logarithm's few units.
+                assert!((point.compliance() / expected - 1.0).abs() < 3e-15, "{flat} {part}");
+                assert!((point.stiffness() * point.compliance() - 1.0).abs() < 3e-15, "{flat} {part}");
+                // Panels of 1/64 keep the logarithm at mu N, 0.01 away, a panel's length off.
+                let panels: f64 = (0..64)
+                    .map(|panel| gauss(force / 64.0, |step| compliance(force / 64.0 * panel as f64 + step)))
+                    .sum();
+                assert!((point.displacement() / panels - 1.0).abs() < 1e-13, "{flat} {part}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_curve_ends_at_mu_n_and_a_flat_leaves_it_with_a_kink() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let end = contact.curve_at_force(contact.slip_force).unwrap();
+            assert_eq!(end.displacement(), contact.slip_displacement);
+            assert_eq!(end.stick_half_width() == 0.0, flat == 0.0);
+            // exp(-λ) of λ = ln(b/a): a few units for each unit of λ.
+            assert!((end.stick_half_width() - flat).abs() <= 1e-14 * flat, "{flat} {}", end.stick_half_width());
+            assert_eq!(end.compliance().is_infinite(), flat == 0.0);
+            let beyond = contact.curve_at_displacement(-2.0 * contact.slip_displacement).unwrap();
+            assert_eq!((beyond.force(), beyond.stiffness()), (-contact.slip_force, 0.0));
+            assert_eq!((beyond.displacement(), beyond.stick_half_width()), (-contact.slip_displacement, 0.0));
+        }
+    }
+
+    #[test]
+    fn all_of_the_contact_is_at_mu_p_under_mu_n_and_none_at_rest() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let (end, rest) =
+                (contact.curve_at_force(-contact.slip_force).unwrap(), contact.curve_at_force(0.0).unwrap());
+            for place in [0.0, 0.3, -0.7, 0.999, 1.0, 1.5] {
+                let x = place * contact.half_width;
+                let limit = 0.4 * contact.pressure(x);
+                assert!((end.shear(x) + limit).abs() <= 4e-16 * limit, "{flat} {place}");
+                assert_eq!((rest.shear(x), rest.slip(x)), (0.0, Ok(0.0)));
+                let slip = end.slip(x).unwrap();
+                assert!(slip <= 0.0);
+                // mu p |s|, to the rounding of two products.
+                assert!((end.damage(x, slip) + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
+            }
+        }
+    }
+
+    #[test]
+    fn force_and_displacement_are_refused_by_name() {
+        let contact = contact(50e-6);
+        let at_force = |force: f64| contact.curve_at_force(force).map(|point| point.force());
+        let limit = contact.slip_force;
+        assert_eq!(at_force(limit * (1.0 + 4.0 * f64::EPSILON)), Ok(limit));
+        assert_eq!(at_force(-limit * (1.0 + 4.0 * f64::EPSILON)), Ok(-limit));
+        assert_eq!(at_force(limit * (1.0 + 1e-13)), Err(Error::ForceExceedsSlip));
+        assert_eq!(at_force(f64::NAN), Err(Error::BadForce));
+        assert_eq!(at_force(f64::NEG_INFINITY), Err(Error::BadForce));
+        let at_displacement = |x: f64| contact.curve_at_displacement(x).map(|point| point.force());
+        assert_eq!(at_displacement(1e150), Ok(limit));
+        assert_eq!(at_displacement(-1.1e150), Err(Error::BadDisplacement));
+        assert_eq!(at_displacement(f64::NAN), Err(Error::BadDisplacement));
+        assert_eq!(ellipse(1e-4, 1e-3).curve_at_force(1.0).unwrap().slip(0.0), Err(Error::NotAvailable));
+    }
+}

@@ -167,3 +167,138 @@ impl ContactFamily for Elliptic {
 fn lost_size(member: &Member) -> f64 {
     if member.excess < 1e300 { member.excess / (1.0 + member.excess) } else { 1.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Contact;
+    use crate::contact::tests::{cylinder, ellipse};
+    use crate::family::integrate;
+    use crate::parameters::{CENTRE_POINT, EllipticParameters};
+
+    fn like(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
+        [Material { young_modulus, poisson_ratio }; 2]
+    }
+
+    #[test]
+    fn a_sphere_has_the_stiffness_of_mindlin() {
+        let radius = 0.3e-3;
+        let material = [
+            Material { young_modulus: 2.1e11, poisson_ratio: 0.3 },
+            Material { young_modulus: 7e10, poisson_ratio: 0.42 },
+        ];
+        let compliance = Elliptic::initial_compliance(radius, radius, &material);
+        let shear = |body: Material| 0.5 * body.young_modulus / (1.0 + body.poisson_ratio);
+        let inverse: f64 = material.iter().map(|body| (2.0 - body.poisson_ratio) / shear(*body)).sum();
+        assert!((compliance * 8.0 * radius / inverse - 1.0).abs() < 1e-15);
+    }
+
+    /// The example `cattaneo` of the program CONTACT; millimetres and newtons, numbers given to five digits. The friction
+    /// work is that of one monotonic loading, a quarter of a cycle's.
+    #[test]
+    fn cattaneos_problem_has_the_shift_and_the_friction_work_known() {
+        let (normal_force, radius, friction, ratio) = (9.1954, 50.0, 0.4, 0.42);
+        let material = like(200.0 * 2.0 * (1.0 + ratio), ratio);
+        let modulus = 200.0 * (1.0 + ratio) / (1.0 - ratio * ratio);
+        let size: f64 = (0.75 * normal_force * radius / modulus).cbrt();
+        let contact = Contact::elliptic(&EllipticParameters {
+            semi_axis_x: size,
+            semi_axis_y: size,
+            normal_force,
+            friction_coefficient: friction,
+            material,
+        })
+        .unwrap();
+        let force = 7.0 / 8.0 * friction * normal_force;
+        let point = contact.curve_at_force(force).unwrap();
+        let work = 0.25 * contact.dissipated_energy(force).unwrap();
+        assert!((point.displacement() - 8.1724e-3).abs() < 0.5e-7, "{}", point.displacement());
+        assert!((work - 2.7554e-3).abs() < 0.5e-7, "{work}");
+        // Half of the contact's size sticks: (1 - 7/8)^(1/3).
+        assert!((point.stick_half_width() / size - 0.5).abs() < 4e-16);
+    }
+
+    #[test]
+    fn a_long_ellipse_tends_to_the_cylinder() {
+        let nu = 0.3;
+        for slenderness in [40.0, 400.0, 4000.0_f64] {
+            let line = cylinder(slenderness, nu, CENTRE_POINT).unwrap();
+            let compliance = Elliptic::initial_compliance(line.half_width, 0.01 / 2.0, &like(2e11, nu));
+            // Both integrals for k' = b/l → 0, to the next term.
+            let (square, log) = (16.0 / (slenderness * slenderness), slenderness.ln());
+            let next = (1.0 - nu) * 0.25 * (log - 1.0) + nu * (0.75 - 0.5 * log);
+            let expected = square * next / ((1.0 - nu) * log + nu);
+            let off = compliance * line.initial_stiffness - 1.0;
+            // The term after that is k'⁴ ln k', and both compliances are rounded.
+            assert!((off - expected).abs() < square * square * log + 2e-15, "{slenderness}: {off:e} {expected:e}");
+        }
+    }
+
+    #[test]
+    fn swapped_axes_share_one_elliptic_integral() {
+        for (one, two) in [(1.0, 1.0), (1.0, 1.01), (1e-3, 0.2), (1e-9, 1.0)] {
+            let ((all, along), (same, across)) = (cerruti_integrals(one, two), cerruti_integrals(two, one));
+            // cos² and sin² add up to 1; a share of nearly all or nothing has its error in the other.
+            assert!((all / same - 1.0).abs() < 1e-15 && ((along + across) / all - 1.0).abs() < 1e-15, "{one} {two}");
+            let compliance = |x: f64, y: f64, nu: f64| Elliptic::initial_compliance(x, y, &like(1.0, nu));
+            assert!((compliance(one, two, 0.0) / compliance(two, one, 0.0) - 1.0).abs() < 1e-15);
+            // With Poisson's ratio the contact that is long along the force is the softer one.
+            assert!(one == two || compliance(two, one, 0.3) > compliance(one, two, 0.3));
+        }
+    }
+
+    #[test]
+    fn the_integrals_are_those_of_cerruti() {
+        for (along, across) in [(1.0, 1.0), (1.0, 0.7), (0.3, 1.1)] {
+            // The midpoint rule over a period errs by ((l-b)/(l+b))⁶⁴, 4e-16 of these axes, and by the rounding of its sum.
+            let (mut all, mut cosine) = (0.0, 0.0);
+            for k in 0..64 {
+                let angle = PI * (k as f64 + 0.5) / 64.0;
+                let (sine, cos) = angle.sin_cos();
+                let term = PI / 128.0 / (across * cos).hypot(along * sine);
+                all += term;
+                cosine += term * cos * cos;
+            }
+            let (j, j_cos) = cerruti_integrals(along, across);
+            assert!((j / all - 1.0).abs() < 4e-15 && (j_cos / cosine - 1.0).abs() < 4e-15, "{along} {across}");
+        }
+    }
+
+    #[test]
+    fn series_and_closed_form_meet() {
+        // Below 1/2 the series, above the closed form: within 1e-12 of the change both have the same tangent.
+        let family = Elliptic;
+        let at = |tau: f64| family.at_load(Split { lost: tau, rest: 1.0 - tau });
+        let (low, high) = (at(0.5), at(0.5 + 1e-12));
+        let step = 1e-12 * family.compliance(&low);
+        assert!((high.approach.lost - low.approach.lost - step).abs() < 1e-15);
+        assert!((high.excess - low.excess).abs() < 2e-12);
+        let slope = family.dissipation_slope(&low);
+        assert!((family.dissipation(&high) - family.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
+        // The whole cycle, and its integral over the family: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
+        let end = family.dissipation(&family.at_load_rest(0.0));
+        let sum = integrate(&family, 0.0, 1.0, |station| {
+            let size = (station.approach.rest / SLIP_APPROACH).sqrt();
+            let rest = size * size * size;
+            4.0 * (1.0 - rest) * rest * station.excess_rate
+        });
+        assert!((end - 1.2).abs() < 4e-16 && (sum - 1.2).abs() < 4e-15, "{end} {sum}");
+    }
+
+    #[test]
+    fn tractions_on_the_axis_are_hertz_less_the_stick_ellipse() {
+        let (x_axis, y_axis) = (0.1e-3, 0.4e-3);
+        let contact = ellipse(x_axis, y_axis);
+        let peak = 1.5 * 150.0 / (PI * x_axis * y_axis);
+        let point = contact.curve_at_force(0.6 * contact.slip_force).unwrap();
+        let stick = point.stick_half_width();
+        for part in [0.0, 0.5, 0.9, 0.99, 1.0, 1.1] {
+            let x = part * x_axis;
+            let root = |size: f64| (1.0 - (x / size) * (x / size)).max(0.0).sqrt();
+            // The stick ellipse carries σ³ of the load on σ² of the area.
+            let shear = 0.4 * peak * (root(x_axis) - stick / x_axis * root(stick));
+            assert!((contact.pressure(x) - peak * root(x_axis)).abs() < 1e-14 * peak, "{part}");
+            assert!((point.shear(x) - shear).abs() < 1e-14 * peak, "{part}");
+        }
+    }
+}

@@ -161,11 +161,16 @@ impl ContactFamily for RoundedFlat {
     }
 
     fn pressure(&self, place: &Place) -> f64 {
-        traction::pressure_between(self.flat, 0.0, self.w, place) * 4.0 / (PI * self.load)
+        traction::pressure_between(self.flat, 0.0, self.w, self.w * self.w, place) * 4.0 / (PI * self.load)
     }
 
     fn shear(&self, place: &Place, stick: &Member) -> f64 {
-        traction::pressure_between(self.flat, self.stick(stick).w, self.w, place) * 4.0 / (PI * self.load)
+        let inner = self.w * self.measure(stick);
+        let squares = match stick.measure {
+            Some(_) => (self.w - inner) * (self.w + inner),
+            None => -(-2.0 * stick.excess).exp_m1(),
+        };
+        traction::pressure_between(self.flat, inner, self.w, squares, place) * 4.0 / (PI * self.load)
     }
 
     fn slip(&self, place: &Place, stick: &Member) -> Option<f64> {
@@ -237,5 +242,116 @@ impl Series {
     /// The coefficient of the product that both, known equally far, have last in common.
     fn times(&self, other: &Series) -> f64 {
         self.known().iter().zip(other.known().iter().rev()).map(|(one, two)| one * two).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::{ContactFamily, integrate};
+
+    /// A contact by its ψ, and a compliance of its own.
+    fn family(psi: f64) -> RoundedFlat {
+        RoundedFlat::new(&Indentation { flat: psi.cos(), w: psi.sin(), half_width: 1.0, psi }, 3.0)
+    }
+
+    /// The cylinder, by its angle and by no flat at all, down to the nearly flat.
+    fn families() -> impl Iterator<Item = RoundedFlat> {
+        let cylinder = RoundedFlat::new(&Indentation::new(0.0, 1.0), 3.0);
+        [1.57, 1.2, 0.7, 0.05, 1e-4].map(family).into_iter().chain([cylinder])
+    }
+
+    fn at(family: &RoundedFlat, tau: f64) -> Member {
+        family.at_load(Split { lost: tau, rest: 1.0 - tau })
+    }
+
+    #[test]
+    fn the_series_and_the_closed_form_are_one_curve() {
+        for family in families() {
+            for tau in [0.5, 0.45, 0.3, 0.1] {
+                let (series, closed) = (at(&family, tau), family.at_load_rest(1.0 - tau));
+                // The closed form's differences are good to a few units of Λ.
+                assert!((series.approach.lost - closed.approach.lost).abs() < 4e-15, "{tau}");
+                assert!((series.approach.rest - closed.approach.rest).abs() < 4e-15, "{tau}");
+                assert!((series.excess - closed.excess).abs() < 4e-15, "{tau}");
+                // Both measures come from 1 - c²; the size itself is the same number by two ways.
+                assert!((family.size(&series) - family.size(&closed)).abs() < 4e-15, "{tau}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_formulas_give_the_energy() {
+        for family in families() {
+            let kappa = family.origin().sums(0.0).curvature;
+            for tau in [0.5, 0.4, 0.25] {
+                let member = at(&family, tau);
+                let series = family.dissipation(&member);
+                let beyond = family.dissipation_beyond_half(&family.at_load_rest(1.0 - tau));
+                // The closed form is a difference of terms of size ψ², λ and h, which go with the curvature.
+                assert!((series - beyond).abs() < 1e-14 * kappa.max(1e-2), "{tau} {series} {beyond}");
+                let panels = |t: f64| 4.0 * t * (tau - t) * family.origin().sums(t).curvature;
+                let sum = crate::quadrature::gauss(tau, panels);
+                assert!((series / sum - 1.0).abs() < 1e-13, "{tau} {series} {sum}");
+            }
+            // Gross slip: e = 4 ∫ t (1 - t) h'' dt over the whole family.
+            let end = family.dissipation(&family.at_load_rest(0.0));
+            let sum = integrate(&family, 0.0, 1.0, |station| {
+                let size = (family.slip_approach() - station.approach.lost).max(0.0);
+                let rest = family.at_approach_rest(size).load.rest;
+                4.0 * (1.0 - rest) * rest * station.excess_rate
+            });
+            assert!((end / sum - 1.0).abs() < 1e-9, "{end} {sum}");
+        }
+    }
+
+    #[test]
+    fn a_station_is_the_member_of_its_measure() {
+        for family in families() {
+            for rest in [1e-6, 0.01, 0.2, 0.4999] {
+                let member = family.at_load_rest(rest);
+                let measure = family.measure(&member);
+                let station = family.station(measure);
+                assert!((station.approach.lost - member.approach.lost).abs() < 4e-15, "{rest}");
+                assert!((station.approach.rest / member.approach.rest - 1.0).abs() < 4e-15, "{rest}");
+                assert!((station.compliance - family.compliance(&member)).abs() < 4e-15, "{rest}");
+                // The rates, by central differences: (1e-4)²/6 times curvatures of order 1/measure².
+                let h = 1e-4 * measure;
+                let (low, high) = (family.station(measure - h), family.station(measure + h));
+                let approach = (high.approach.rest - low.approach.rest) / (2.0 * h);
+                assert!((approach / (station.load_rate * station.compliance) - 1.0).abs() < 1e-7, "{rest}");
+                let excess = (low.compliance - high.compliance) / (2.0 * h);
+                // Rounding of the compliance, over the width of the difference.
+                assert!((excess - station.excess_rate).abs() < 1e-7 * station.excess_rate + 1e-15 / h, "{rest}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_finds_the_member() {
+        for family in families() {
+            for rest in [0.0, 1e-12, 1e-3, 0.3, 0.4999] {
+                let member = family.at_load_rest(rest);
+                let back = family.at_approach_rest(member.approach.rest);
+                // A relative error of the approach's rest is one of the load's, as long as both shrink together.
+                assert!((back.load.rest - rest).abs() <= 4e-15 * rest, "{rest} {}", back.load.rest);
+            }
+        }
+    }
+
+    #[test]
+    fn the_cylinder_has_an_elementary_curve() {
+        let family = RoundedFlat::new(&Indentation::new(0.0, 1.0), 3.0);
+        for tau in [1e-8, 1e-3, 0.2, 0.499, 0.5, 0.501, 0.9, 0.999999] {
+            let (member, rest) = (at(&family, tau), 1.0 - tau);
+            // h = ½ [τ + (1-τ) ln(1-τ)], its slope -½ ln(1-τ).
+            let h = 0.5 * (tau + rest * (-tau).ln_1p());
+            assert!((member.approach.lost - 3.0 * tau - h).abs() < 2e-15, "{tau}");
+            assert!((member.excess + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + member.excess), "{tau}");
+            assert!((family.size(&member) - rest.sqrt()).abs() < 2e-15, "{tau}");
+            // e = τ (2-τ) + 2 (1-τ) ln(1-τ), a difference of terms of size 2τ.
+            let energy = tau * (2.0 - tau) + 2.0 * rest * (-tau).ln_1p();
+            assert!((family.dissipation(&member) - energy).abs() < 2e-15 * tau.max(0.5), "{tau}");
+        }
     }
 }

@@ -19,8 +19,9 @@ use crate::quadrature::gauss;
 /// How much smaller than its terms a sum may be before the quadrature takes over: six bits lost.
 const CANCELLED: f64 = 1.0 / 64.0;
 
-/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the members with w between `from` and `to`, lengths in the units of the flat.
-pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, place: &Place) -> f64 {
+/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the members with w between `from` and `to`, lengths in the units of the flat. A narrow
+/// slip zone needs the difference of their squares, `squares`, by itself.
+pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, place: &Place) -> f64 {
     let outside = outside(flat, place);
     let edge = outside.max(0.0).sqrt();
     if edge >= to {
@@ -39,15 +40,16 @@ pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, place: &Place) -> 
         return closed;
     }
     let zeta = |w: f64| (w * w - outside).max(0.0).sqrt();
+    let squares = if from > edge { squares } else { to * to - edge * edge };
     if outside < 0.0 {
-        gauss(to - start, |step| {
+        gauss(squares / (to + start), |step| {
             let w = start + step;
             w.atan2(flat) * w / zeta(w).max(TINY)
         })
     } else {
         // In ζ the root at c' = x is gone.
         let first = if from > edge { zeta(from) } else { 0.0 };
-        let length = (to - start) * (to + start) / (zeta(to) + first).max(TINY);
+        let length = squares / (zeta(to) + first).max(TINY);
         gauss(length, |step| {
             let zeta = first + step;
             (zeta * zeta + outside).sqrt().atan2(flat)
