@@ -334,7 +334,7 @@ pub(crate) mod tests {
             let angle = sine.asin();
             // (π - 2φ0)/sin² φ0 - 2 cot φ0, times a² for the cylinder's sake.
             let expected = b * b * ((PI - 2.0 * angle) - 2.0 * sine * angle.cos());
-            // What is left of terms (b/w)³ as large: 2e-4 of the digits for the flattest.
+            // Eq. 1 as it stands is a difference, (w/b)³ of its terms, and loses as many digits.
             let lost = (1.0 - sine * sine).powf(-1.5);
             assert!((expected / load - 1.0).abs() < 1e-15 * (4.0 + lost), "{flat}: {expected} {load}");
         }

@@ -270,11 +270,10 @@ mod tests {
         for family in families() {
             for tau in [0.5, 0.45, 0.3, 0.1] {
                 let (series, closed) = (at(&family, tau), family.at_load_rest(1.0 - tau));
-                // The closed form's differences are good to a few units of Λ.
+                // The closed form's differences are good to a few units of rounding of Λ = 3.
                 assert!((series.approach.lost - closed.approach.lost).abs() < 4e-15, "{tau}");
                 assert!((series.approach.rest - closed.approach.rest).abs() < 4e-15, "{tau}");
                 assert!((series.excess - closed.excess).abs() < 4e-15, "{tau}");
-                // Both measures come from 1 - c²; the size itself is the same number by two ways.
                 assert!((family.size(&series) - family.size(&closed)).abs() < 4e-15, "{tau}");
             }
         }
