@@ -414,3 +414,263 @@ pub fn shear_after(contact: &Contact, state: &[f64], x: f64) -> Result<f64, Erro
     }
     Ok(sum)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact, ellipse};
+    use std::vec;
+    use std::vec::Vec;
+
+    fn virgin(reversals: usize) -> Vec<f64> {
+        let mut state = vec![0.0; state_length(reversals)];
+        state_init(&mut state).unwrap();
+        state
+    }
+
+    /// Leads a state to displacements over that of gross slip; the force at the end.
+    fn lead(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
+        let mut force = f64::NAN;
+        for displacement in path {
+            let step = step(contact, state, displacement * contact.slip_displacement).unwrap();
+            step.write(state);
+            force = step.force();
+        }
+        force
+    }
+
+    fn on_curve(contact: &Contact, displacement: f64) -> f64 {
+        contact.curve_at_displacement(displacement * contact.slip_displacement).unwrap().force()
+    }
+
+    /// Numbers from -1 to 1 without a pattern, the same every time.
+    fn scattered(count: usize, seed: u64) -> impl Iterator<Item = f64> {
+        let mut bits = seed;
+        (0..count).map(move |_| {
+            bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        })
+    }
+
+    #[test]
+    fn memory_that_is_no_state_is_refused() {
+        let contact = contact(50e-6);
+        let mut good = virgin(3);
+        lead(&contact, &mut good, &[0.5, -0.2, 0.1]);
+        assert_eq!(good.get(1), Some(&2.0));
+        let refuses = |state: &[f64], error: Error| {
+            assert_eq!(step(&contact, state, 0.0).map(|_| ()), Err(error));
+            assert_eq!(check_step(&contact, state, 0.0), Err(error));
+            assert_eq!(check_path(&contact, state, &[0.0]), Err(error));
+            assert_eq!(shear_after(&contact, state, 0.0), Err(error));
+        };
+        for (place, value) in [
+            (0, 0.0),
+            (0, f64::NAN),
+            (1, f64::NAN),
+            (1, 1.5),
+            (1, -1.0),
+            (1, 4.0),
+            (1, 1e300),
+            (2, f64::NAN),
+            (3, 0.5),
+            (4, f64::INFINITY),
+            (5, f64::NAN),
+            (6, f64::NAN),
+            (9, f64::NEG_INFINITY),
+        ] {
+            let mut bad = good.clone();
+            bad[place] = value;
+            refuses(&bad, Error::BadState);
+        }
+        refuses(good.get(..HEADER - 1).unwrap(), Error::StateTooShort);
+        // One that was cut holds fewer reversals than it says; what lies beyond them is not read.
+        refuses(good.get(..HEADER + 2).unwrap(), Error::BadState);
+        good[10] = f64::NAN;
+        assert!(step(&contact, &good, 0.0).is_ok());
+        assert_eq!(state_init(&mut [0.0; HEADER - 1]), Err(Error::StateTooShort));
+        assert_eq!(step(&contact, &good, f64::NAN).map(|_| ()), Err(Error::BadDisplacement));
+    }
+
+    #[test]
+    fn a_full_state_refuses_the_step_and_goes_on_with_others() {
+        let contact = contact(50e-6);
+        let mut state = virgin(2);
+        lead(&contact, &mut state, &[0.6, -0.4, 0.3]);
+        let before = state.clone();
+        let slip = contact.slip_displacement;
+        assert_eq!(step(&contact, &state, 0.1 * slip).map(|_| ()), Err(Error::StateFull));
+        assert_eq!(check_step(&contact, &state, 0.1 * slip), Err(Error::StateFull));
+        assert_eq!(state, before);
+        // Forth there is room, and beyond the reversal at 0.6 the loops are forgotten.
+        lead(&contact, &mut state, &[0.4]);
+        assert_eq!(state.get(1), Some(&2.0));
+        assert_eq!(lead(&contact, &mut state, &[0.7]), on_curve(&contact, 0.7));
+        assert_eq!(state.get(1), Some(&0.0));
+        // A state of no reversals follows the virgin curve, and slides.
+        let mut none = virgin(0);
+        lead(&contact, &mut none, &[0.2, 0.9, 3.0]);
+        assert_eq!(check_step(&contact, &none, 2.5 * slip), Err(Error::StateFull));
+        // Back by more than two slip displacements nothing is left to remember.
+        assert_eq!(check_step(&contact, &none, 0.9 * slip), Ok(()));
+    }
+
+    #[test]
+    fn the_mirror_of_the_first_reversal_leads_back_to_the_virgin_curve() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            for beyond in [0.5, 0.500001, 0.7, 0.999] {
+                let mut state = virgin(8);
+                let force = lead(&contact, &mut state, &[0.5, -0.1, 0.3, 0.2, -beyond]);
+                // At the mirror point itself the closed branch is the virgin curve, too.
+                assert!((force + on_curve(&contact, beyond)).abs() <= 4e-16 * contact.slip_force, "{flat} {beyond}");
+                assert_eq!((state[1], state[2]), (0.0, 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn gross_slip_forgets_everything() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let (mut rich, mut poor) = (virgin(64), virgin(64));
+            lead(&contact, &mut rich, &[0.5, -0.3, 0.9, -0.8, 0.1, 0.0, 0.05]);
+            for state in [&mut rich, &mut poor] {
+                assert_eq!(lead(&contact, state, &[2.5]), contact.slip_force);
+            }
+            assert_eq!(rich.get(..HEADER), poor.get(..HEADER));
+            for path in [&[2.4][..], &[1.0, 1.3], &[-0.4], &[0.6]] {
+                let [one, two] = [&mut rich, &mut poor].map(|state| lead(&contact, state, path));
+                assert_eq!(one, two);
+            }
+            // From the end of a slip the way back is twice the curve, and slides again after twice its length.
+            let mut state = virgin(2);
+            let back = lead(&contact, &mut state, &[2.5, 2.5 - 1.2]);
+            let expected = contact.slip_force - 2.0 * on_curve(&contact, 0.6);
+            assert!((back - expected).abs() <= 4e-15 * contact.slip_force);
+            assert_eq!(lead(&contact, &mut state, &[0.499]), -contact.slip_force);
+        }
+    }
+
+    #[test]
+    fn a_step_of_zero_changes_nothing() {
+        let contact = contact(1e-6);
+        let mut state = virgin(64);
+        for (number, displacement) in scattered(200, 3).enumerate() {
+            // Up to gross slip and beyond, from the virgin state on.
+            let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
+            let first = step(&contact, &state, target).unwrap();
+            first.write(&mut state);
+            let again = step(&contact, &state, target).unwrap();
+            assert_eq!(again.dissipated(&state), Ok(0.0));
+            assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
+            let before = state.clone();
+            again.write(&mut state);
+            assert_eq!(state, before);
+        }
+    }
+
+    #[test]
+    fn a_path_is_refused_where_its_steps_are() {
+        let contact = contact(50e-6);
+        let slip = contact.slip_displacement;
+        let (mut fits, mut full) = (0, 0);
+        for seed in 0..300 {
+            let capacity = seed as usize % 7;
+            // Spirals nest as deep as they are long; sometimes beyond gross slip.
+            let width = |k: usize| 1.3 * 0.8f64.powi(k as i32 % 9);
+            let path: Vec<f64> = scattered(24, seed).enumerate().map(|(k, x)| x * width(k) * slip).collect();
+            let mut state = virgin(capacity);
+            for start in [0, 8] {
+                // The second part starts from what the first one left.
+                let part = path.get(start..start + 8).unwrap();
+                let mut walked = state.clone();
+                let one_by_one = part.iter().try_for_each(|&displacement| {
+                    step(&contact, &walked, displacement).map(|step| step.write(&mut walked))
+                });
+                assert_eq!(check_path(&contact, &state, part), one_by_one, "{seed} {start}");
+                match one_by_one {
+                    Ok(()) => fits += 1,
+                    Err(_) => full += 1,
+                }
+                state = walked;
+            }
+        }
+        assert!(fits > 50 && full > 50, "{fits} {full}");
+        assert_eq!(check_path(&contact, &virgin(2), &[0.0, f64::NAN]), Err(Error::BadDisplacement));
+    }
+
+    #[test]
+    fn a_deep_spiral_fits_as_far_as_the_state_goes() {
+        let contact = contact(0.0);
+        let spiral: Vec<f64> = (0..400)
+            .map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0) * contact.slip_displacement)
+            .collect();
+        assert_eq!(check_path(&contact, &virgin(399), &spiral), Ok(()));
+        assert_eq!(check_path(&contact, &virgin(398), &spiral), Err(Error::StateFull));
+        // Unwound at once.
+        let mut state = virgin(399);
+        spiral.iter().for_each(|&displacement| step(&contact, &state, displacement).unwrap().write(&mut state));
+        assert_eq!(lead(&contact, &mut state, &[0.95]), on_curve(&contact, 0.95));
+        assert_eq!(state[1], 0.0);
+    }
+
+    #[test]
+    fn a_closed_loop_dissipates_the_energy_of_its_amplitude() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            for amplitude in [0.01, 0.3, 0.8, 0.9999] {
+                let mut state = virgin(4);
+                let force = lead(&contact, &mut state, &[amplitude]);
+                let mut sum = 0.0;
+                for target in [-0.3 * amplitude, -amplitude, amplitude] {
+                    let step = step(&contact, &state, target * contact.slip_displacement).unwrap();
+                    sum += step.dissipated(&state).unwrap();
+                    step.write(&mut state);
+                }
+                let expected = contact.dissipated_energy(force).unwrap();
+                // Near gross slip the rounding of the force itself, a unit in 1e-4 of mu N, is worth the most.
+                assert!((sum / expected - 1.0).abs() < 1e-13, "{amplitude} {sum} {expected}");
+                // A small loop within, on the way: the same energy wherever it hangs, to the rounding of its place.
+                lead(&contact, &mut state, &[0.0, -0.2 * amplitude]);
+                let part = 0.1 * amplitude;
+                let mut inner = 0.0;
+                for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
+                    let step = step(&contact, &state, target * contact.slip_displacement).unwrap();
+                    inner += step.dissipated(&state).unwrap();
+                    step.write(&mut state);
+                }
+                let alone = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
+                assert!((inner / alone - 1.0).abs() < 1e-13, "{amplitude} {inner} {alone}");
+            }
+        }
+    }
+
+    #[test]
+    fn tractions_after_a_history_obey_coulomb_and_add_up_to_the_force() {
+        let contact = contact(50e-6);
+        let mut state = virgin(8);
+        let force = lead(&contact, &mut state, &[0.9, -0.6, 0.4, -0.1, 0.2]);
+        // Between the stick edges of all jumps of force, flat and edge, where the traction has its roots.
+        let turns: Vec<f64> = State::read(&state).unwrap().history().map(|turn| turn.force).chain([force]).collect();
+        let edge = |jump: f64| contact.curve_at_force(jump).unwrap().stick_half_width();
+        let mut places: Vec<f64> = turns.windows(2).map(|pair| edge(0.5 * (pair[1] - pair[0]))).collect();
+        assert_eq!(places.len(), 4);
+        places.extend([0.0, 50e-6, contact.half_width, edge(turns[0])]);
+        places.sort_by(f64::total_cmp);
+        let mut sum = 0.0;
+        for (from, to) in places.iter().zip(places.iter().skip(1)) {
+            for node in crate::quadrature::TANH_SINH.iter() {
+                let x = from + (to - from) * node.from_0;
+                let shear = shear_after(&contact, &state, x).unwrap();
+                // Rounding of five terms.
+                assert!(shear.abs() <= 0.4 * contact.pressure(x) * (1.0 + 1e-12));
+                sum += 2.0 * 10e-3 * (to - from) * node.weight * shear;
+            }
+        }
+        // The rule's nodes next to an edge are rounded to it.
+        assert!((sum / force - 1.0).abs() < 1e-7, "{sum} {force}");
+        // The force of a stronger contact.
+        state_init(&mut state).unwrap();
+        state[5] = 1.5 * contact.slip_force;
+        assert_eq!(shear_after(&contact, &state, 0.0), Err(Error::ForceExceedsSlip));
+    }
+}
