@@ -21,12 +21,11 @@ set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 2, 2 margins 0.085, 0.98, 0.085, 0.955 spacing 0.1, 0.15
+  set multiplot layout 2, 2 margins 0.085, 0.98, 0.085, 0.94 spacing 0.1, 0.15
   do for [panel=1:4] {
     contact = word(contacts, panel)
     number = int(word(numbers, panel))
-    set title sprintf(contact eq 'damper' ? 'damper at %g N' : 'flank of the root, damper at %g N', normal_force[number])
-    if (panel == 4) { set xtics 0.1 } else { set xtics autofreq }
+    set title sprintf('%sdamper at %g N', contact eq 'damper' ? '' : 'flank of the root, ', normal_force[number])
     if (panel < 3) { set xlabel 'relative displacement (µm)' offset 0, 0.4 } \
     else { set xlabel 'slip part of the displacement (nm)' offset 0, 0.4 }
     if (panel == 2) { set key top left Left reverse samplen 3 spacing 1.15 } else { unset key }

@@ -1,4 +1,4 @@
-# Harmonic balance against Newmark's method: one period at the damper, and the differences against the number of harmonics.
+# Harmonic balance against Newmark's method: one period at the damper, and differences against the number of harmonics.
 load 'plots/style.gp'
 name = 'newmark'
 wide = 1060
@@ -35,7 +35,7 @@ row(f, value) = (same(column('frequency_hz'), f) && column('samples') > 128 ? va
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 2, 2 margins 0.085, 0.975, 0.085, 0.95 spacing 0.1, 0.13
+  set multiplot layout 2, 2 margins 0.085, 0.975, 0.085, 0.94 spacing 0.1, 0.13
   do for [c=1:2] {
     f = frequency[3*(c-1) + 2]
     unset logscale
@@ -69,7 +69,8 @@ do for [extension in 'svg png'] {
     set title sprintf('damper at %g N', normal_force[c])
     set yrange [3e-5:1]
     set key top right Left reverse samplen 3
-    plot for [i=1:3] table(word(cases, c)) using 'harmonics':(row(frequency[3*(c-1) + i], column('response_difference'))) \
+    plot for [i=1:3] table(word(cases, c)) \
+      using 'harmonics':(row(frequency[3*(c-1) + i], column('response_difference'))) \
       with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
   }
   unset multiplot

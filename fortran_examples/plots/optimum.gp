@@ -27,10 +27,11 @@ do for [extension in 'svg png'] {
        peaks('flat') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 2, \
        peaks('spring_slider') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 3
   unset logscale y
-  set yrange [0.5:1.2]
+  set yrange [0.5:1.1]
   set ylabel 'peak relative to that of the spring-slider'
   set key bottom left Left reverse spacing 1.2 samplen 2.5 font ',12.5'
-  plot peaks('cylinder') using 'damper_normal_force_N':(relative(0)) with linespoints ls 1 title 'microslip, cylinder', \
+  plot peaks('cylinder') using 'damper_normal_force_N':(relative(0)) with linespoints ls 1 \
+         title 'microslip, cylinder', \
        peaks('flat') using 'damper_normal_force_N':(relative(0)) with linespoints ls 2 \
          title 'microslip, flat with rounded edges', \
        peaks('spring_slider') using 'damper_normal_force_N':(relative(0)) with linespoints ls 3 \

@@ -31,7 +31,7 @@ responses(law) = sprintf('results/%s_response.csv', law)
 at_load(n) = (int(column('load')) == n ? micro(column('peak_m')) : NaN)
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 1, 3 margins 0.075, 0.865, 0.13, 0.92 spacing 0.012, 0
+  set multiplot layout 1, 3 margins 0.075, 0.865, 0.13, 0.90 spacing 0.012, 0
   set ylabel 'amplitude of the blade tip (µm)'
   unset key
   do for [p=1:3] {
@@ -39,7 +39,10 @@ do for [extension in 'svg png'] {
     array titles[3] = ['microslip, cylinder', 'microslip, flat with rounded edges', 'spring-slider']
     set title titles[p] font ',15'
     if (p > 1) { unset ylabel; set format y '' } else { set format y '%g' }
-    if (p == 3) { set key at graph 1.04, 0.97 left top Left reverse samplen 2.2 spacing 1.3 title "normal force of\nthe damper (N)" left font ',13' }
+    if (p == 3) {
+      set key at graph 1.04, 0.97 left top Left reverse samplen 2.2 spacing 1.3
+      set key title "normal force of\nthe damper (N)" left font ',13'
+    }
     plot for [i=1:7] responses(law) using 'frequency_hz':(at_load(2*i - 1)) with lines ls 10+i \
       title sprintf('%g', normal_force[2*i - 1])
   }

@@ -1,5 +1,5 @@
-# Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito, viridis); lines differ in dash, width
-# and mark too, so that they can be told apart in grey.
+# Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito, viridis); lines differ in dash,
+# width and mark too, so that they can be told apart in grey.
 set datafile separator ','
 set datafile missing 'nan'
 set datafile columnheaders
@@ -20,6 +20,7 @@ set_terminal = " \
   if (extension eq 'svg') { \
     set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14' \
   } else { \
-    set terminal pngcairo size 1.6*wide, 1.6*high background rgb 'white' font 'Helvetica,14' fontscale 1.6 linewidth 1.6 pointscale 1.6 \
+    set terminal pngcairo size 1.6*wide, 1.6*high background rgb 'white' font 'Helvetica,14' \
+      fontscale 1.6 linewidth 1.6 pointscale 1.6 \
   }; \
   set output sprintf('results/%s.%s', name, extension)"

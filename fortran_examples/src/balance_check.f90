@@ -64,7 +64,9 @@ contains
     difference = abs(supplied - damped - rubbed) / supplied
     call progress(text(data%frequencies(i), '(f10.2)')//' Hz: supplied '//text(supplied)//' J, damping '// &
                   text(damped)//' J, friction '//text(rubbed)//' J, difference '//text(difference, '(es8.1)'))
-    if (.not. difference <= energy_tolerance) call fail('the energy balance is off by more than '//text(energy_tolerance))
+    if (.not. difference <= energy_tolerance) then
+      call fail('the energy balance is off by more than '//text(energy_tolerance))
+    end if
   end subroutine check_energy
 
   subroutine check_derivatives()

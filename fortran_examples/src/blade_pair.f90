@@ -12,7 +12,7 @@
 module blade_pair
   use craig_bampton, only: reduce
   use dense_algebra, only: symmetric_modes
-  use kinds, only: name_length, pi, wp
+  use kinds, only: name_length, wp
   use timoshenko_beam, only: beam_element, beam_section
   implicit none
   private

@@ -3,7 +3,8 @@
 !>     compare_tables STORED FOUND
 !>
 !> STORED is a CSV file whose second line, "# tolerance,...", gives for each column the allowed relative difference, or
-!> after "abs" the allowed absolute one; a column with tolerance 0 must agree as text. Exit code 1 at the first difference.
+!> after "abs" the allowed absolute one; a column with tolerance 0 must agree as text. The exit code is 1 at the first
+!> difference.
 program compare_tables
   use kinds, only: path_length, wp
   use messages, only: fail, progress, text

@@ -1,8 +1,8 @@
 !> Response over a range of frequencies by pseudo-arc-length continuation.
 !>
-!> The path is followed in relative changes: the displacements of each contact are measured by their present size and the
-!> frequency by a part of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
-!> counts as much as one that slides a thousand times farther.
+!> The path is followed in relative changes: the displacements of each contact are measured by their present size and
+!> the frequency by a part of its range. So a step means the same on a sharp resonance and far from it, and a stuck
+!> contact counts as much as one that slides a thousand times farther.
 module continuation
   use dense_algebra, only: solve
   use harmonic_balance, only: balance_point, balance_problem, evaluate, newton_error, solve_from_rest

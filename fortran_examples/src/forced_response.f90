@@ -16,7 +16,7 @@ program forced_response
   use continuation, only: follow_response, response_path, step_control
   use csv_output, only: csv_file
   use fourier_series, only: harmonic_amplitude, series_peak
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_at, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
   use kinds, only: path_length, pi, wp
   use messages, only: fail, progress, text
   use resonance, only: refine_peak

@@ -1,7 +1,7 @@
 !> All friction contacts of a model, each with the microslip law or as a spring-slider.
 module friction_contacts
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use fourier_series, only: coefficient_count, series_basis, series_projection
+  use fourier_series, only: series_basis, series_projection
   use kinds, only: name_length, wp
   use messages, only: fail, text
   use microslip

@@ -6,7 +6,7 @@
 !>     R(u, omega) = u + C(omega) f(u) - u_free(omega) = 0,    C_k = B^T (K + i k omega D - (k omega)^2 M)^-1 B,
 !>
 !> with u_free the relative displacements without contact forces. A contact force is an internal force, positive with
-!> the relative displacement, hence its sign. Newton's method works on u alone, and R is a displacement for all contacts.
+!> the relative displacement, hence its sign. Newton's method works on u alone.
 module harmonic_balance
   use dense_algebra, only: solve
   use fourier_series, only: as_complex, coefficient_count

@@ -1,7 +1,7 @@
 !> Newmark's method with constant average acceleration for a linear structure with friction contacts.
 !>
-!> It is written for the accelerations, which for short steps loses fewer digits than displacements do. As in the harmonic
-!> balance only the relative displacements of the contacts are unknown: the structure is linear within a step.
+!> It is written for the accelerations: with short steps the displacements would lose digits. As in the harmonic balance
+!> only the relative displacements of the contacts are unknown, since the structure is linear.
 module newmark
   use dense_algebra, only: solve
   use friction_contacts, only: contact_history, contact_set
@@ -65,7 +65,7 @@ contains
     state%acceleration = right(:, 1)
   end subroutine initial_acceleration
 
-  !> One step; `excitation` is the force at its end. Where the memory of the contacts is full, the state stays as it was.
+  !> One step; `excitation` is the force at its end. Where the memory of the contacts is full, the state stays.
   subroutine newmark_step(scheme, model, incidence, contacts, excitation, state, memory_full)
     type(newmark_scheme), intent(in) :: scheme
     type(structure), intent(in) :: model

@@ -42,8 +42,9 @@ program time_march
   if (size(data%march_frequencies) == 0) call fail(trim(case_file)//': the group &march is missing')
 
   call table%open(trim(directory)//'/'//trim(data%name)//'_comparison.csv')
-  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_march_m,peak_difference,response_difference')
-  call table%add('displacement_difference,force_difference,periods,steps_per_period,change_per_period,remaining_transient')
+  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_march_m,peak_difference')
+  call table%add('response_difference,displacement_difference,force_difference')
+  call table%add('periods,steps_per_period,change_per_period,remaining_transient')
   call table%end_row()
   call waveforms%open(trim(directory)//'/'//trim(data%name)//'_waveforms.csv')
   call waveforms%add('frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
@@ -143,33 +144,14 @@ contains
     real(wp), intent(out) :: change, remaining
     type(newmark_scheme) :: scheme
     type(motion) :: state
-    real(wp) :: omega, decay, basis(data%steps_per_period, size(response, 1))
-    real(wp) :: rate(size(response, 1)), excitation(size(response, 2), data%steps_per_period)
-    real(wp), allocatable :: before(:), last_period(:,:)
+    real(wp), allocatable :: excitation(:,:), last_period(:,:), before(:)
+    real(wp) :: decay
     logical :: memory_full
-    integer :: k, j, renewals
+    integer :: renewals, j, k
 
-    omega = 2.0_wp * pi * frequency
     call prepare_newmark(problem%model, problem%incidence, 1.0_wp / (frequency * data%steps_per_period), &
                          [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
-    basis = series_basis(size(response, 1) / 2, data%steps_per_period)
-    ! Velocity at t = 0: the sine terms only.
-    rate = 0.0_wp
-    do k = 1, size(rate) / 2
-      rate(2*k + 1) = k * omega
-    end do
-    state%displacement = matmul(basis(1, :), response)
-    state%velocity = matmul(rate, response)
-    allocate (state%contact_force(size(data%contacts)))
-    ! The instant t = 0 comes last.
-    last_period = cshift(matmul(basis, contact_displacement), 1, dim=1)
-    call problem%contacts%start_history(last_period, state%contacts, state%contact_force)
-    state%contact_displacement = matmul(state%displacement, problem%incidence)
-    do k = 1, size(excitation, 1)
-      excitation(k, :) = real(problem%excitation(k)) * basis(:, 2) - aimag(problem%excitation(k)) * basis(:, 3)
-    end do
-    call initial_acceleration(problem%model, problem%incidence, excitation(:, 1), state)
-
+    call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation, last_period)
     allocate (waves%response(data%steps_per_period), source=0.0_wp)
     allocate (waves%displacement, waves%force, mold=waves%response)
     decay = exp(-slowest_decay(problem) / frequency)
@@ -181,8 +163,8 @@ contains
         call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
                           memory_full)
         if (memory_full) then
-          ! Each period of a slowly decaying motion lies within the one before, and all of them are remembered. The steady
-          ! state looked for remembers its own period alone, so the memory is made anew from the last one.
+          ! Each period of a slowly decaying motion lies within the one before, and all of them are remembered. The
+          ! steady state looked for remembers its own period alone, so the memory is made anew from the last one.
           call problem%contacts%start_history(cshift(last_period, j - 1, dim=1), state%contacts, state%contact_force)
           call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
                             memory_full)
@@ -208,16 +190,48 @@ contains
                   ', transient left '//text(remaining, '(es8.1)')//', memory renewed '//text(renewals)//' times')
   end subroutine march
 
-  !> Rate at which the slowest mode decays by the damping of the structure alone, which friction can only help.
+  !> The motion of a balance at t = 0, with the excitation and the last period's displacements of the contacts at the
+  !> instants of the steps: excitation(:, 1) is at t = 0, last_period(1, :) one step after it.
+  subroutine start_motion(omega, problem, contact_displacement, response, state, excitation, last_period)
+    real(wp), intent(in) :: omega, contact_displacement(:,:), response(:,:)
+    type(balance_problem), intent(in) :: problem
+    type(motion), intent(out) :: state
+    real(wp), allocatable, intent(out) :: excitation(:,:), last_period(:,:)
+    real(wp), allocatable :: basis(:,:)
+    real(wp) :: rate(size(response, 1))
+    integer :: k
+
+    allocate (basis(data%steps_per_period, size(response, 1)))
+    basis = series_basis(size(response, 1) / 2, data%steps_per_period)
+    allocate (excitation(size(response, 2), data%steps_per_period))
+    do k = 1, size(excitation, 1)
+      excitation(k, :) = real(problem%excitation(k)) * basis(:, 2) - aimag(problem%excitation(k)) * basis(:, 3)
+    end do
+    ! Velocity at t = 0: the sine terms only.
+    rate = 0.0_wp
+    do k = 1, size(rate) / 2
+      rate(2*k + 1) = k * omega
+    end do
+    state%displacement = matmul(basis(1, :), response)
+    state%velocity = matmul(rate, response)
+    state%contact_displacement = matmul(state%displacement, problem%incidence)
+    allocate (state%contact_force(size(data%contacts)))
+    allocate (last_period(data%steps_per_period, size(data%contacts)))
+    last_period = cshift(matmul(basis, contact_displacement), 1, dim=1)
+    call problem%contacts%start_history(last_period, state%contacts, state%contact_force)
+    call initial_acceleration(problem%model, problem%incidence, excitation(:, 1), state)
+  end subroutine start_motion
+
+  !> Rate at which every motion decays at least, by the damping of the structure alone: half the least eigenvalue of
+  !> D x = lambda M x, whatever the stiffness. Friction can only add to it.
   function slowest_decay(problem) result(rate)
     type(balance_problem), intent(in) :: problem
     real(wp) :: rate
-    real(wp) :: omega(size(problem%excitation)), modes(size(problem%excitation), size(problem%excitation))
-    integer :: i
+    real(wp) :: root(size(problem%excitation)), modes(size(problem%excitation), size(problem%excitation))
 
-    call symmetric_modes(problem%model%stiffness, problem%model%mass, omega, modes)
-    rate = minval([(0.5_wp * dot_product(modes(:, i), matmul(problem%model%damping, modes(:, i))), i=1, size(omega))])
-    if (rate <= 0.0_wp) call fail('time marching needs a structure whose modes are all damped')
+    call symmetric_modes(problem%model%damping, problem%model%mass, root, modes)
+    rate = 0.5_wp * root(1)**2
+    if (rate <= 0.0_wp) call fail('time marching needs a damping matrix that is positive definite')
   end function slowest_decay
 
   !> Largest difference over the period, relative to the largest value.
