@@ -118,3 +118,174 @@ fn acosh_ratio(difference: f64, x: f64, c: f64) -> f64 {
     let above = difference / (c * (x + c)); // x/c - 1
     (above + (above * (2.0 + above)).sqrt()).ln_1p()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact};
+    use crate::quadrature::TANH_SINH;
+
+    /// `∫ f` over (0, 1) by the tanh-sinh rule.
+    fn unit(f: impl Fn(f64) -> f64) -> f64 {
+        TANH_SINH.iter().map(|node| node.weight * f(node.from_0)).sum()
+    }
+
+    /// `∫ f` over both halves of the width, divided where f or its slope is singular.
+    fn over_the_width(places: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+        places
+            .iter()
+            .zip(places.iter().skip(1))
+            .map(|(from, to)| 2.0 * (to - from) * unit(|t| f(from + (to - from) * t)))
+            .sum()
+    }
+
+    #[test]
+    fn the_pressure_carries_the_load_and_the_shear_the_force() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let b = contact.half_width;
+            let load = over_the_width(&[0.0, flat, b], |x| contact.pressure(x)) * 10e-3;
+            assert!((load / 150.0 - 1.0).abs() < 4e-15, "{flat}: {load}");
+            for part in [1e-3, 0.3, 0.6, 0.999] {
+                let force = part * contact.slip_force;
+                let point = contact.curve_at_force(force).unwrap();
+                let places = [0.0, flat, point.stick_half_width(), b];
+                let sum = over_the_width(&places, |x| point.shear(x)) * 10e-3;
+                // The slip zone's width, a part of b, is known to a unit of rounding of b.
+                let bound = 4e-15 + 4.0 * f64::EPSILON / part.min(1.0 - part).min(0.1);
+                assert!((sum / force - 1.0).abs() < bound, "{flat} {part}: {sum} {force}");
+            }
+        }
+    }
+
+    /// Bands of the family, narrow ones among them, as `w` over that of b.
+    const BANDS: [(f64, f64); 6] = [(0.0, 1.0), (0.0, 0.1), (0.3, 1.0), (0.7, 0.72), (0.99, 1.0), (0.999999, 1.0)];
+    /// a/b.
+    const SHAPES: [f64; 5] = [0.0, 1e-3, 0.4, 0.9, 0.999];
+
+    fn width(flat: f64) -> f64 {
+        ((1.0 - flat) * (1.0 + flat)).sqrt()
+    }
+
+    #[test]
+    fn closed_form_and_quadrature_are_the_integral_of_punches() {
+        for flat in SHAPES {
+            for (low, high) in BANDS {
+                let (from, to) = (low * width(flat), high * width(flat));
+                let squares = (high - low) * (high + low) * width(flat) * width(flat);
+                // Positions by w: inside the flat to its middle, at its end, and beyond.
+                let outside = [-1.0, -0.5, -1e-6, 0.0, 1e-6, 0.01, 0.09, 0.5, 0.9801, 0.999];
+                for outside in
+                    outside.map(|share: f64| share * if share < 0.0 { flat * flat } else { 1.0 - flat * flat })
+                {
+                    let x = (flat * flat + outside).max(0.0).sqrt();
+                    let beyond_flat = if outside == 0.0 { 0.0 } else { outside / (x + flat) };
+                    let place = Place { x, beyond_flat, inside_edge: 1.0 - x };
+                    let edge = outside.max(0.0).sqrt();
+                    let start = edge.max(from);
+                    // The root at c' = x is gone with w' = start + (to - start) t².
+                    let (length, above) = if from > edge {
+                        (squares / (to + from), from * from - outside)
+                    } else {
+                        (to - edge, (-outside).max(0.0))
+                    };
+                    let expected = if length <= 0.0 {
+                        0.0
+                    } else {
+                        unit(|t| {
+                            let step = length * t * t;
+                            let root = (step * (2.0 * start + step) + above).sqrt();
+                            2.0 * length * t * (start + step).atan2(flat) * (start + step) / root
+                        })
+                    };
+                    let found = pressure_between(flat, from, to, squares, &place);
+                    // Six bits lost at most, and a place just inside the band is known to the rounding of its squares.
+                    let band = (to * to - outside).abs().min((from * from - outside).abs()).max(1e-300);
+                    let bound = 64.0 * f64::EPSILON * 8.0 + 8.0 * f64::EPSILON / band.max(1e-12);
+                    assert!(
+                        (found - expected).abs() <= bound * expected,
+                        "{flat} {low} {high} {x}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn slip_is_the_integral_of_the_punches_displacement() {
+        for flat in SHAPES {
+            for (low, high) in BANDS {
+                let (w_c, w_x) = (low * width(flat), high * width(flat));
+                let x = flat.hypot(w_x);
+                let place = Place { x, beyond_flat: w_x * w_x / (x + flat), inside_edge: 1.0 - x };
+                let stick = Indentation::new(flat, w_c);
+                let expected = (w_x - w_c)
+                    * unit(|t| {
+                        let gap = (w_x - w_c) * t;
+                        let now = Indentation::new(flat, w_x - gap);
+                        // acosh(x/c') from x² - c'².
+                        let root = (gap * (w_x + now.w)).sqrt();
+                        (root / now.half_width.max(TINY)).asinh().min(1e3) * now.psi * now.w
+                    });
+                let found = slip_beyond(&stick, &place);
+                // Six bits lost at most; the band's width to the rounding of both ends, as (w_x - w_c)^(3/2).
+                let bound = 64.0 * f64::EPSILON * 8.0 + 8.0 * f64::EPSILON / (high - low);
+                assert!((found / expected - 1.0).abs() < bound, "{flat} {low} {high}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn slip_grows_from_the_stick_edge_to_the_edge_of_contact() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let b = contact.half_width;
+            for part in [0.01, 0.5, 0.9, 1.0] {
+                let point = contact.curve_at_force(part * contact.slip_force).unwrap();
+                let c = point.stick_half_width();
+                let mut last = 0.0;
+                for k in 0..=40 {
+                    let x = c + (b - c) * k as f64 / 40.0;
+                    let slip = point.slip(if k == 40 { b } else { x }).unwrap();
+                    // At the stick edge itself rounding may leave a sliver, (1e-13)^(3/2) of the slip beyond.
+                    assert!(
+                        if k == 0 { slip <= 1e-15 * contact.slip_displacement } else { slip > last },
+                        "{flat} {part} {k}"
+                    );
+                    assert_eq!(point.slip(-x), point.slip(x));
+                    last = slip;
+                }
+                assert_eq!((point.slip(0.999 * c), point.slip(b * (1.0 + 1e-15))), (Ok(0.0), Ok(0.0)));
+                // The edge slips against the centre by less than the centre moves.
+                assert!(last < point.displacement(), "{flat} {part}: {last}");
+            }
+        }
+    }
+
+    #[test]
+    fn tractions_are_continuous_at_the_flat_the_stick_edge_and_the_edge() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let b = contact.half_width;
+            let (peak, step) = (contact.pressure(0.0), 1e-10 * (b - flat));
+            // Steps of 1e-10, or of rounding where the contact is nearly all flat.
+            let part = step.max(2.0 * f64::EPSILON * b) / (b - flat);
+            let [below, at, above] = [-1.0, 0.0, 1.0].map(|side| contact.pressure(flat + side * part * (b - flat)));
+            // The slope there is a logarithm of the distance.
+            assert!((below - at).abs().max((above - at).abs()) < 40.0 * part * peak.max(at), "{flat}");
+            // A root of the distance, and at b of its rounding.
+            assert!(contact.pressure(b - part * (b - flat)) < 4.0 * part.sqrt() * at);
+            assert!(contact.pressure(b) < 4.0 * (2.0 * f64::EPSILON * b / (b - flat)).sqrt() * at);
+            assert_eq!(contact.pressure(b * (1.0 + 1e-15)), 0.0);
+            let point = contact.curve_at_force(0.6 * contact.slip_force).unwrap();
+            let c = point.stick_half_width();
+            let [below, at, above] = [-1.0, 0.0, 1.0].map(|side| point.shear(c + side * part * (b - flat)));
+            // A root on the inner side.
+            assert!((below - at).abs().max((above - at).abs()) < 4.0 * part.sqrt() * at, "{flat} {below} {at} {above}");
+            // Coulomb's limit holds throughout the slip zone.
+            for x in [c * (1.0 + 1e-12), 0.5 * (b + c), b - 1e-3 * (b - c)] {
+                assert!((point.shear(x) / (0.4 * contact.pressure(x)) - 1.0).abs() < 1e-12, "{flat} {x}");
+            }
+        }
+    }
+}
