@@ -296,11 +296,11 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
                             double *dissipated);
 
 // Leads a contact through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those of
-// each step. state1 holds the last state and may be state0.
+// each step. state1 holds the last state and may be state0; where it is NULL the last state is not kept.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
-// MSLIP_STATE_FULL where the path nests more reversals than the state holds, or more than 512 beyond which a path has to
-// be walked step by step.
+// MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
+// state has room for, or one whose state is not kept, may nest 512 at most.
 //
 // Memory: Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
 int32_t mslip_masing_path(const struct mslip_contact *contact,

@@ -66,7 +66,7 @@ impl Contact {
     /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness<'_>, Error> {
         check_amplitude(amplitude)?;
-        let slides = self.is_frictionless() || amplitude > self.slip_displacement;
+        let slides = self.is_frictionless() || amplitude >= self.slip_displacement;
         let stick = if slides { None } else { Some(self.stick_at_displacement(amplitude)) };
         Ok(ComplexStiffness { contact: self, amplitude, stick })
     }
@@ -118,15 +118,20 @@ pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
 }
 
 impl ComplexStiffness<'_> {
-    /// No cycle, or no friction: what is left of the definition at the amplitude 0.
+    /// No friction, or an amplitude so small that the curve's first bend is all there is, to far beyond rounding: smaller
+    /// ones would only underflow.
     fn is_at_rest(&self) -> bool {
-        self.amplitude <= 0.0 || self.contact.is_frictionless()
+        self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_unit()
     }
 
     /// δ0 in units of the approach; 1 where there is no cycle.
     fn approach(&self) -> f64 {
-        let approach = self.amplitude / self.contact.displacement_unit().max(f64::MIN_POSITIVE);
-        if self.is_at_rest() { 1.0 } else { approach }
+        let unit = self.contact.displacement_unit();
+        if self.is_at_rest() { 1.0 } else { self.amplitude.max(1e-30 * unit) / unit.max(f64::MIN_POSITIVE) }
+    }
+
+    fn amplitude_not_zero(&self) -> f64 {
+        self.amplitude.max(f64::MIN_POSITIVE)
     }
 
     fn family(&self) -> &dyn ContactFamily {
@@ -146,7 +151,11 @@ impl ComplexStiffness<'_> {
     /// K'' \[N/m\], not negative.
     #[must_use]
     pub fn imaginary(&self) -> f64 {
-        if self.is_at_rest() { 0.0 } else { self.dissipated() / self.amplitude / self.amplitude / PI }
+        if self.is_at_rest() {
+            return self.amplitude * self.slope_at_rest().1;
+        }
+        let amplitude = self.amplitude_not_zero();
+        self.dissipated() / amplitude / amplitude / PI
     }
 
     /// dK'/d(amplitude) \[N/m²\], not positive.
@@ -170,9 +179,8 @@ impl ComplexStiffness<'_> {
             }
             None => 4.0 * self.contact.slip_force,
         };
-        (per_displacement / self.amplitude - 2.0 * (self.dissipated() / self.amplitude / self.amplitude))
-            / self.amplitude
-            / PI
+        let amplitude = self.amplitude_not_zero();
+        (per_displacement / amplitude - 2.0 * (self.dissipated() / amplitude / amplitude)) / amplitude / PI
     }
 
     /// Energy \[J\] dissipated per cycle.

@@ -355,14 +355,41 @@ impl<'a> Step<'a> {
     }
 }
 
-/// How many nested reversals a path may add before it has to be walked in parts: those of a dry run without memory of its own.
-const DRY_REVERSALS: usize = 512;
+/// A state in memory of its own, for walks that leave no trace.
+#[derive(Debug)]
+pub struct Scratch {
+    values: [f64; state_length(Scratch::REVERSALS)],
+    used: usize,
+}
+
+impl Scratch {
+    /// Reversals that it holds at most.
+    const REVERSALS: usize = 512;
+
+    /// A copy of a state.
+    ///
+    /// # Errors
+    /// `BadState`, `StateTooShort`; `StateFull` for a state that nests more reversals.
+    pub fn of(state: &[f64]) -> Result<Scratch, Error> {
+        let mut scratch = Scratch { values: [0.0; state_length(Scratch::REVERSALS)], used: 0 };
+        if State::read(state)?.depth() > Scratch::REVERSALS {
+            return Err(Error::StateFull);
+        }
+        scratch.used = state.len().min(scratch.values.len());
+        scratch.values.iter_mut().zip(state).for_each(|(copy, value)| *copy = *value);
+        Ok(scratch)
+    }
+
+    pub fn state(&mut self) -> &mut [f64] {
+        self.values.get_mut(..self.used).unwrap_or(&mut [])
+    }
+}
 
 /// Whether a state can take a whole path, found before anything is written.
 ///
 /// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`; `StateFull` where the path nests more reversals than the state, or
-/// [`DRY_REVERSALS`], can hold.
+/// `BadState`, `StateTooShort`, `BadDisplacement`; `StateFull` where the path nests more reversals than the state holds. A
+/// path that turns more often than there is room is walked without forces in a [`Scratch`], which must hold it too.
 pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), Error> {
     let read = State::read(state)?;
     let (mut turns, mut last, mut falls) = (1, read.now.displacement, false);
@@ -375,13 +402,8 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
     if read.depth().saturating_add(turns) <= read.capacity {
         return Ok(());
     }
-    let mut dry = [0.0; state_length(DRY_REVERSALS)];
-    let length = state.len().min(dry.len());
-    let (Some(dry), Some(used)) = (dry.get_mut(..length), state.get(..length)) else { return Err(Error::StateFull) };
-    if read.depth() > DRY_REVERSALS {
-        return Err(Error::StateFull);
-    }
-    dry.iter_mut().zip(used).for_each(|(dry, used)| *dry = *used);
+    let mut scratch = Scratch::of(state)?;
+    let dry = scratch.state();
     for &displacement in path {
         let read = State::read(dry)?;
         let course = course(contact, &read, displacement);

@@ -291,11 +291,11 @@ pub(super) unsafe fn update_one(
 }
 
 /// Leads a contact through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those of
-/// each step. state1 holds the last state and may be state0.
+/// each step. state1 holds the last state and may be state0; where it is NULL the last state is not kept.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
-/// MSLIP_STATE_FULL where the path nests more reversals than the state holds, or more than 512 beyond which a path has to
-/// be walked step by step.
+/// MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
+/// state has room for, or one whose state is not kept, may nest 512 at most.
 ///
 /// # Safety
 /// Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
@@ -314,14 +314,18 @@ pub unsafe extern "C" fn mslip_masing_path(
     let walk = || {
         let contact = unsafe { pointer::contact(contact) }?;
         let path = unsafe { input(displacement, n) }?;
-        masing::check_path(contact, unsafe { input(state0, state_length) }?, path)?;
-        if state1.is_null() {
-            return Err(Error::NullPointer);
-        }
-        if !ptr::eq(state0, state1) {
-            unsafe { ptr::copy(state0, state1, state_length) };
-        }
-        let state = unsafe { output(state1, state_length) }.ok_or(Error::StateTooShort)?;
+        let mut scratch;
+        let state = if state1.is_null() {
+            scratch = masing::Scratch::of(unsafe { input(state0, state_length) }?)?;
+            masing::check_path(contact, scratch.state(), path)?;
+            scratch.state()
+        } else {
+            masing::check_path(contact, unsafe { input(state0, state_length) }?, path)?;
+            if !ptr::eq(state0, state1) {
+                unsafe { ptr::copy(state0, state1, state_length) };
+            }
+            unsafe { output(state1, state_length) }.ok_or(Error::StateTooShort)?
+        };
         let [mut force, mut stiffness, mut dissipated] =
             [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
         for (i, &displacement) in path.iter().enumerate() {
