@@ -281,3 +281,131 @@ struct NearPoint {
     compliance: f64,
     curvature: f64,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact, cylinder, ellipse};
+    use crate::parameters::{CENTRE_POINT, Material, Parameters};
+    use crate::quadrature::TANH_SINH;
+
+    /// Λ = 3.4243 with h = ½ [τ + (1-τ) ln(1-τ)]: K' by adaptive quadrature and K'' in closed form, both to 20 digits.
+    #[test]
+    fn a_cylinder_has_the_stiffness_of_its_elementary_curve() {
+        let contact = cylinder(3.4243_f64.exp(), 0.0, CENTRE_POINT).unwrap();
+        for (part, real, imaginary) in [
+            (0.5, 0.278_238_957_245_119_07, 0.006_342_425_455_761_636),
+            (1.2, 0.224_534_706_493_106_57, 0.059_416_193_661_125_13),
+        ] {
+            let complex = contact.complex_stiffness(part * contact.slip_displacement).unwrap();
+            let found = [complex.real(), complex.imaginary()].map(|k| k / contact.stiffness_unit());
+            // A unit of rounding of Λ, which comes from the half-width, is one of both.
+            assert!(
+                (found[0] / real - 1.0).abs() < 4e-15 && (found[1] / imaginary - 1.0).abs() < 2e-14,
+                "{part} {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn at_rest_it_starts_with_the_initial_stiffness_and_the_slopes_of_the_first_bend() {
+        let titanium = Material { young_modulus: 1.14e11, poisson_ratio: 0.29 };
+        let contact = Contact::rounded_flat(&Parameters {
+            flat_half_width: 0.0,
+            edge_radius: 5e-3,
+            length: 3.67e-2,
+            normal_force: 2.26849e3,
+            friction_coefficient: 0.647,
+            material: [titanium; 2],
+            ..Parameters::default()
+        })
+        .unwrap();
+        let rest = contact.complex_stiffness(0.0).unwrap();
+        assert_eq!((rest.real(), rest.imaginary()), (contact.initial_stiffness, 0.0));
+        // The reference at 1e-6 of the slip displacement, to which the slopes change by as much.
+        assert!((rest.real_slope() / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
+        assert!((rest.imaginary_slope() / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
+        for contact in FLATS.map(self::contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let rest = contact.complex_stiffness(0.0).unwrap();
+            let amplitude = 1e-5 * contact.slip_displacement;
+            let small = contact.complex_stiffness(amplitude).unwrap();
+            // The next terms are 1e-5 of the slopes; what K' falls by has the rounding of K' itself.
+            let fall = (small.real() - rest.real()) / amplitude;
+            let rounding = 4.0 * f64::EPSILON * rest.real() / amplitude;
+            assert!((fall - rest.real_slope()).abs() < 2e-5 * rest.real_slope().abs() + rounding);
+            assert!((small.imaginary() / amplitude / rest.imaginary_slope() - 1.0).abs() < 2e-5);
+            assert!((small.real_slope() / rest.real_slope() - 1.0).abs() < 4e-5);
+            assert!((small.imaginary_slope() / rest.imaginary_slope() - 1.0).abs() < 4e-5);
+        }
+    }
+
+    /// From mu N/2 on another formula computes, and from the slip displacement on another law holds.
+    #[test]
+    fn nothing_jumps_where_the_formula_changes() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let half = contact.curve_at_force(0.5 * contact.slip_force).unwrap().displacement();
+            for (amplitude, step) in [(half, 1e-12), (contact.slip_displacement, 1e-9)] {
+                let [low, high] =
+                    [1.0 - step, 1.0 + step].map(|part| contact.complex_stiffness(part * amplitude).unwrap());
+                let scale = low.real().hypot(low.imaginary());
+                // K changes by less than K over an amplitude.
+                let bound = 2.0 * step + 4e-15;
+                assert!((low.real() - high.real()).abs() < bound * scale);
+                assert!((low.imaginary() - high.imaginary()).abs() < bound * scale);
+                if amplitude == half {
+                    // The slopes are good to 1e-12 on either side.
+                    let slope = scale / amplitude;
+                    assert!((low.real_slope() - high.real_slope()).abs() < 4e-12 * slope);
+                    assert!((low.imaginary_slope() - high.imaginary_slope()).abs() < 4e-12 * slope);
+                }
+            }
+            let at_slip = contact.complex_stiffness(contact.slip_displacement).unwrap();
+            assert!((at_slip.dissipated() / contact.slip_energy - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_stiffness_is_the_first_harmonic_of_the_loop() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            for part in [1e-3, 0.3, 0.95, 1.0, 1.5, 20.0] {
+                let amplitude = part * contact.slip_displacement;
+                // Half a period, in gross slip divided where amplitude (1 - cos t) is twice the slip displacement.
+                let middle = if part > 1.0 { (1.0 - 2.0 / part).acos() / PI } else { 0.5 };
+                let (mut real, mut imaginary) = (0.0, 0.0);
+                for (from, to) in [(0.0, middle), (middle, 1.0)] {
+                    for node in TANH_SINH.iter() {
+                        let turn: f64 = from + (to - from) * node.from_0;
+                        let (_, force) = contact.hysteresis_loop(amplitude, 0.5 * turn).unwrap();
+                        let share = 2.0 / amplitude * (to - from) * node.weight * force;
+                        real += share * (PI * turn).cos();
+                        imaginary -= share * (PI * turn).sin();
+                    }
+                }
+                let complex = contact.complex_stiffness(amplitude).unwrap();
+                // The sums have the rounding of forces up to the largest; K'' is what is left of them.
+                let size = contact.initial_stiffness.min(4.0 * contact.slip_force / amplitude);
+                assert!((complex.real() - real).abs() < 1e-13 * size, "{part} {} {real}", complex.real());
+                assert!(
+                    (complex.imaginary() - imaginary).abs() < 1e-13 * size,
+                    "{part} {} {imaginary}",
+                    complex.imaginary()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn amplitudes_are_refused_by_name() {
+        let contact = contact(50e-6);
+        for amplitude in [-1e-9, f64::NAN, f64::INFINITY, 1.1e150] {
+            assert_eq!(contact.complex_stiffness(amplitude).map(|_| ()), Err(Error::BadAmplitude));
+            assert_eq!(contact.hysteresis_loop(amplitude, 0.1), Err(Error::BadAmplitude));
+        }
+        assert!(contact.complex_stiffness(1e150).is_ok());
+        for force in [-1e-9, f64::NAN, f64::INFINITY] {
+            assert_eq!(contact.dissipated_energy(force), Err(Error::BadForceAmplitude));
+        }
+        assert_eq!(contact.dissipated_energy(1.001 * contact.slip_force), Err(Error::ForceExceedsSlip));
+        assert_eq!(contact.dissipated_energy(0.0), Ok(0.0));
+    }
+}
