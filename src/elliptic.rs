@@ -15,8 +15,9 @@
 //!
 //! θ from 0 to π/2: complete elliptic integrals, taken from the arithmetic-geometric mean.
 
-use crate::family::{ContactFamily, Member, Origin, Place, Split, Station, TERMS};
+use crate::family::{ContactFamily, Member, Place, Split, Station};
 use crate::indentation::TINY;
+use crate::origin::{Origin, TERMS};
 use crate::parameters::Material;
 use core::f64::consts::{FRAC_PI_2, PI};
 

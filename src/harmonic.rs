@@ -270,8 +270,7 @@ impl ComplexStiffness<'_> {
             return (0.0, 0.0);
         }
         let origin = self.family().origin();
-        let [curvature, ..] = origin.curvature;
-        let bend = 0.5 * curvature / (origin.compliance * origin.compliance * origin.compliance);
+        let bend = 0.5 * origin.first_curvature() / (origin.compliance * origin.compliance * origin.compliance);
         let unit = self.contact.stiffness_unit() / self.contact.displacement_unit().max(f64::MIN_POSITIVE);
         (-bend * unit, 4.0 / (3.0 * PI) * bend * unit)
     }

@@ -18,15 +18,16 @@
 //! Written with ψ, all three cancel for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3 they are summed as
 //! power series in `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` instead; the series converge for χ < 1 and lose at most one bit.
 
+use crate::series::{self, Rows, rows};
 use core::f64::consts::PI;
 
-/// Terms of the series; the first one left out is below 3⁻³² / 30 of the sum.
-const TERMS: usize = 32;
+/// Terms of the series; the first one left out is below 3⁻³⁶ of the sum.
+const TERMS: usize = 36;
 
 /// Where numbers only guard a division that the result does not use.
 pub(crate) const TINY: f64 = 1e-300;
 
-type Table = [f64; TERMS];
+type Table = Rows<{ TERMS / 4 }>;
 
 /// `g = 8 w³/(a+c) Σ l_k χ^k`; from `(1+χ)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √χ.
 const LOAD: Table = {
@@ -39,7 +40,7 @@ const LOAD: Table = {
         sign = -sign;
         k += 1;
     }
-    table
+    rows(&table)
 };
 
 /// Coefficients of β (`order` 1) or γ (`order` 2) over χ.
@@ -73,14 +74,14 @@ const fn mean_over_family(order: f64) -> Table {
         table[k - 1] = sum / (k as f64 * load[0] + order);
         k += 1;
     }
-    table
+    rows(&table)
 }
 
 const MEAN_LOAD: Table = mean_over_family(1.0);
 const MEAN_SQUARE: Table = mean_over_family(2.0);
 
-fn horner(table: &Table, x: f64) -> f64 {
-    table.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+fn sum(table: &Table, chi: f64) -> f64 {
+    series::sum(table.iter().copied().take(series::rows_for(chi, TERMS / 4)), chi)
 }
 
 /// One contact of the family, given by the half-width `a` of the flat and by `w`; lengths in any one unit.
@@ -110,7 +111,7 @@ impl Indentation {
     pub fn load(&self) -> f64 {
         let (a, w, c) = (self.flat, self.w, self.half_width);
         match self.chi() {
-            Some(chi) => 8.0 * w * w * (w / (a + c).max(TINY)) * horner(&LOAD, chi),
+            Some(chi) => 8.0 * w * w * (w / (a + c).max(TINY)) * sum(&LOAD, chi),
             None => 2.0 * (c * c * self.psi - a * w),
         }
     }
@@ -119,7 +120,7 @@ impl Indentation {
     pub fn mean_load(&self, load: f64) -> f64 {
         let (a, w) = (self.flat, self.w);
         match self.chi() {
-            Some(chi) => chi * horner(&MEAN_LOAD, chi),
+            Some(chi) => chi * sum(&MEAN_LOAD, chi),
             None => ((w * w + 3.0 * a * a) * self.psi - 3.0 * a * w) / load.max(TINY),
         }
     }
@@ -128,7 +129,7 @@ impl Indentation {
     pub fn mean_square(&self, load: f64) -> f64 {
         let (a, w, c) = (self.flat, self.w, self.half_width);
         match self.chi() {
-            Some(chi) => chi * horner(&MEAN_SQUARE, chi),
+            Some(chi) => chi * sum(&MEAN_SQUARE, chi),
             None => {
                 let c = c.max(TINY);
                 // cos ψ and sin ψ; the load in units of c².

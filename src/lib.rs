@@ -12,9 +12,11 @@ pub mod error;
 pub mod parameters;
 
 mod quadrature;
+mod series;
 
 mod family;
 mod indentation;
+mod origin;
 mod rounded_flat;
 mod traction;
 

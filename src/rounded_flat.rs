@@ -11,8 +11,9 @@
 //!
 //! Beyond τ = 1/2 these are computed as they stand; below, the series at the origin takes over.
 
-use crate::family::{ContactFamily, Member, Origin, Place, Split, Station, TERMS};
+use crate::family::{ContactFamily, Member, Place, Split, Station};
 use crate::indentation::{Indentation, TINY};
+use crate::origin::{Origin, TERMS};
 use crate::traction;
 use core::f64::consts::PI;
 

@@ -1,0 +1,136 @@
+//! The curve near its origin, up to τ = 1/2, as one power series: `x = Λ τ + Σ h_n τⁿ`, n from 2.
+//!
+//! Near the origin everything of interest is a small difference of two nearly equal members. The series has positive
+//! terms only and loses nothing. One set of coefficients, those of the curvature h'', serves all:
+//!
+//! ```text
+//! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ.
+//! ```
+//!
+//! With `h'' = Σ c_m τᵐ` the four are `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
+
+use crate::family::{Member, Split};
+use crate::series::{self, Rows, rows};
+
+/// Terms kept: the radius of convergence is 1, and the coefficients of h'' stay bounded.
+pub(crate) const TERMS: usize = 48;
+
+type Terms = Rows<{ TERMS / 4 }>;
+
+/// What integrations of τᵐ leave: `numerator / ((m+1)…)`, the product over the numbers added to m.
+const fn factors(numerator: f64, added: &[usize]) -> Terms {
+    let mut terms = [numerator; TERMS];
+    let mut m = 0;
+    while m < TERMS {
+        let mut k = 0;
+        while k < added.len() {
+            terms[m] /= (m + added[k]) as f64;
+            k += 1;
+        }
+        m += 1;
+    }
+    rows(&terms)
+}
+
+const CURVATURE: Terms = factors(1.0, &[]);
+const COMPLIANCE: Terms = factors(1.0, &[1]);
+const APPROACH: Terms = factors(1.0, &[1, 2]);
+const DISSIPATION: Terms = factors(4.0, &[2, 3]);
+const DISSIPATION_SLOPE: Terms = factors(4.0, &[2]);
+
+/// The curve near its origin.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct Origin {
+    /// Λ, the compliance of the full stick.
+    pub(crate) compliance: f64,
+    /// x at τ = 1/2.
+    pub(crate) half_approach: f64,
+    /// Coefficients c_m of h''.
+    curvature: Terms,
+}
+
+/// Sums of the series at one τ.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NearOrigin {
+    /// h.
+    pub approach: f64,
+    /// λ = h'.
+    pub compliance: f64,
+    /// h''.
+    pub curvature: f64,
+}
+
+impl Origin {
+    /// The series from the coefficients of its curvature.
+    pub(crate) const fn new(compliance: f64, curvature: [f64; TERMS]) -> Origin {
+        let mut half_approach = 0.0;
+        let mut m = TERMS;
+        while m > 0 {
+            m -= 1;
+            half_approach = 0.5 * half_approach + curvature[m] * APPROACH[m / 4][m % 4];
+        }
+        let half_approach = 0.5 * compliance + 0.25 * half_approach;
+        Origin { compliance, half_approach, curvature: rows(&curvature) }
+    }
+
+    /// h'' at τ = 0.
+    pub fn first_curvature(&self) -> f64 {
+        let [[first, ..], ..] = self.curvature;
+        first
+    }
+
+    /// `Σ c_m f_m τᵐ`.
+    fn sum(&self, factors: &Terms, tau: f64) -> f64 {
+        let used = series::rows_for(tau, TERMS / 4);
+        let pairs = self.curvature.iter().zip(factors).take(used);
+        series::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
+    }
+
+    pub fn sums(&self, tau: f64) -> NearOrigin {
+        NearOrigin {
+            approach: self.sum(&APPROACH, tau) * tau * tau,
+            compliance: self.sum(&COMPLIANCE, tau) * tau,
+            curvature: self.sum(&CURVATURE, tau),
+        }
+    }
+
+    /// e at τ.
+    pub fn dissipation(&self, tau: f64) -> f64 {
+        self.sum(&DISSIPATION, tau) * tau * tau * tau
+    }
+
+    /// de/dτ at τ.
+    pub fn dissipation_slope(&self, tau: f64) -> f64 {
+        self.sum(&DISSIPATION_SLOPE, tau) * tau * tau
+    }
+
+    /// The member at which a load of at most 1/2 is lost.
+    pub fn at_load(&self, load: Split, slip_approach: f64) -> Member {
+        let lost = self.compliance * load.lost + self.sum(&APPROACH, load.lost) * load.lost * load.lost;
+        let excess = self.sum(&COMPLIANCE, load.lost) * load.lost;
+        Member { load, approach: Split { lost, rest: slip_approach - lost }, excess, measure: None }
+    }
+
+    /// The member at which an approach of at most that at τ = 1/2 is lost: Halley's iteration from the root of the series'
+    /// first two terms, which lies above the solution by less than 5 %.
+    pub fn at_approach(&self, approach: Split) -> Member {
+        let linear = self.compliance;
+        let bend = 2.0 * self.first_curvature() * approach.lost;
+        let mut tau = 2.0 * approach.lost / (linear + (linear * linear + bend).sqrt());
+        let mut excess = 0.0;
+        for _ in 0..5 {
+            let now = self.sums(tau);
+            let slope = linear + now.compliance;
+            let newton = (linear * tau + now.approach - approach.lost) / slope;
+            let step = newton / (1.0 - 0.5 * newton * now.curvature / slope);
+            tau -= step;
+            // Up to the square of the step, which no digit feels any more.
+            excess = now.compliance - step * now.curvature;
+            if step.abs() <= 1e-8 * tau {
+                break;
+            }
+        }
+        Member { load: Split { lost: tau, rest: 1.0 - tau }, approach, excess, measure: None }
+    }
+}
