@@ -202,3 +202,92 @@ fn root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     }
     if low.1.abs() < high.1.abs() { low.0 } else { high.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact, ellipse, parameters};
+    use crate::parameters::Parameters;
+    use std::vec::Vec;
+
+    fn sliders(contact: &Contact, n: usize) -> (Vec<SpringSlider>, f64) {
+        let mut found = Vec::new();
+        let error = iwan(contact, n, |slider| found.push(slider)).unwrap();
+        (found, error)
+    }
+
+    /// Largest error over mu N of parallel sliders, at all corners and on a grid of displacements to beyond gross slip.
+    fn largest_error(contact: &Contact, sliders: &[SpringSlider]) -> f64 {
+        let error = |displacement: f64| {
+            let bank: f64 = sliders.iter().map(|one| (one.stiffness * displacement).min(one.slip_force)).sum();
+            (bank - contact.curve_at_displacement(displacement).unwrap().force()).abs() / contact.slip_force
+        };
+        let grid = (0..=1500).map(|k| k as f64 / 1000.0 * contact.slip_displacement);
+        grid.chain(sliders.iter().map(|one| one.slip_force / one.stiffness)).map(error).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_spring_slider_at_rest_is_the_initial_stiffness_with_mu_n() {
+        for contact in FLATS.map(contact) {
+            let SpringSlider { stiffness, slip_force } = jenkins(&contact, 0.0).unwrap();
+            assert_eq!((stiffness, slip_force), (contact.initial_stiffness, contact.slip_force));
+            // A small cycle stretches the spring to little more than its slip force.
+            let amplitude = 1e-9 * contact.slip_displacement;
+            let small = jenkins(&contact, amplitude).unwrap();
+            assert!((small.stiffness / contact.initial_stiffness - 1.0).abs() < 1e-8);
+            assert!((small.slip_force / (small.stiffness * amplitude) - 1.0).abs() < 1e-8);
+            // A large one is that of mu N: K'' = 4 F/(π A).
+            let large = jenkins(&contact, 1e6 * contact.slip_displacement).unwrap();
+            assert!((large.slip_force / contact.slip_force - 1.0).abs() < 1e-5, "{}", large.slip_force);
+        }
+    }
+
+    #[test]
+    fn sliders_that_do_not_exist_are_refused() {
+        let closed = contact(0.0);
+        assert_eq!(jenkins(&closed, f64::NAN), Err(Error::BadAmplitude));
+        assert_eq!(iwan(&closed, 0, |_| unreachable!()), Err(Error::BadCount));
+        for without in [
+            Parameters { normal_force: 0.0, ..parameters(0.0) },
+            Parameters { friction_coefficient: 0.0, ..parameters(0.0) },
+        ] {
+            let contact = Contact::rounded_flat(&without).unwrap();
+            assert_eq!(jenkins(&contact, 1e-6), Err(Error::NotAvailable));
+            let (found, error) = sliders(&contact, 3);
+            assert_eq!((found, error), ([SpringSlider { stiffness: 0.0, slip_force: 0.0 }; 3].to_vec(), 0.0));
+        }
+    }
+
+    /// Every single slider of mu N, by its stiffness: none errs less.
+    #[test]
+    fn one_slider_is_the_best_there_is() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let (found, error) = sliders(&contact, 1);
+            assert!((found[0].slip_force / contact.slip_force - 1.0).abs() < 1e-12);
+            let others = (0..=200).map(|k| {
+                let stiffness = contact.initial_stiffness * (0.5 + 0.003 * k as f64);
+                largest_error(&contact, &[SpringSlider { stiffness, slip_force: contact.slip_force }])
+            });
+            let best = others.fold(f64::INFINITY, f64::min);
+            // The dip between the corners is smooth on the grid of displacements; that of stiffnesses has steps of 0.003.
+            assert!(best >= error * (1.0 - 1e-4) - 1e-12 && best < error + 4e-3, "{best} {error}");
+        }
+    }
+
+    /// A polygon's sides are as far from an arc as their length squared.
+    #[test]
+    fn the_error_of_many_sliders_falls_as_their_number_squared() {
+        for contact in [contact(0.0), contact(50e-6), ellipse(1e-4, 2e-4)] {
+            let [(few, error_few), (many, error_many)] = [8, 64].map(|n| sliders(&contact, n));
+            assert!((48.0..80.0).contains(&(error_few / error_many)), "{error_few} {error_many}");
+            for (sliders, error) in [(few, error_few), (many, error_many)] {
+                let measured = largest_error(&contact, &sliders);
+                // At a corner the error is reached.
+                assert!((measured / error - 1.0).abs() < 1e-9, "{measured} {error}");
+                // Their sum starts above the contact by less than a first side may.
+                let stiffness: f64 = sliders.iter().map(|one| one.stiffness).sum();
+                assert!(stiffness <= contact.initial_stiffness && stiffness > 0.9 * contact.initial_stiffness);
+            }
+        }
+    }
+}

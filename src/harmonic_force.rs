@@ -342,3 +342,196 @@ impl<'w, 'a> Walk<'w, 'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact, ellipse};
+    use std::vec;
+    use std::vec::Vec;
+
+    fn workspace(harmonics: usize, samples: usize) -> Vec<f64> {
+        let mut memory = vec![0.0; workspace_length(harmonics, samples)];
+        workspace_init(harmonics, samples, &mut memory).unwrap();
+        memory
+    }
+
+    /// Force, Jacobian and energy.
+    fn all(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+        let n = displacement.len();
+        let (mut force, mut jacobian, mut energy) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
+        let output =
+            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        harmonic_force(contact, &mut Workspace::new(memory).unwrap(), displacement, output).unwrap();
+        (force, jacobian, energy)
+    }
+
+    /// A motion that nests loops, in slip displacements.
+    const SHAPE: [f64; 7] = [0.2, 0.5, -0.1, 0.05, 0.3, -0.35, 0.2];
+
+    fn motion(contact: &Contact, size: f64) -> Vec<f64> {
+        SHAPE.iter().map(|c| c * size * contact.slip_displacement).collect()
+    }
+
+    #[test]
+    fn memory_that_is_no_workspace_is_refused() {
+        let good = workspace(3, 16);
+        for (place, value) in
+            [(0, 0.0), (1, 0.0), (1, 2.5), (1, f64::NAN), (1, 8.0), (2, 6.0), (2, f64::INFINITY), (2, 1e12)]
+        {
+            let mut bad = good.clone();
+            bad[place] = value;
+            assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");
+        }
+        let mut short = good.clone();
+        short.pop();
+        assert_eq!(Workspace::new(&mut short).map(|_| ()), Err(Error::BadWorkspace));
+        assert_eq!(Workspace::new(&mut []).map(|_| ()), Err(Error::BadWorkspace));
+        assert_eq!(workspace_extent(good.first_chunk().unwrap()), Ok(good.len()));
+        // What lies beyond its extent is not touched.
+        let mut long = vec![-1.0; good.len() + 2];
+        workspace_init(3, 16, &mut long).unwrap();
+        let contact = contact(50e-6);
+        all(&contact, &mut long, &motion(&contact, 1.0));
+        assert_eq!(long.get(good.len()..), Some(&[-1.0, -1.0][..]));
+    }
+
+    #[test]
+    fn harmonics_samples_and_arrays_are_refused_by_name() {
+        let mut memory = [0.0; 8];
+        for (harmonics, samples, error) in [
+            (0, 16, Error::BadHarmonics),
+            (1 << 25, 1 << 26, Error::BadHarmonics),
+            (3, 6, Error::BadSamples),
+            (3, 1 << 25, Error::BadSamples),
+            (usize::MAX, usize::MAX, Error::BadHarmonics),
+        ] {
+            assert_eq!(workspace_length(harmonics, samples), 0);
+            assert_eq!(workspace_init(harmonics, samples, &mut memory), Err(error));
+        }
+        assert_eq!(workspace_init(3, 7, &mut memory), Err(Error::WorkspaceTooShort));
+        assert_eq!(memory, [0.0; 8]);
+
+        let (contact, mut good) = (contact(50e-6), workspace(1, 8));
+        let mut refuses = |displacement: &[f64], length: usize, squared: usize, error: Error| {
+            let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
+            let output = HarmonicOutput {
+                force: Some(&mut force),
+                jacobian: Some(&mut jacobian),
+                dissipated: Some(&mut energy),
+            };
+            let mut workspace = Workspace::new(&mut good).unwrap();
+            assert_eq!(harmonic_force(&contact, &mut workspace, displacement, output), Err(error));
+            assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
+        };
+        refuses(&[0.0; 2], 3, 9, Error::BadArraySize);
+        refuses(&[0.0; 3], 2, 9, Error::BadArraySize);
+        refuses(&[0.0; 3], 3, 8, Error::BadArraySize);
+        refuses(&[0.0, f64::NAN, 0.0], 3, 9, Error::BadDisplacement);
+        refuses(&[0.0, 0.0, 1.1e150], 3, 9, Error::BadDisplacement);
+    }
+
+    /// The trapezoidal sum over a period errs by the jumps of odd derivatives. At a reversal the first has none: samples⁻⁴
+    /// where samples are reversals, but samples⁻² where they miss them, by a part of a step, and the loop is smaller.
+    #[test]
+    fn one_harmonic_tends_to_the_complex_stiffness_as_samples_to_the_minus_two_or_four() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let amplitude = 0.7 * contact.slip_displacement;
+            let exact = contact.complex_stiffness(amplitude).unwrap();
+            for (missed, power) in [(0.0, 4), (0.5, 2)] {
+                let off = [64, 128, 256, 512].map(|samples| {
+                    let (sine, cosine) = (2.0 * PI * missed / samples as f64).sin_cos();
+                    let displacement = [0.0, amplitude * cosine, amplitude * sine];
+                    let (force, _, energy) = all(&contact, &mut workspace(1, samples), &displacement);
+                    // Where the reversals are samples the energy is that of the loop at once.
+                    assert!(missed > 0.0 || (energy / exact.dissipated() - 1.0).abs() < 1e-13);
+                    // Turned back by what was missed; F = (K' + iK'') A is K' A cos t - K'' A sin t.
+                    let real = (cosine * force[1] + sine * force[2]) / amplitude;
+                    let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
+                    (real - exact.real()).hypot(imaginary - exact.imaginary())
+                });
+                for pair in off.windows(2) {
+                    // The next term is smaller by samples⁻², with a factor below 100. Rounding ends it.
+                    let falls = (0.95..1.05).contains(&(pair[0] / pair[1] / 2f64.powi(power)));
+                    assert!(falls || pair[1] < 1e-13 * exact.real(), "{missed} {off:?} {}", exact.real());
+                }
+                assert!(off[3] < 1e-4 * exact.imaginary() + 1e-13 * exact.real(), "{missed} {off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_shift_in_time_shifts_force_and_jacobian() {
+        let samples = 48;
+        for (contact, size) in [(contact(50e-6), 0.9), (contact(0.0), 0.5), (contact(1e-6), 2.5)] {
+            let mut memory = workspace(3, samples);
+            let n = SHAPE.len();
+            let displacement = motion(&contact, size);
+            let (force, jacobian, energy) = all(&contact, &mut memory, &displacement);
+            for by in [1, 7, 24, 31] {
+                // Each pair (cos k, sin k) turns by k times the shift.
+                let turn = |vector: &[f64]| {
+                    let mut turned = vector.to_vec();
+                    for k in 1..=n / 2 {
+                        let (sine, cosine) = (2.0 * PI * (k * by) as f64 / samples as f64).sin_cos();
+                        let (a, b) = (vector[2 * k - 1], vector[2 * k]);
+                        turned[2 * k - 1] = cosine * a + sine * b;
+                        turned[2 * k] = cosine * b - sine * a;
+                    }
+                    turned
+                };
+                let (shifted, its_jacobian, same) = all(&contact, &mut memory, &turn(&displacement));
+                assert!((same / energy - 1.0).abs() < 1e-12, "{by}");
+                for (one, two) in shifted.iter().zip(turn(&force)) {
+                    // Displacements come out of the turn with a few units of rounding.
+                    assert!((one - two).abs() < 2e-14 * contact.slip_force, "{by}");
+                }
+                // J R = R J, column by column.
+                for j in 0..n {
+                    let mut unit = vec![0.0; n];
+                    unit[j] = 1.0;
+                    let times = |matrix: &[f64], vector: &[f64]| -> Vec<f64> {
+                        (0..n).map(|i| (0..n).map(|k| matrix[i + n * k] * vector[k]).sum()).collect()
+                    };
+                    let one = times(&its_jacobian, &turn(&unit));
+                    let two = turn(&times(&jacobian, &unit));
+                    for (one, two) in one.iter().zip(two) {
+                        // Near gross slip a unit of rounding of the displacement is worth many of the stiffness.
+                        assert!((one - two).abs() < 1e-9 * contact.initial_stiffness, "{by}: {one} {two}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_motion_meets_a_spring_and_a_large_one_a_square_wave() {
+        let contact = contact(0.0);
+        let mut memory = workspace(3, 32);
+        let (_, jacobian, _) = all(&contact, &mut memory, &[1e-9 * contact.slip_displacement; 7]);
+        for (place, value) in jacobian.iter().enumerate() {
+            let expected = if place % 8 == 0 { contact.initial_stiffness } else { 0.0 };
+            // The bend of the curve is 1e-9 of its slope there.
+            assert!((value - expected).abs() < 1e-8 * contact.initial_stiffness, "{place}");
+        }
+        let huge = 1e9 * contact.slip_displacement;
+        let (force, _, energy) = all(&contact, &mut memory, &[0.0, 0.0, huge, 0.0, 0.0, 0.0, 0.0]);
+        // The sign of cos at 32 samples has cot(π/32)/8 for 4/π.
+        assert!((force[1] / contact.slip_force * (PI / 32.0).tan() * 8.0 - 1.0).abs() < 1e-14);
+        assert!((energy / (4.0 * contact.slip_force * huge) - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn nothing_depends_on_what_the_workspace_did_before() {
+        let (contact, mut memory) = (contact(50e-6), workspace(3, 32));
+        let first = all(&contact, &mut memory, &motion(&contact, 0.8));
+        all(&contact, &mut memory, &motion(&contact, -3.0));
+        assert_eq!(all(&contact, &mut memory, &motion(&contact, 0.8)), first);
+        // Outputs that are not wanted change nothing in the others.
+        let mut force = vec![0.0; 7];
+        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+        let mut workspace = Workspace::new(&mut memory).unwrap();
+        harmonic_force(&contact, &mut workspace, &motion(&contact, 0.8), output).unwrap();
+        assert_eq!(force, first.0);
+    }
+}
