@@ -303,7 +303,7 @@ impl<'a> Balance<'a> {
         linear.lu().solve(&self.excitation).unwrap()
     }
 
-    /// Newton's method from a motion, steps halved while they do not help. It goes on until rounding stops it.
+    /// Newton's method from a motion, steps halved while they do not help, until rounding is all that is left.
     fn newton(&self, law: &mut impl ContactForce, start: DVector<f64>, share: f64) -> Solution {
         let excitation = &self.excitation * share;
         let residual_at = |law: &mut _, motion: &_| self.residual(law, motion) + &self.excitation - &excitation;
@@ -311,6 +311,9 @@ impl<'a> Balance<'a> {
         let mut residual = residual_at(law, &motion);
         let mut residuals = vec![residual.norm() / excitation.norm()];
         for _ in 0..60 {
+            if residuals.last().is_some_and(|left| *left < 1e-14) {
+                break;
+            }
             let step = self.jacobian(law, &motion).lu().solve(&residual).unwrap();
             let halved = (0..10).map(|halvings| &motion - &step * 0.5f64.powi(halvings));
             let better =
