@@ -182,6 +182,11 @@ for kinds in '' "$wide"; do
 done
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
 
+fortran_against_rust() {
+    MICROSLIP_PREFIX="$prefix" $CARGO test --release --locked --test harmonic_balance
+}
+step 'Fortran examples against the balance in Rust' fortran_against_rust
+
 step 'README: extraction of its programs' scripts/snippets.sh README.md "$work/snippets"
 for extension in c f90; do
     step "README: has a whole program in $extension" test -n "$(find "$work/snippets" -name "*.$extension")"

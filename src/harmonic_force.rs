@@ -236,7 +236,7 @@ pub fn harmonic_force(
         }
     }
     if let (Some(dissipated), Some(energy)) = (dissipated, energy) {
-        *dissipated = energy.sum;
+        *dissipated = energy.total();
     }
     Ok(())
 }

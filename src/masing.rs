@@ -166,29 +166,44 @@ pub(crate) struct Stretch {
 }
 
 /// Sums the energy of stretches: one monotonic loading dissipates a quarter of its cycle's energy, one branch twice that
-/// of its half.
+/// of its half. Stretches that follow each other on one branch are one stretch, and only its ends are looked at.
 #[derive(Debug)]
 pub(crate) struct Dissipation<'a> {
     contact: &'a Contact,
-    pub sum: f64,
-    /// The end of the stretch before, where the next one mostly starts, and its energy.
-    last: (f64, f64),
+    sum: f64,
+    open: Stretch,
 }
 
 impl<'a> Dissipation<'a> {
     pub fn new(contact: &'a Contact) -> Dissipation<'a> {
-        Dissipation { contact, sum: 0.0, last: (0.0, 0.0) }
+        Dissipation { contact, sum: 0.0, open: Stretch { halves: 0.0, from: 0.0, to: 0.0, slipped: 0.0 } }
     }
 
     pub fn add(&mut self, stretch: &Stretch) {
-        let contact = self.contact;
-        let energy = |way: f64| contact.energy_of(&contact.stick_at_displacement(way));
-        if stretch.to > stretch.from {
-            let from = if stretch.from == self.last.0 { self.last.1 } else { energy(stretch.from) };
-            self.last = (stretch.to, energy(stretch.to));
-            self.sum += 0.25 * stretch.halves * (self.last.1 - from).max(0.0);
+        if stretch.halves == self.open.halves && stretch.from == self.open.to {
+            self.open.to = stretch.to;
+            self.open.slipped += stretch.slipped;
+        } else {
+            self.close();
+            self.open = *stretch;
         }
-        self.sum += contact.slip_force * stretch.slipped;
+    }
+
+    /// Takes the open stretch into the sum.
+    fn close(&mut self) {
+        let contact = self.contact;
+        let Stretch { halves, from, to, slipped } = self.open;
+        let energy = |way: f64| contact.energy_of(&contact.stick_at_displacement(way));
+        if to > from {
+            self.sum += 0.25 * halves * (energy(to) - energy(from)).max(0.0);
+        }
+        self.sum += contact.slip_force * slipped;
+    }
+
+    /// The energy \[J\] of all stretches.
+    pub fn total(mut self) -> f64 {
+        self.close();
+        self.sum
     }
 }
 
@@ -323,7 +338,7 @@ impl<'a> Step<'a> {
         }
         let mut dissipation = Dissipation::new(contact);
         follow(&state, contact.slip_displacement, self.end.displacement, |stretch| dissipation.add(&stretch));
-        Ok(dissipation.sum)
+        Ok(dissipation.total())
     }
 
     /// Writes the step into the state it was found from, or into a copy of it.
@@ -428,6 +443,7 @@ pub fn shear_after(contact: &Contact, state: &[f64], x: f64) -> Result<f64, Erro
     let mut sum = 0.0;
     let mut before = None;
     for turn in state.history().map(|reversal| reversal.force).chain([state.now.force]) {
+        contact.check_force(turn)?;
         sum += match before {
             None => contact.curve_at_force(turn)?.shear(x),
             Some(force) => 2.0 * contact.curve_at_force(0.5 * (turn - force))?.shear(x),
