@@ -104,13 +104,14 @@
 // The number of samples does not exceed twice the number of harmonics, or is too large.
 #define MSLIP_BAD_SAMPLES 37
 
-// The number of sliders is 0.
+// The number of sliders is 0, or beyond 65536.
 #define MSLIP_BAD_COUNT 38
 
 // Not available for this kind of contact, or no equivalent exists.
 #define MSLIP_NOT_AVAILABLE 40
 
-// An array is too long to be addressed; in Fortran also: too short, or sizes that do not agree.
+// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
+// size that does not agree with the others.
 #define MSLIP_BAD_ARRAY_SIZE 90
 
 // Isotropic, linearly elastic material of one body.
@@ -300,7 +301,7 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
 // MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
-// state has room for, or one whose state is not kept, may nest 512 at most.
+// state has room for, or one whose state is not kept, may nest 2048 at most.
 //
 // Memory: Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
 int32_t mslip_masing_path(const struct mslip_contact *contact,
@@ -379,7 +380,8 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
 
 // Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
 // state). Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m], force [N]; jacobian [N/m] is
-// d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated [J] is per period.
+// d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
+// at a turning point, or one is just at gross slip, it is that of one side. dissipated [J] is per period.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -392,10 +394,9 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *dissipated);
 
 // The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
-// amplitude 0: the initial stiffness, and mu N.
+// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
-// force.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
 // Memory: Pointers are NULL or point to one item; outputs overlap nothing.
 int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,

@@ -85,11 +85,12 @@ pub const MSLIP_BAD_FORCE_AMPLITUDE: i32 = 35;
 pub const MSLIP_BAD_HARMONICS: i32 = 36;
 /// The number of samples does not exceed twice the number of harmonics, or is too large.
 pub const MSLIP_BAD_SAMPLES: i32 = 37;
-/// The number of sliders is 0.
+/// The number of sliders is 0, or beyond 65536.
 pub const MSLIP_BAD_COUNT: i32 = 38;
 /// Not available for this kind of contact, or no equivalent exists.
 pub const MSLIP_NOT_AVAILABLE: i32 = 40;
-/// An array is too long to be addressed; in Fortran also: too short, or sizes that do not agree.
+/// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
+/// size that does not agree with the others.
 pub const MSLIP_BAD_ARRAY_SIZE: i32 = 90;
 
 /// A contact: prepared once, then only read. Plain data of fixed size that may be copied, stored and sent.

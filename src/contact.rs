@@ -5,7 +5,7 @@ use crate::elliptic::Elliptic;
 use crate::error::Error;
 use crate::family::ContactFamily;
 use crate::indentation::Indentation;
-use crate::parameters::{CENTRE_POINT, EllipticParameters, Pair, Parameters};
+use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Pair, Parameters};
 use crate::rounded_flat::RoundedFlat;
 use core::f64::consts::{LN_2, PI};
 
@@ -75,56 +75,22 @@ impl Contact {
     /// not be positive; `OutOfRange` where results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let Parameters { flat_half_width: a, edge_radius, length, normal_force, friction_coefficient, .. } =
-            *parameters;
-        for body in &parameters.material {
-            in_range(&[body.young_modulus], &[])?;
-        }
+        let Parameters { flat_half_width, length, normal_force, friction_coefficient, .. } = *parameters;
+        check_moduli(&parameters.material)?;
         let pair = Pair::new(&parameters.material);
-        let modulus = pair.composite_modulus;
-        let open = Contact { composite_modulus: modulus, law: LAW_ROUNDED_FLAT, friction_coefficient, ..EMPTY };
+        let open =
+            Contact { composite_modulus: pair.composite_modulus, law: LAW_ROUNDED_FLAT, friction_coefficient, ..EMPTY };
         if normal_force == 0.0 {
             return Ok(open);
         }
-        in_range(&[edge_radius, normal_force], &[length, modulus])?;
-        in_range(&[length], &[])?;
-        in_range(&[length, modulus], &[])?;
-        if a > 0.0 {
-            // A wide flat must not be so wide that the rounded edge carries nothing.
-            if exponent_of(&[a], &[]) > LARGEST_EXPONENT
-                || exponent_of(&[edge_radius, normal_force], &[length, modulus, a, a]) < -900
-            {
-                return Err(Error::OutOfRange);
-            }
-        }
-
-        // Eq. 1 in units that keep both the flat and the load at most 1.
-        let load = 4.0 * ((edge_radius / length) * (normal_force / modulus));
-        let unit = a.max((load / PI).sqrt());
-        let indentation = Indentation::of_load(a / unit, load / unit / unit);
-        let half_width = unit * indentation.half_width;
-        let size = indentation.half_width;
-        let contact =
-            Indentation { flat: indentation.flat / size, w: indentation.w / size, half_width: 1.0, ..indentation };
-
-        if length <= 0.5 * half_width {
-            return Err(Error::LengthTooShort);
-        }
-        let mut compliance = (2.0 * (length / half_width)).ln() + pair.mean(|nu| nu / (1.0 - nu));
-        if parameters.displacement_reference != CENTRE_POINT {
-            compliance -= strip_correction(&pair, half_width / length);
-        }
-        if compliance <= 0.0 {
-            return Err(Error::LengthTooShort);
-        }
-        let shape = RoundedFlat::new(&contact, compliance);
-        let stiffness_unit = 0.5 * PI * modulus * length;
+        let (half_width, shape) = size_of_contact(parameters, pair.composite_modulus)?;
+        let compliance = full_stick_compliance(parameters, &pair, half_width)?;
         let geometry = Contact {
             half_width,
-            flat_half_width: a,
+            flat_half_width,
             pressure_unit: normal_force / length / half_width,
-            stiffness_unit,
-            rounded_flat: shape,
+            stiffness_unit: 0.5 * PI * pair.composite_modulus * length,
+            rounded_flat: RoundedFlat::new(&shape, compliance),
             ..open
         };
         geometry.with_friction(normal_force)
@@ -138,9 +104,7 @@ impl Contact {
         parameters.check()?;
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material } =
             *parameters;
-        for body in material {
-            in_range(&[body.young_modulus], &[])?;
-        }
+        check_moduli(material)?;
         let modulus = Pair::new(material).composite_modulus;
         let open = Contact { composite_modulus: modulus, law: LAW_ELLIPTIC, friction_coefficient, ..EMPTY };
         if normal_force == 0.0 {
@@ -194,12 +158,8 @@ impl Contact {
         self.mark == MARK && self.end_mark == MARK && (self.law == LAW_ROUNDED_FLAT || self.law == LAW_ELLIPTIC)
     }
 
-    pub(crate) fn is_elliptic(&self) -> bool {
-        self.law == LAW_ELLIPTIC
-    }
-
     pub(crate) fn family(&self) -> &dyn ContactFamily {
-        if self.is_elliptic() { &Elliptic } else { &self.rounded_flat }
+        if self.law == LAW_ELLIPTIC { &Elliptic } else { &self.rounded_flat }
     }
 
     /// mu \[-\].
@@ -263,6 +223,42 @@ const EMPTY: Contact = Contact {
     spare: [0.0; 56],
     end_mark: MARK,
 };
+
+fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
+    material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
+}
+
+/// Half-width b, and the contact in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
+fn size_of_contact(parameters: &Parameters, modulus: f64) -> Result<(f64, Indentation), Error> {
+    let Parameters { flat_half_width: flat, edge_radius, length, normal_force, .. } = *parameters;
+    in_range(&[length], &[])?;
+    in_range(&[length, modulus], &[])?;
+    in_range(&[edge_radius], &[length])?;
+    in_range(&[normal_force], &[modulus])?;
+    in_range(&[edge_radius, normal_force], &[length, modulus])?;
+    // On a flat too wide for its load the rounded edge carries nothing that a double can tell from nothing.
+    let too_wide = exponent_of(&[edge_radius, normal_force], &[length, modulus, flat, flat]) < -900;
+    if flat > 0.0 && (exponent_of(&[flat], &[]) > LARGEST_EXPONENT || too_wide) {
+        return Err(Error::OutOfRange);
+    }
+    let load = 4.0 * ((edge_radius / length) * (normal_force / modulus));
+    let unit = flat.max((load / PI).sqrt());
+    let contact = Indentation::of_load(flat / unit, load / unit / unit);
+    let size = contact.half_width;
+    let shape = Indentation { flat: contact.flat / size, w: contact.w / size, half_width: 1.0, ..contact };
+    Ok((unit * size, shape))
+}
+
+/// Λ of Eq. 10, which must be positive for there to be any curve at all.
+fn full_stick_compliance(parameters: &Parameters, pair: &Pair, half_width: f64) -> Result<f64, Error> {
+    let slenderness = parameters.length / half_width;
+    let centre = (2.0 * slenderness).ln() + pair.mean(|nu| nu / (1.0 - nu));
+    let compliance = match parameters.displacement_reference {
+        CENTRE_POINT => centre,
+        _ => centre - strip_correction(pair, 1.0 / slenderness),
+    };
+    if slenderness > 0.5 && compliance > 0.0 { Ok(compliance) } else { Err(Error::LengthTooShort) }
+}
 
 /// What three-dimensional contact mechanics takes off Λ: the mean instead of the centre of the displacement along and
 /// across the strip (1 - ln 2, and the term in b/L), and the redistribution of traction along it (0.093, fitted to
@@ -468,5 +464,22 @@ pub(crate) mod tests {
         assert!(!Contact { mark: 0, ..contact }.is_prepared());
         assert!(!Contact { end_mark: 0, ..contact }.is_prepared());
         assert!(!Contact { law: 3, ..contact }.is_prepared());
+    }
+
+    /// Products in range whose factors are not: neither an overflow on the way nor a NaN that passes for a contact.
+    #[test]
+    fn factors_out_of_range_are_refused() {
+        let body = Material { young_modulus: 5.5e85, poisson_ratio: 0.486 };
+        let extreme = Parameters {
+            flat_half_width: 0.0,
+            edge_radius: 2.78e236,
+            length: 4.8e-95,
+            normal_force: 1.03e-171,
+            friction_coefficient: 5.3e116,
+            material: [body; 2],
+            displacement_reference: 1,
+            reserved: 0,
+        };
+        assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
     }
 }

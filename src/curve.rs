@@ -135,33 +135,42 @@ impl CurvePoint<'_> {
         self.stick.map_or(0.0, |stick| self.contact.half_width * self.contact.family().size(&stick))
     }
 
+    /// The stick zone, in gross slip the smallest member of the family, to which it has shrunk.
+    fn stick_or_last(&self) -> Member {
+        self.stick.unwrap_or_else(|| self.contact.stick_at_force(self.contact.slip_force))
+    }
+
     /// Shear traction \[Pa\] at x \[m\] (Eq. 21).
     #[must_use]
     pub fn shear(&self, x: f64) -> f64 {
-        let traction = |stick| {
-            let unit = self.contact.friction_coefficient() * self.contact.pressure_unit();
-            unit * self.contact.family().shear(&self.contact.place(x), &stick)
-        };
-        self.sign * self.stick.map_or(0.0, traction)
+        if self.contact.is_frictionless() {
+            return 0.0;
+        }
+        let unit = self.contact.friction_coefficient() * self.contact.pressure_unit();
+        self.sign * unit * self.contact.family().shear(&self.contact.place(x), &self.stick_or_last())
     }
 
-    /// Relative slip \[m\] at x \[m\] (Eq. 15): 0 in the stick zone and outside the contact.
+    /// Relative slip \[m\] at x \[m\] (Eq. 15), in gross slip that at its start: 0 in the stick zone and outside the contact.
     ///
     /// # Errors
     /// `NotAvailable` for an elliptical contact.
     pub fn slip(&self, x: f64) -> Result<f64, Error> {
-        if self.contact.is_elliptic() {
-            return Err(Error::NotAvailable);
-        }
-        let Some(stick) = self.stick else { return Ok(0.0) };
         let place = self.contact.place(x);
-        let slip = self.contact.family().slip(&place, &stick).ok_or(Error::NotAvailable)?;
-        Ok(if place.inside_edge < 0.0 { 0.0 } else { self.sign * self.contact.displacement_unit() * slip })
+        let slip = self.contact.family().slip(&place, &self.stick_or_last()).ok_or(Error::NotAvailable)?;
+        let slips = place.inside_edge >= 0.0 && !self.contact.is_frictionless();
+        Ok(if slips { self.sign * self.contact.displacement_unit() * slip } else { 0.0 })
     }
 
-    /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5), given the slip there.
-    #[must_use]
-    pub fn damage(&self, x: f64, slip: f64) -> f64 {
+    /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5).
+    ///
+    /// # Errors
+    /// `NotAvailable` for an elliptical contact.
+    pub fn damage(&self, x: f64) -> Result<f64, Error> {
+        Ok(self.damage_of(x, self.slip(x)?))
+    }
+
+    /// The damage parameter, given the slip at x.
+    pub(crate) fn damage_of(&self, x: f64, slip: f64) -> f64 {
         self.contact.friction_coefficient() * self.contact.pressure(x) * slip.abs()
     }
 }
@@ -247,7 +256,7 @@ mod tests {
                 let slip = end.slip(x).unwrap();
                 assert!(slip <= 0.0);
                 // mu p |s|, to the rounding of two products.
-                assert!((end.damage(x, slip) + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
+                assert!((end.damage(x).unwrap() + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
             }
         }
     }
@@ -267,5 +276,19 @@ mod tests {
         assert_eq!(at_displacement(-1.1e150), Err(Error::BadDisplacement));
         assert_eq!(at_displacement(f64::NAN), Err(Error::BadDisplacement));
         assert_eq!(ellipse(1e-4, 1e-3).curve_at_force(1.0).unwrap().slip(0.0), Err(Error::NotAvailable));
+    }
+
+    /// Gross slip has the tractions and the slip with which it began, whichever way it is asked for.
+    #[test]
+    fn tractions_stay_in_gross_slip() {
+        for contact in FLATS.map(contact) {
+            let at_force = contact.curve_at_force(-contact.slip_force).unwrap();
+            let beyond = contact.curve_at_displacement(-1.5 * contact.slip_displacement).unwrap();
+            for x in [0.0, 0.5, 0.95, 1.0, 1.1].map(|place| place * contact.half_width) {
+                assert_eq!(beyond.shear(x), at_force.shear(x));
+                assert_eq!(beyond.slip(x), at_force.slip(x));
+            }
+            assert!(beyond.shear(0.0) < 0.0 && beyond.stick_half_width() == 0.0);
+        }
     }
 }

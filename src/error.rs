@@ -108,7 +108,7 @@ impl Error {
             }
             Error::StateTooShort => c"state_length is too short: use mslip_state_length for the number of reversals wanted",
             Error::StateFull => {
-                c"the state holds no further reversal and is unchanged: use a longer state, or one that is mslip_state_length of more"
+                c"the state holds no further reversal and is unchanged: make it longer, by mslip_state_length"
             }
             Error::WorkspaceTooShort => {
                 c"workspace_length is too short: use mslip_harmonic_workspace_length for these harmonics and samples"
@@ -118,12 +118,12 @@ impl Error {
             Error::BadDisplacement => c"displacement must be a finite number, at most 1e150 in size",
             Error::BadPosition => c"position x must be a finite number",
             Error::BadAmplitude => c"amplitude must be a finite number >= 0, at most 1e150",
-            Error::BadForceAmplitude => c"force_amplitude must be a finite number >= 0 and at most slip_force",
+            Error::BadForceAmplitude => c"force_amplitude must be a finite number >= 0",
             Error::BadHarmonics => c"the number of harmonics must be >= 1, and small enough for its workspace to be addressed",
             Error::BadSamples => c"the number of samples must exceed twice the number of harmonics",
-            Error::BadCount => c"the number of sliders must be >= 1",
+            Error::BadCount => c"the number of sliders must lie in 1 to 65536",
             Error::NotAvailable => c"this quantity is not available for this kind of contact, or no equivalent exists",
-            Error::BadArraySize => c"an array is too short, or the sizes of the arrays do not agree",
+            Error::BadArraySize => c"an array is longer than memory, too short, or of a size that does not agree with the others",
         }
     }
 }

@@ -89,23 +89,30 @@ impl Contact {
         }
     }
 
-    /// Displacement and force of the closed loop at the phase t of `amplitude cos t`, t = 2π `turn`, 0 <= `turn` < 1.
+    /// Displacement \[m\] and force \[N\] of the closed loop at instant `i` of `n` equidistant ones in a period of
+    /// `amplitude cos t`, from t = 0.
     ///
     /// # Errors
     /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
-    pub fn hysteresis_loop(&self, amplitude: f64, turn: f64) -> Result<(f64, f64), Error> {
+    pub fn hysteresis_loop(&self, amplitude: f64, i: usize, n: usize) -> Result<(f64, f64), Error> {
         check_amplitude(amplitude)?;
+        let n = n.max(1);
+        Ok(self.loop_at(amplitude, (i % n) as f64 / n as f64))
+    }
+
+    /// The loop at t = 2π `turn`, 0 <= `turn` < 1.
+    fn loop_at(&self, amplitude: f64, turn: f64) -> (f64, f64) {
         // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
         let (back, turn) = if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) };
         let (sine, cosine) = ((PI * turn).sin(), (2.0 * PI * turn).cos());
         let way = amplitude * sine * sine;
         if self.is_frictionless() {
-            return Ok((back * amplitude * cosine, 0.0));
+            return (back * amplitude * cosine, 0.0);
         }
         let top = self.force_of(&self.stick_at_displacement(amplitude));
         // In gross slip the branch reaches -mu N before its end.
         let force = top - 2.0 * self.force_of(&self.stick_at_displacement(way));
-        Ok((back * amplitude * cosine, back * force.max(-self.slip_force)))
+        (back * amplitude * cosine, back * force.max(-self.slip_force))
     }
 }
 
@@ -206,7 +213,7 @@ impl ComplexStiffness<'_> {
         let approach = self.approach();
         let Some(stick) = &self.stick else {
             let roots = self.over_the_family(None, |x, y, station| (x / y).sqrt() * station.load_rate);
-            return (4.0 / PI / approach * roots - 2.0 * self.real_part()) / approach;
+            return ((4.0 / PI / approach * roots - 2.0 * self.real_part()) / approach).min(0.0);
         };
         let sum = if stick.load.lost <= 0.5 {
             self.over_the_origin(stick, |x, y, near| {
@@ -374,7 +381,7 @@ mod tests {
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
                     for node in TANH_SINH.iter() {
                         let turn: f64 = from + (to - from) * node.from_0;
-                        let (_, force) = contact.hysteresis_loop(amplitude, 0.5 * turn).unwrap();
+                        let (_, force) = contact.loop_at(amplitude, 0.5 * turn);
                         let share = 2.0 / amplitude * (to - from) * node.weight * force;
                         real += share * (PI * turn).cos();
                         imaginary -= share * (PI * turn).sin();
@@ -398,7 +405,7 @@ mod tests {
         let contact = contact(50e-6);
         for amplitude in [-1e-9, f64::NAN, f64::INFINITY, 1.1e150] {
             assert_eq!(contact.complex_stiffness(amplitude).map(|_| ()), Err(Error::BadAmplitude));
-            assert_eq!(contact.hysteresis_loop(amplitude, 0.1), Err(Error::BadAmplitude));
+            assert_eq!(contact.hysteresis_loop(amplitude, 1, 10), Err(Error::BadAmplitude));
         }
         assert!(contact.complex_stiffness(1e150).is_ok());
         for force in [-1e-9, f64::NAN, f64::INFINITY] {

@@ -41,7 +41,12 @@ impl Layout {
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
-        Ok(Layout { coefficients: 2 * harmonics + 1, samples })
+        let coefficients = 2 * harmonics + 1;
+        // Twice the table, and a few rows more: less than that is what a workspace holds.
+        if (samples + 8).checked_mul(4 * coefficients).is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
+            return Err(Error::BadSamples);
+        }
+        Ok(Layout { coefficients, samples })
     }
 
     /// A period nests at most as many reversals as it has samples.

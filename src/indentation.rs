@@ -1,4 +1,4 @@
-//! Indentation by a flat with rounded edges: load, size and pressure of the contact (Eq. 1, 17, 19).
+//! Indentation by a flat with rounded edges: load and size of the contact (Eq. 1, 19, 24).
 //!
 //! The contact has half-width `c`, the flat `a`. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)`,
 //!

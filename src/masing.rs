@@ -58,19 +58,20 @@ pub(crate) struct Reversal {
 pub(crate) struct Virgin {
     /// Displacement at which it starts.
     pub origin: f64,
-    /// Whether gross slip has carried it along: nothing but its ends, at mu N, can then be reached again.
-    pub slid: bool,
+    /// Direction, +1 or -1, in which gross slip carried it along last; 0 if it never did. Nothing but its ends, at mu N, can
+    /// be reached again after that.
+    pub slid: f64,
 }
 
 impl Virgin {
-    pub const NEW: Virgin = Virgin { origin: 0.0, slid: false };
+    pub const NEW: Virgin = Virgin { origin: 0.0, slid: 0.0 };
 
     /// The curve after a course; without friction every point is an origin.
     pub fn after(self, contact: &Contact, course: &Course, displacement: f64) -> Virgin {
         if contact.is_frictionless() {
-            Virgin { origin: displacement, slid: false }
+            Virgin { origin: displacement, slid: 0.0 }
         } else if course.slides {
-            Virgin { origin: displacement - course.direction * contact.slip_displacement, slid: true }
+            Virgin { origin: displacement - course.direction * contact.slip_displacement, slid: course.direction }
         } else {
             self
         }
@@ -102,7 +103,7 @@ impl<'a> State<'a> {
             return Err(Error::StateTooShort);
         };
         let numbers =
-            [origin, displacement, force].iter().all(|value| value.is_finite()) && (slid == 0.0 || slid == 1.0);
+            [origin, displacement, force].iter().all(|value| value.is_finite()) && [-1.0, 0.0, 1.0].contains(&slid);
         if mark.to_bits() != MARK.to_bits() || !numbers {
             return Err(Error::BadState);
         }
@@ -113,7 +114,7 @@ impl<'a> State<'a> {
         }
         let used = reversals.get(..PER_REVERSAL * count as usize).ok_or(Error::BadState)?;
         if used.iter().all(|value| value.is_finite()) {
-            let virgin = Virgin { origin, slid: slid != 0.0 };
+            let virgin = Virgin { origin, slid };
             Ok(State { virgin, now: Reversal { displacement, force }, reversals: used, capacity })
         } else {
             Err(Error::BadState)
@@ -220,8 +221,13 @@ pub(crate) fn course(contact: &Contact, state: &State, target: f64) -> Course {
 pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut passed: impl FnMut(Stretch)) -> Course {
     let start = state.now;
     let newest = state.reversal(state.depth());
-    let heading = start.displacement - newest.map_or(state.virgin.origin, |reversal| reversal.displacement);
-    // A step of zero goes on where the branch was going.
+    // Where the branch was going. In gross slip its origin may be too far away for a difference to tell.
+    let heading = match newest {
+        Some(reversal) => start.displacement - reversal.displacement,
+        None if state.virgin.slid != 0.0 => state.virgin.slid,
+        None => start.displacement - state.virgin.origin,
+    };
+    // A step of zero goes on.
     let way = if target == start.displacement { heading } else { target - start.displacement };
     let direction = if way < 0.0 { -1.0 } else { 1.0 };
     let reaches = |displacement: f64| direction * (target - displacement) >= 0.0;
@@ -247,11 +253,13 @@ pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut pas
     }
     let Virgin { origin, slid } = state.virgin;
     let along = |displacement: f64| (displacement - origin).abs().min(slip_displacement);
-    let slipped =
-        if slid { (target - from).abs() } else { (direction * (target - origin) - slip_displacement).max(0.0) };
-    let (start, end) = if slid { (0.0, 0.0) } else { (along(from), along(target)) };
+    let (start, end, slipped) = if slid == 0.0 {
+        (along(from), along(target), (direction * (target - origin) - slip_displacement).max(0.0))
+    } else {
+        (0.0, 0.0, (target - from).abs())
+    };
     passed(Stretch { halves: 1.0, from: start, to: end, slipped });
-    Course { depth: 0, branch: None, turned: false, direction, slides: slid || slipped > 0.0 }
+    Course { depth: 0, branch: None, turned: false, direction, slides: slid != 0.0 || slipped > 0.0 }
 }
 
 /// Force at the end of a course, and the stick zone on its branch; none in gross slip and without friction.
@@ -268,6 +276,13 @@ pub(crate) fn force_at(contact: &Contact, origin: f64, course: &Course, displace
     let stick = contact.stick_at_displacement((displacement - from.displacement).abs() / halves);
     let force = from.force + course.direction * halves * contact.force_of(&stick);
     (force.max(-limit).min(limit), Some(stick))
+}
+
+/// The course of a step that the state has room for.
+fn admitted_course(contact: &Contact, state: &State, displacement: f64) -> Result<Course, Error> {
+    check_displacement(displacement)?;
+    let course = course(contact, state, displacement);
+    if course.depth > state.capacity { Err(Error::StateFull) } else { Ok(course) }
 }
 
 /// A step that was found and may be written.
@@ -288,11 +303,7 @@ pub struct Step<'a> {
 /// the state holds.
 pub fn step<'a>(contact: &'a Contact, state: &[f64], displacement: f64) -> Result<Step<'a>, Error> {
     let state = State::read(state)?;
-    check_displacement(displacement)?;
-    let course = course(contact, &state, displacement);
-    if course.depth > state.capacity {
-        return Err(Error::StateFull);
-    }
+    let course = admitted_course(contact, &state, displacement)?;
     Ok(Step::along(contact, &state, course, displacement))
 }
 
@@ -301,9 +312,7 @@ pub fn step<'a>(contact: &'a Contact, state: &[f64], displacement: f64) -> Resul
 /// # Errors
 /// Those of [`step`].
 pub fn check_step(contact: &Contact, state: &[f64], displacement: f64) -> Result<(), Error> {
-    let state = State::read(state)?;
-    check_displacement(displacement)?;
-    if course(contact, &state, displacement).depth > state.capacity { Err(Error::StateFull) } else { Ok(()) }
+    admitted_course(contact, &State::read(state)?, displacement).map(|_| ())
 }
 
 impl<'a> Step<'a> {
@@ -357,7 +366,7 @@ impl<'a> Step<'a> {
         };
         *count = self.course.depth as f64;
         *origin = self.virgin.origin;
-        *slid = f64::from(u8::from(self.virgin.slid));
+        *slid = self.virgin.slid;
         *displacement = self.end.displacement;
         *force = self.end.force;
         if self.course.turned {
@@ -379,7 +388,7 @@ pub struct Scratch {
 
 impl Scratch {
     /// Reversals that it holds at most.
-    const REVERSALS: usize = 512;
+    const REVERSALS: usize = 2048;
 
     /// A copy of a state.
     ///
@@ -421,10 +430,7 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
     let dry = scratch.state();
     for &displacement in path {
         let read = State::read(dry)?;
-        let course = course(contact, &read, displacement);
-        if course.depth > read.capacity {
-            return Err(Error::StateFull);
-        }
+        let course = admitted_course(contact, &read, displacement)?;
         // The memory needs displacements only.
         let virgin = read.virgin.after(contact, &course, displacement);
         let (start, end) = (read.now, Reversal { displacement, force: 0.0 });
@@ -437,20 +443,20 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
 /// reversal's jump of force (Eq. 21 with Masing's rule).
 ///
 /// # Errors
-/// `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact.
-pub fn shear_after(contact: &Contact, state: &[f64], x: f64) -> Result<f64, Error> {
+/// `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
+pub fn shear_after(contact: &Contact, state: &[f64], x: &[f64], shear: &mut [f64]) -> Result<(), Error> {
     let state = State::read(state)?;
-    let mut sum = 0.0;
+    let forces = || state.history().map(|reversal| reversal.force).chain([state.now.force]);
+    forces().try_for_each(|force| contact.check_force(force))?;
+    shear.fill(0.0);
     let mut before = None;
-    for turn in state.history().map(|reversal| reversal.force).chain([state.now.force]) {
-        contact.check_force(turn)?;
-        sum += match before {
-            None => contact.curve_at_force(turn)?.shear(x),
-            Some(force) => 2.0 * contact.curve_at_force(0.5 * (turn - force))?.shear(x),
-        };
-        before = Some(turn);
+    for force in forces() {
+        let (times, jump) = before.map_or((1.0, force), |before: f64| (2.0, 0.5 * (force - before)));
+        let point = contact.curve_at_force(jump)?;
+        shear.iter_mut().zip(x).for_each(|(shear, &x)| *shear += times * point.shear(x));
+        before = Some(force);
     }
-    Ok(sum)
+    Ok(())
 }
 
 #[cfg(test)]
@@ -500,7 +506,7 @@ mod tests {
             assert_eq!(step(&contact, state, 0.0).map(|_| ()), Err(error));
             assert_eq!(check_step(&contact, state, 0.0), Err(error));
             assert_eq!(check_path(&contact, state, &[0.0]), Err(error));
-            assert_eq!(shear_after(&contact, state, 0.0), Err(error));
+            assert_eq!(shear_after(&contact, state, &[0.0], &mut [0.0]), Err(error));
         };
         for (place, value) in [
             (0, 0.0),
@@ -698,7 +704,9 @@ mod tests {
         for (from, to) in places.iter().zip(places.iter().skip(1)) {
             for node in crate::quadrature::TANH_SINH.iter() {
                 let x = from + (to - from) * node.from_0;
-                let shear = shear_after(&contact, &state, x).unwrap();
+                let mut shear = [0.0];
+                shear_after(&contact, &state, &[x], &mut shear).unwrap();
+                let [shear] = shear;
                 // Rounding of five terms.
                 assert!(shear.abs() <= 0.4 * contact.pressure(x) * (1.0 + 1e-12));
                 sum += 2.0 * 10e-3 * (to - from) * node.weight * shear;
@@ -709,6 +717,21 @@ mod tests {
         // The force of a stronger contact.
         state_init(&mut state).unwrap();
         state[5] = 1.5 * contact.slip_force;
-        assert_eq!(shear_after(&contact, &state, 0.0), Err(Error::ForceExceedsSlip));
+        assert_eq!(shear_after(&contact, &state, &[0.0], &mut [0.0]), Err(Error::ForceExceedsSlip));
+    }
+
+    /// So far in gross slip that the origin cannot be told from the displacement, the direction is still known.
+    #[test]
+    fn a_step_of_zero_far_in_gross_slip_changes_nothing() {
+        let contact = contact(0.0);
+        for displacement in [-1e17 * contact.slip_displacement, -1e150, 1e150] {
+            let mut state = virgin(3);
+            let forces = [(); 3].map(|()| {
+                let step = step(&contact, &state, displacement).unwrap();
+                step.write(&mut state);
+                step.force()
+            });
+            assert_eq!(forces, [contact.slip_force.copysign(displacement); 3]);
+        }
     }
 }

@@ -61,6 +61,11 @@ impl RoundedFlat {
         }
     }
 
+    /// What turns the integrals over the family into tractions and slip.
+    fn traction_unit(&self) -> f64 {
+        4.0 / self.load.max(TINY)
+    }
+
     /// ln(b/c), accurate also where c is near b.
     fn excess(&self, inner: &Indentation) -> f64 {
         let size = inner.half_width * inner.half_width;
@@ -145,7 +150,9 @@ impl ContactFamily for RoundedFlat {
     }
 
     fn measure(&self, member: &Member) -> f64 {
-        member.measure.unwrap_or_else(|| (1.0 + (-2.0 * member.excess).exp_m1() / (self.w * self.w)).max(0.0).sqrt())
+        member
+            .measure
+            .unwrap_or_else(|| (1.0 + (-2.0 * member.excess).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt())
     }
 
     fn station(&self, measure: f64) -> Station {
@@ -162,7 +169,7 @@ impl ContactFamily for RoundedFlat {
     }
 
     fn pressure(&self, place: &Place) -> f64 {
-        traction::pressure_between(self.flat, 0.0, self.w, self.w * self.w, place) * 4.0 / (PI * self.load)
+        traction::pressure_between(self.flat, 0.0, self.w, self.w * self.w, place) * self.traction_unit() / PI
     }
 
     fn shear(&self, place: &Place, stick: &Member) -> f64 {
@@ -171,11 +178,11 @@ impl ContactFamily for RoundedFlat {
             Some(_) => (self.w - inner) * (self.w + inner),
             None => -(-2.0 * stick.excess).exp_m1(),
         };
-        traction::pressure_between(self.flat, inner, self.w, squares, place) * 4.0 / (PI * self.load)
+        traction::pressure_between(self.flat, inner, self.w, squares, place) * self.traction_unit() / PI
     }
 
     fn slip(&self, place: &Place, stick: &Member) -> Option<f64> {
-        Some(traction::slip_beyond(&self.stick(stick), place) * 4.0 / self.load)
+        Some(traction::slip_beyond(&self.stick(stick), place) * self.traction_unit())
     }
 }
 

@@ -65,7 +65,7 @@ fn outside(flat: f64, place: &Place) -> f64 {
 /// The antiderivative at w and the size of its terms. With `ζ = sqrt(c² - x²)`,
 ///
 /// ```text
-/// ψ ζ + x ln[(a ζ + x w)/(c (w + ζ))] + (a - x) ln[sqrt|a² - x²|/(w + ζ)]
+/// ψ ζ + x ln[(a ζ + x w)/(c (w + ζ))] - (a - x) ln[(w + ζ)/sqrt|a² - x²|]
 /// ```
 ///
 /// which vanishes at w = 0 inside the flat and at c = x outside it, and is finite at x = a.
@@ -76,12 +76,16 @@ fn antiderivative(flat: f64, w: f64, place: &Place) -> (f64, f64) {
     let sum = (w + zeta).max(TINY);
     let c = c.max(TINY);
     let less = w * w / (c * (flat + c)) - place.beyond_flat * w / (c * sum);
-    let terms = [
-        psi * zeta,
-        place.x * (-less).max(-1.0 + 1e-16).ln_1p(),
-        -place.beyond_flat * (outside.abs().sqrt().max(TINY) / sum).ln(),
-    ];
+    let terms =
+        [psi * zeta, place.x * (-less).max(-1.0 + 1e-16).ln_1p(), place.beyond_flat * log_ratio(w, zeta, outside)];
     (terms.iter().sum(), terms.iter().map(|term| term.abs()).sum())
+}
+
+/// `ln[(w + ζ)/sqrt|outside|]` with `ζ² = w² - outside`, accurate also where the quotient is near 1.
+fn log_ratio(w: f64, zeta: f64, outside: f64) -> f64 {
+    let edge = outside.abs().sqrt().max(1e-150);
+    let above = if outside < 0.0 { w + w * w / (zeta + edge) } else { (w - edge).max(0.0) + zeta };
+    (above / edge).ln_1p()
 }
 
 /// `∫ acosh(x/c') ψ c' dc'` from the stick zone to |x|; 0 inside the stick zone. With `ξ = sqrt(x² - c²)` it is half of
@@ -124,6 +128,7 @@ mod tests {
     use super::*;
     use crate::contact::tests::{FLATS, contact};
     use crate::quadrature::TANH_SINH;
+    use crate::{Contact, Material, Parameters};
 
     /// `∫ f` over (0, 1) by the tanh-sinh rule.
     fn unit(f: impl Fn(f64) -> f64) -> f64 {
@@ -285,6 +290,32 @@ mod tests {
             // Coulomb's limit holds throughout the slip zone.
             for x in [c * (1.0 + 1e-12), 0.5 * (b + c), b - 1e-3 * (b - c)] {
                 assert!((point.shear(x) / (0.4 * contact.pressure(x)) - 1.0).abs() < 1e-12, "{flat} {x}");
+            }
+        }
+    }
+
+    /// Edges so sharp that nothing is left of them: the flat punch, `p = P/(π sqrt(a² - x²))`.
+    #[test]
+    fn the_flattest_contact_has_the_pressure_of_a_flat_punch() {
+        for radius in [1e-30, 1e-44, 1e-60] {
+            let (flat, length, normal_force) = (5e-3, 1e-2, 150.0);
+            let body = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+            let parameters = Parameters {
+                flat_half_width: flat,
+                edge_radius: radius,
+                length,
+                normal_force,
+                friction_coefficient: 0.4,
+                material: [body; 2],
+                ..Parameters::default()
+            };
+            let contact = Contact::rounded_flat(&parameters).unwrap();
+            let end = contact.curve_at_force(contact.slip_force).unwrap();
+            for place in 0..100 {
+                let x = 0.0099 * flat * place as f64;
+                let punch = normal_force / length / (core::f64::consts::PI * ((flat - x) * (flat + x)).sqrt());
+                assert!((contact.pressure(x) / punch - 1.0).abs() < 1e-14, "{radius} {place}");
+                assert!((end.shear(x) / (0.4 * punch) - 1.0).abs() < 1e-14, "{radius} {place}");
             }
         }
     }

@@ -226,7 +226,7 @@ proptest! {
         let n = 64;
         for turn in 0..2 * n {
             let (displacement, force) =
-                contact.hysteresis_loop(amplitude * contact.slip_displacement, (turn % n) as f64 / n as f64).unwrap();
+                contact.hysteresis_loop(amplitude * contact.slip_displacement, turn, n).unwrap();
             let (walked, ..) = walker.step(displacement / contact.slip_displacement);
             if turn > n {
                 prop_assert!((walked - force).abs() <= 1e-12 * contact.slip_force, "{turn}: {walked} {force}");

@@ -33,7 +33,7 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
             return Ok(());
         }
         for i in 0..n {
-            let (u, t) = contact.hysteresis_loop(amplitude, i as f64 / n as f64)?;
+            let (u, t) = contact.hysteresis_loop(amplitude, i, n)?;
             set(&mut displacement, i, || u);
             set(&mut force, i, || t);
         }
@@ -149,7 +149,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
 
 /// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
 /// state). Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\], force \[N\]; jacobian \[N/m\] is
-/// d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated \[J\] is per period.
+/// d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
+/// at a turning point, or one is just at gross slip, it is that of one side. dissipated \[J\] is per period.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -180,10 +181,9 @@ pub unsafe extern "C" fn mslip_harmonic_force(
 }
 
 /// The spring-slider with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip force \[N\]. At the
-/// amplitude 0: the initial stiffness, and mu N.
+/// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_AMPLITUDE, or MSLIP_NOT_AVAILABLE where the contact carries no
-/// force.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 ///
 /// # Safety
 /// Pointers are NULL or point to one item; outputs overlap nothing.

@@ -134,7 +134,7 @@ pub unsafe extern "C" fn mslip_slip(
         for (i, &x) in x.iter().enumerate() {
             let here = point.slip(x)?;
             set(&mut slip, i, || here);
-            set(&mut damage, i, || point.damage(x, here));
+            set(&mut damage, i, || point.damage_of(x, here));
         }
         Ok(())
     };
@@ -295,7 +295,7 @@ pub(super) unsafe fn update_one(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
 /// MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
-/// state has room for, or one whose state is not kept, may nest 512 at most.
+/// state has room for, or one whose state is not kept, may nest 2048 at most.
 ///
 /// # Safety
 /// Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
@@ -365,15 +365,9 @@ pub unsafe extern "C" fn mslip_masing_tractions(
         let state = unsafe { input(state, state_length) }?;
         let x = unsafe { input(x, n) }?;
         check_positions(x)?;
-        masing::shear_after(contact, state, 0.0)?;
-        let (mut pressure, mut shear) = unsafe { (output(pressure, n), output(shear, n)) };
-        for (i, &x) in x.iter().enumerate() {
-            set(&mut pressure, i, || contact.pressure(x));
-            if shear.is_some() {
-                let here = masing::shear_after(contact, state, x)?;
-                set(&mut shear, i, || here);
-            }
-        }
+        let mut pressure = unsafe { output(pressure, n) };
+        masing::shear_after(contact, state, x, unsafe { output(shear, n) }.unwrap_or(&mut []))?;
+        x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
         Ok(())
     };
     status(compute())
