@@ -35,6 +35,15 @@ pub struct ComplexStiffness<'a> {
     stick: Option<Member>,
 }
 
+/// The closed loop of one displacement amplitude (Eq. 11, 12).
+#[derive(Debug, Clone, Copy)]
+pub struct HysteresisLoop<'a> {
+    contact: &'a Contact,
+    amplitude: f64,
+    /// Force at the reversal \[N\].
+    top: f64,
+}
+
 /// Nodes of the midpoint rule over half a period: exact for trigonometric polynomials of degree below 2 x 16, and the
 /// integrand's coefficients fall as 0.17ⁿ or faster.
 const MIDPOINTS: usize = 16;
@@ -89,30 +98,39 @@ impl Contact {
         }
     }
 
-    /// Displacement \[m\] and force \[N\] of the closed loop at instant `i` of `n` equidistant ones in a period of
-    /// `amplitude cos t`, from t = 0.
+    /// The closed loop between ± a displacement amplitude \[m\].
     ///
     /// # Errors
     /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
-    pub fn hysteresis_loop(&self, amplitude: f64, i: usize, n: usize) -> Result<(f64, f64), Error> {
+    pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
         check_amplitude(amplitude)?;
+        let free = self.is_frictionless();
+        let top = if free { 0.0 } else { self.force_of(&self.stick_at_displacement(amplitude)) };
+        Ok(HysteresisLoop { contact: self, amplitude, top })
+    }
+}
+
+impl HysteresisLoop<'_> {
+    /// Displacement \[m\] and force \[N\] at instant `i` of `n` equidistant ones in a period of `amplitude cos t`, from t = 0.
+    #[must_use]
+    pub fn point(&self, i: usize, n: usize) -> (f64, f64) {
         let n = n.max(1);
-        Ok(self.loop_at(amplitude, (i % n) as f64 / n as f64))
+        self.at((i % n) as f64 / n as f64)
     }
 
-    /// The loop at t = 2π `turn`, 0 <= `turn` < 1.
-    fn loop_at(&self, amplitude: f64, turn: f64) -> (f64, f64) {
+    /// The point at t = 2π `turn`, 0 <= `turn` < 1.
+    fn at(&self, turn: f64) -> (f64, f64) {
+        let contact = self.contact;
         // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
         let (back, turn) = if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) };
         let (sine, cosine) = ((PI * turn).sin(), (2.0 * PI * turn).cos());
-        let way = amplitude * sine * sine;
-        if self.is_frictionless() {
-            return (back * amplitude * cosine, 0.0);
+        let displacement = back * self.amplitude * cosine;
+        if contact.is_frictionless() {
+            return (displacement, 0.0);
         }
-        let top = self.force_of(&self.stick_at_displacement(amplitude));
         // In gross slip the branch reaches -mu N before its end.
-        let force = top - 2.0 * self.force_of(&self.stick_at_displacement(way));
-        (back * amplitude * cosine, back * force.max(-self.slip_force))
+        let force = self.top - 2.0 * contact.force_of(&contact.stick_at_displacement(self.amplitude * sine * sine));
+        (displacement, back * force.max(-contact.slip_force))
     }
 }
 
@@ -257,7 +275,7 @@ impl ComplexStiffness<'_> {
         };
         let integrand = |station: &Station| {
             let x = (station.approach.lost / approach).clamp(0.0, 1.0);
-            let y = ((station.approach.rest - rest) / approach).max(0.0);
+            let y = ((station.approach.rest - rest) / approach).max(f64::MIN_POSITIVE);
             f(x, y, station)
         };
         // Just beyond gross slip 1-X nearly vanishes at the inner end, on the scale of the member whose rest is the excess:
@@ -381,7 +399,7 @@ mod tests {
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
                     for node in TANH_SINH.iter() {
                         let turn: f64 = from + (to - from) * node.from_0;
-                        let (_, force) = contact.loop_at(amplitude, 0.5 * turn);
+                        let (_, force) = contact.hysteresis_loop(amplitude).unwrap().at(0.5 * turn);
                         let share = 2.0 / amplitude * (to - from) * node.weight * force;
                         real += share * (PI * turn).cos();
                         imaginary -= share * (PI * turn).sin();
@@ -405,7 +423,7 @@ mod tests {
         let contact = contact(50e-6);
         for amplitude in [-1e-9, f64::NAN, f64::INFINITY, 1.1e150] {
             assert_eq!(contact.complex_stiffness(amplitude).map(|_| ()), Err(Error::BadAmplitude));
-            assert_eq!(contact.hysteresis_loop(amplitude, 1, 10), Err(Error::BadAmplitude));
+            assert_eq!(contact.hysteresis_loop(amplitude).map(|_| ()), Err(Error::BadAmplitude));
         }
         assert!(contact.complex_stiffness(1e150).is_ok());
         for force in [-1e-9, f64::NAN, f64::INFINITY] {

@@ -36,5 +36,5 @@ pub mod c_api;
 pub use contact::Contact;
 pub use curve::CurvePoint;
 pub use error::Error;
-pub use harmonic::ComplexStiffness;
+pub use harmonic::{ComplexStiffness, HysteresisLoop};
 pub use parameters::{EllipticParameters, Material, Parameters};

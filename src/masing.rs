@@ -253,12 +253,12 @@ pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut pas
     }
     let Virgin { origin, slid } = state.virgin;
     let along = |displacement: f64| (displacement - origin).abs().min(slip_displacement);
-    let (start, end, slipped) = if slid == 0.0 {
+    let (first, last, slipped) = if slid == 0.0 {
         (along(from), along(target), (direction * (target - origin) - slip_displacement).max(0.0))
     } else {
         (0.0, 0.0, (target - from).abs())
     };
-    passed(Stretch { halves: 1.0, from: start, to: end, slipped });
+    passed(Stretch { halves: 1.0, from: first, to: last, slipped });
     Course { depth: 0, branch: None, turned: false, direction, slides: slid != 0.0 || slipped > 0.0 }
 }
 

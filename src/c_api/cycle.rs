@@ -27,13 +27,13 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     let compute = || {
         let contact = unsafe { pointer::contact(contact) }?;
         check_length::<f64>(n)?;
-        check_amplitude(amplitude)?;
+        let cycle = contact.hysteresis_loop(amplitude)?;
         let (mut displacement, mut force) = unsafe { (output(displacement, n), output(force, n)) };
         if displacement.is_none() && force.is_none() {
             return Ok(());
         }
         for i in 0..n {
-            let (u, t) = contact.hysteresis_loop(amplitude, i, n)?;
+            let (u, t) = cycle.point(i, n);
             set(&mut displacement, i, || u);
             set(&mut force, i, || t);
         }
