@@ -150,7 +150,7 @@ impl Indentation {
     /// The two limits, `w = sqrt(g/π)` of the cylinder and `w = (3ag/4)^(1/3)` of the flat, added as cubes, are 3 % off at
     /// worst; Halley's iteration cubes that error each time.
     pub fn of_load(flat: f64, load: f64) -> Indentation {
-        let mut now = Indentation::of_load_roughly(flat, load);
+        let mut now = Indentation::new(flat, Indentation::w_roughly(flat, load));
         for _ in 0..4 {
             let slope = (4.0 * now.w * now.psi).max(TINY);
             let newton = (now.load() - load) / slope;
@@ -164,11 +164,11 @@ impl Indentation {
         now
     }
 
-    /// The contact of this load to 3 %.
-    pub fn of_load_roughly(flat: f64, load: f64) -> Indentation {
+    /// w of the contact of this load to 3 %.
+    pub fn w_roughly(flat: f64, load: f64) -> f64 {
         let load = load.max(0.0);
         let hertz = load / PI;
-        Indentation::new(flat, (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt())
+        (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt()
     }
 
     /// g''(w) = 4 (ψ + w a/c²).
