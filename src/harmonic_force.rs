@@ -16,7 +16,8 @@
 use crate::contact::Contact;
 use crate::curve::check_displacement;
 use crate::error::Error;
-use crate::masing::{self, Course, Dissipation, Reversal, State, Virgin};
+use crate::masing::{self, Dissipation};
+use crate::memory::{self, Course, Reversal, State, Virgin};
 use core::f64::consts::PI;
 
 /// Tells a workspace from other memory.
@@ -282,7 +283,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         let now = Reversal { displacement: self.displacement, force: 0.0 };
         let state = State::of(self.virgin, now, used);
         let slip = self.contact.slip_displacement;
-        let mut course = masing::follow(&state, slip, target, |stretch| {
+        let mut course = memory::follow(&state, slip, target, |stretch| {
             if let Some(energy) = energy {
                 energy.add(&stretch);
             }

@@ -2,7 +2,7 @@
 //!
 //! The modules follow the physics: what the user gives ([`parameters`]), size and pressure of the contact (`indentation`),
 //! the family of sizes on which everything rests (`family`, provided by `rounded_flat` and `elliptic`), tractions, the
-//! monotonic curve, Masing's rule with its memory, harmonic quantities, harmonic force, spring-slider equivalents, and the
+//! monotonic curve, the memory and Masing's rule on it, harmonic quantities, harmonic force, spring-slider equivalents, and the
 //! C interface as a thin shell around them.
 #![no_std]
 #![deny(unsafe_code)]
@@ -22,6 +22,9 @@ mod traction;
 
 mod contact;
 mod curve;
+
+pub mod memory;
+
 pub mod masing;
 
 pub mod harmonic;

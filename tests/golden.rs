@@ -1,7 +1,8 @@
 //! Every row of the reference tables (inputs exact doubles, outputs 25 digits) through the Rust interface.
 
 use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
-use microslip::masing::{self, state_init, state_length};
+use microslip::masing;
+use microslip::memory::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::collections::HashMap;
 

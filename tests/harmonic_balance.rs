@@ -6,7 +6,8 @@
 //! time marching.
 
 use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
-use microslip::masing::{self, state_init, state_length};
+use microslip::masing;
+use microslip::memory::{state_init, state_length};
 use microslip::{Contact, Material, Parameters};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;

@@ -1,7 +1,8 @@
 //! What holds for every contact and every history: Coulomb's bound, dissipation, memory, symmetry, tangents.
 
 use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
-use microslip::masing::{self, state_init, state_length};
+use microslip::masing;
+use microslip::memory::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use proptest::prelude::*;
 

@@ -4,8 +4,8 @@ use super::mslip_contact;
 use super::pointer::{self, check_length, input, output, set, status};
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::masing;
 use crate::parameters::{EllipticParameters, Parameters};
+use crate::{masing, memory};
 use core::ptr;
 use libc::size_t;
 
@@ -210,7 +210,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 /// Doubles of a state that holds that many nested reversals.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
-    masing::state_length(reversals)
+    memory::state_length(reversals)
 }
 
 /// Makes a virgin state: no force, no displacement.
@@ -226,7 +226,7 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
         if state.is_null() {
             return Err(Error::NullPointer);
         }
-        masing::state_init(unsafe { output(state, state_length) }.ok_or(Error::StateTooShort)?)
+        memory::state_init(unsafe { output(state, state_length) }.ok_or(Error::StateTooShort)?)
     };
     status(init())
 }
