@@ -32,6 +32,26 @@ pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParam
     }
 }
 
+/// Writes the contact that `make` makes of parameters.
+///
+/// # Safety
+/// Both pointers are NULL or point to what their types say.
+unsafe fn prepare<P>(
+    parameters: *const P,
+    contact: *mut mslip_contact,
+    make: impl FnOnce(&P) -> Result<Contact, Error>,
+) -> i32 {
+    let prepare = || {
+        let parameters = unsafe { parameters.as_ref() }.ok_or(Error::NullPointer)?;
+        if contact.is_null() {
+            return Err(Error::NullPointer);
+        }
+        unsafe { contact.cast::<Contact>().write(make(parameters)?) };
+        Ok(())
+    };
+    status(prepare())
+}
+
 /// Prepares the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
@@ -41,15 +61,7 @@ pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParam
 /// `p` and `contact` are NULL or point to what their types say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
-    let prepare = || {
-        let parameters = unsafe { p.as_ref() }.ok_or(Error::NullPointer)?;
-        if contact.is_null() {
-            return Err(Error::NullPointer);
-        }
-        unsafe { contact.cast::<Contact>().write(Contact::rounded_flat(parameters)?) };
-        Ok(())
-    };
-    status(prepare())
+    unsafe { prepare(p, contact, Contact::rounded_flat) }
 }
 
 /// Prepares an elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
@@ -61,15 +73,7 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 /// `p` and `contact` are NULL or point to what their types say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
-    let prepare = || {
-        let parameters = unsafe { p.as_ref() }.ok_or(Error::NullPointer)?;
-        if contact.is_null() {
-            return Err(Error::NullPointer);
-        }
-        unsafe { contact.cast::<Contact>().write(Contact::elliptic(parameters)?) };
-        Ok(())
-    };
-    status(prepare())
+    unsafe { prepare(p, contact, Contact::elliptic) }
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically grown force \[N\] (Eq. 17, 21-24); 0 outside the
