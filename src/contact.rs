@@ -84,6 +84,7 @@ impl Contact {
             return Ok(open);
         }
         let (half_width, shape) = size_of_contact(parameters, pair.composite_modulus)?;
+        in_range(&[normal_force], &[length, half_width])?;
         let compliance = full_stick_compliance(parameters, &pair, half_width)?;
         let geometry = Contact {
             half_width,
@@ -131,7 +132,9 @@ impl Contact {
         if self.friction_coefficient == 0.0 {
             return Ok(self);
         }
+        in_range(&[self.friction_coefficient], &[])?;
         in_range(&[self.friction_coefficient, normal_force], &[])?;
+        in_range(&[self.friction_coefficient, self.pressure_unit], &[])?;
         let slip_force = self.friction_coefficient * normal_force;
         in_range(&[slip_force], &[self.stiffness_unit])?;
         let displacement_unit = slip_force / self.stiffness_unit;
