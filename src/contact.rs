@@ -31,16 +31,16 @@ pub struct Contact {
     mark: u64,
     law: u64,
     /// Displacement for an approach of 1 \[m\].
-    displacement_unit: f64,
+    pub(crate) displacement_unit: f64,
     /// Stiffness for a compliance of 1 \[N/m\].
-    stiffness_unit: f64,
+    pub(crate) stiffness_unit: f64,
     /// Pressure for one of 1 \[Pa\].
-    pressure_unit: f64,
-    friction_coefficient: f64,
+    pub(crate) pressure_unit: f64,
+    pub(crate) friction_coefficient: f64,
     /// a \[m\].
-    flat_half_width: f64,
+    pub(crate) flat_half_width: f64,
     /// mu N less `slip_force`: what rounding took.
-    slip_force_rounding: f64,
+    pub(crate) slip_force_rounding: f64,
     rounded_flat: RoundedFlat,
     spare: [f64; 56],
     end_mark: u64,
@@ -165,44 +165,14 @@ impl Contact {
         if self.law == LAW_ELLIPTIC { &Elliptic } else { &self.rounded_flat }
     }
 
-    /// mu \[-\].
-    pub(crate) fn friction_coefficient(&self) -> f64 {
-        self.friction_coefficient
-    }
-
-    /// a \[m\].
-    pub(crate) fn flat_half_width(&self) -> f64 {
-        self.flat_half_width
-    }
-
-    /// mu N less `slip_force` \[N\].
-    pub(crate) fn slip_force_rounding(&self) -> f64 {
-        self.slip_force_rounding
-    }
-
     /// No tangential force is possible: an open contact, or one without friction.
     pub(crate) fn is_frictionless(&self) -> bool {
         self.slip_force <= 0.0
     }
 
-    /// Displacement for an approach of 1 \[m\].
-    pub(crate) fn displacement_unit(&self) -> f64 {
-        self.displacement_unit
-    }
-
-    /// Stiffness for a compliance of 1 \[N/m\].
-    pub(crate) fn stiffness_unit(&self) -> f64 {
-        self.stiffness_unit
-    }
-
     /// Energy for a dissipation of 1 \[J\].
     pub(crate) fn energy_unit(&self) -> f64 {
         self.slip_force * self.displacement_unit
-    }
-
-    /// Pressure for one of 1 \[Pa\].
-    pub(crate) fn pressure_unit(&self) -> f64 {
-        self.pressure_unit
     }
 }
 

@@ -57,13 +57,13 @@ impl Contact {
         let (force, unit) = (force.min(self.slip_force), self.slip_force.max(f64::MIN_POSITIVE));
         let rest = self.slip_force - force;
         // mu N to twice the digits: what rests near gross slip is then as good as the force given.
-        let rest = if rest > 0.0 { (rest + self.slip_force_rounding()).max(0.0) } else { 0.0 };
+        let rest = if rest > 0.0 { (rest + self.slip_force_rounding).max(0.0) } else { 0.0 };
         self.family().at_load(Split { lost: force / unit, rest: rest / unit })
     }
 
     /// The stick zone at a displacement from 0 to that of gross slip.
     pub(crate) fn stick_at_displacement(&self, displacement: f64) -> Member {
-        let unit = self.displacement_unit().max(f64::MIN_POSITIVE);
+        let unit = self.displacement_unit.max(f64::MIN_POSITIVE);
         let displacement = displacement.min(self.slip_displacement);
         self.family()
             .at_approach(Split { lost: displacement / unit, rest: (self.slip_displacement - displacement) / unit })
@@ -80,7 +80,7 @@ impl Contact {
 
     /// dT/d(displacement) \[N/m\] at a stick zone.
     pub(crate) fn stiffness_of(&self, stick: &Member) -> f64 {
-        self.stiffness_unit() / self.family().compliance(stick)
+        self.stiffness_unit / self.family().compliance(stick)
     }
 
     /// Energy \[J\] dissipated per cycle whose half-cycles end with that stick zone.
@@ -112,7 +112,7 @@ impl CurvePoint<'_> {
     /// Tangential displacement \[m\] of a point that sticks; in gross slip that at which it started.
     #[must_use]
     pub fn displacement(&self) -> f64 {
-        let unit = self.contact.displacement_unit();
+        let unit = self.contact.displacement_unit;
         self.sign * self.stick.map_or(self.contact.slip_displacement, |stick| unit * stick.approach.lost)
     }
 
@@ -125,7 +125,7 @@ impl CurvePoint<'_> {
     /// d(displacement)/dT \[m/N\]; infinite at mu N where the stick zone shrinks to nothing, and without friction.
     #[must_use]
     pub fn compliance(&self) -> f64 {
-        let unit = self.contact.stiffness_unit().max(f64::MIN_POSITIVE);
+        let unit = self.contact.stiffness_unit.max(f64::MIN_POSITIVE);
         self.stick.map_or(f64::INFINITY, |stick| self.contact.family().compliance(&stick) / unit)
     }
 
@@ -146,7 +146,7 @@ impl CurvePoint<'_> {
         if self.contact.is_frictionless() {
             return 0.0;
         }
-        let unit = self.contact.friction_coefficient() * self.contact.pressure_unit();
+        let unit = self.contact.friction_coefficient * self.contact.pressure_unit;
         self.sign * unit * self.contact.family().shear(&self.contact.place(x), &self.stick_or_last())
     }
 
@@ -158,7 +158,7 @@ impl CurvePoint<'_> {
         let place = self.contact.place(x);
         let slip = self.contact.family().slip(&place, &self.stick_or_last()).ok_or(Error::NotAvailable)?;
         let slips = place.inside_edge >= 0.0 && !self.contact.is_frictionless();
-        Ok(if slips { self.sign * self.contact.displacement_unit() * slip } else { 0.0 })
+        Ok(if slips { self.sign * self.contact.displacement_unit * slip } else { 0.0 })
     }
 
     /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5).
@@ -171,7 +171,7 @@ impl CurvePoint<'_> {
 
     /// The damage parameter, given the slip at x.
     pub(crate) fn damage_of(&self, x: f64, slip: f64) -> f64 {
-        self.contact.friction_coefficient() * self.contact.pressure(x) * slip.abs()
+        self.contact.friction_coefficient * self.contact.pressure(x) * slip.abs()
     }
 }
 
@@ -179,7 +179,7 @@ impl Contact {
     /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
     #[must_use]
     pub fn pressure(&self, x: f64) -> f64 {
-        if self.half_width > 0.0 { self.pressure_unit() * self.family().pressure(&self.place(x)) } else { 0.0 }
+        if self.half_width > 0.0 { self.pressure_unit * self.family().pressure(&self.place(x)) } else { 0.0 }
     }
 
     /// Where x lies along the width; far outside is as good as twice the half-width.
@@ -187,7 +187,7 @@ impl Contact {
         let (x, unit) = (x.abs().min(2.0 * self.half_width), self.half_width.max(f64::MIN_POSITIVE));
         Place {
             x: x / unit,
-            beyond_flat: (x - self.flat_half_width().min(x + unit)) / unit,
+            beyond_flat: (x - self.flat_half_width.min(x + unit)) / unit,
             inside_edge: (self.half_width - x) / unit,
         }
     }

@@ -59,7 +59,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     Ok(SpringSlider { stiffness, slip_force: stiffness * amplitude * half * half })
 }
 
-/// More sliders than this err less than their own rounding.
+/// So many sliders err by 4e-12 of mu N for a cylinder, and take seconds to find: more would only take longer.
 pub const MOST_SLIDERS: usize = 1 << 16;
 
 /// n parallel spring-sliders with the contact's monotonic curve; each is handed to `take`. Returns the largest error of the
@@ -80,7 +80,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider
         (0..sliders).for_each(|_| take(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);
     }
-    let curve = Curve(contact.family());
+    let curve = Curve::new(contact.family());
     let (mut low, mut high) = (1e-18_f64, 1.0_f64);
     for _ in 0..100 {
         let error = (low * high).sqrt();
@@ -99,7 +99,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider
         let next = if corner.force < 1.0 { curve.side(&corner, high) } else { Side { slope: 0.0, end: corner } };
         let stiffness = (side.slope - next.slope).max(0.0);
         take(SpringSlider {
-            stiffness: stiffness * contact.stiffness_unit(),
+            stiffness: stiffness * contact.stiffness_unit,
             slip_force: stiffness * corner.approach * contact.slip_force,
         });
         side = next;
@@ -128,19 +128,26 @@ struct Side {
 }
 
 /// The monotonic curve in its own units.
-struct Curve<'a>(&'a dyn ContactFamily);
+struct Curve<'a> {
+    family: &'a dyn ContactFamily,
+    /// Tangent stiffness just before gross slip.
+    last_slope: f64,
+}
 
-impl Curve<'_> {
+impl<'a> Curve<'a> {
+    fn new(family: &'a dyn ContactFamily) -> Curve<'a> {
+        Curve { family, last_slope: 1.0 / family.compliance(&family.at_load_rest(0.0)) }
+    }
+
     /// Approach and tangent stiffness at a force over mu N.
     fn at(&self, force: f64) -> (f64, f64) {
-        let stick = self.0.at_load(Split { lost: force, rest: 1.0 - force });
-        (stick.approach.lost, 1.0 / self.0.compliance(&stick))
+        let stick = self.family.at_load(Split { lost: force, rest: 1.0 - force });
+        (stick.approach.lost, 1.0 / self.family.compliance(&stick))
     }
 
     /// The side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
     fn side(&self, from: &Corner, error: f64) -> Side {
-        let slip = self.0.slip_approach();
-        let (_, last_slope) = self.at(1.0);
+        let slip = self.family.slip_approach();
         let lowered =
             |force: f64, approach: f64, slope: f64| force - error - from.force - slope * (approach - from.approach);
         let touch = |force: f64| {
@@ -148,7 +155,7 @@ impl Curve<'_> {
             lowered(force, approach, slope)
         };
         // Before the contact slips, or at the corner where it does.
-        let (touching, slope) = if lowered(1.0, slip, last_slope) > 0.0 {
+        let (touching, slope) = if lowered(1.0, slip, self.last_slope) > 0.0 {
             let force = root(touch, from.on_curve, 1.0);
             (force, self.at(force).1)
         } else {

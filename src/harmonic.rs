@@ -146,12 +146,12 @@ impl ComplexStiffness<'_> {
     /// No friction, or an amplitude so small that the curve's first bend is all there is, to far beyond rounding: smaller
     /// ones would only underflow.
     fn is_at_rest(&self) -> bool {
-        self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_unit()
+        self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_unit
     }
 
     /// δ0 in units of the approach; 1 where there is no cycle.
     fn approach(&self) -> f64 {
-        let unit = self.contact.displacement_unit();
+        let unit = self.contact.displacement_unit;
         if self.is_at_rest() { 1.0 } else { self.amplitude.max(1e-30 * unit) / unit.max(f64::MIN_POSITIVE) }
     }
 
@@ -166,11 +166,7 @@ impl ComplexStiffness<'_> {
     /// K' \[N/m\].
     #[must_use]
     pub fn real(&self) -> f64 {
-        if self.is_at_rest() {
-            self.contact.initial_stiffness
-        } else {
-            self.contact.stiffness_unit() * self.real_part()
-        }
+        if self.is_at_rest() { self.contact.initial_stiffness } else { self.contact.stiffness_unit * self.real_part() }
     }
 
     /// K'' \[N/m\], not negative.
@@ -189,7 +185,7 @@ impl ComplexStiffness<'_> {
         if self.is_at_rest() {
             return self.slope_at_rest().0;
         }
-        self.contact.stiffness_unit() / self.contact.displacement_unit() * self.real_part_slope()
+        self.contact.stiffness_unit / self.contact.displacement_unit * self.real_part_slope()
     }
 
     /// dK''/d(amplitude) \[N/m²\].
@@ -270,7 +266,7 @@ impl ComplexStiffness<'_> {
             None => (
                 0.0,
                 (self.contact.slip_displacement - self.amplitude)
-                    / self.contact.displacement_unit().max(f64::MIN_POSITIVE),
+                    / self.contact.displacement_unit.max(f64::MIN_POSITIVE),
             ),
         };
         let integrand = |station: &Station| {
@@ -296,7 +292,7 @@ impl ComplexStiffness<'_> {
         }
         let origin = self.family().origin();
         let bend = 0.5 * origin.first_curvature() / (origin.compliance * origin.compliance * origin.compliance);
-        let unit = self.contact.stiffness_unit() / self.contact.displacement_unit().max(f64::MIN_POSITIVE);
+        let unit = self.contact.stiffness_unit / self.contact.displacement_unit.max(f64::MIN_POSITIVE);
         (-bend * unit, 4.0 / (3.0 * PI) * bend * unit)
     }
 }
@@ -322,7 +318,7 @@ mod tests {
             (1.2, 0.224_534_706_493_106_57, 0.059_416_193_661_125_13),
         ] {
             let complex = contact.complex_stiffness(part * contact.slip_displacement).unwrap();
-            let found = [complex.real(), complex.imaginary()].map(|k| k / contact.stiffness_unit());
+            let found = [complex.real(), complex.imaginary()].map(|k| k / contact.stiffness_unit);
             // A unit of rounding of Λ, which comes from the half-width, is one of both.
             assert!(
                 (found[0] / real - 1.0).abs() < 4e-15 && (found[1] / imaginary - 1.0).abs() < 2e-14,

@@ -34,7 +34,7 @@ struct Layout {
 
 impl Layout {
     fn new(harmonics: usize, samples: usize) -> Result<Layout, Error> {
-        // Far beyond any use, and small enough that no size below overflows.
+        // Far beyond any use.
         const LARGEST: usize = 1 << 24;
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
@@ -43,7 +43,7 @@ impl Layout {
             return Err(Error::BadSamples);
         }
         let coefficients = 2 * harmonics + 1;
-        // Twice the table, and a few rows more: less than that is what a workspace holds.
+        // Four tables are more than a workspace holds: where addresses have 32 bits even that may be too much.
         if (samples + 8).checked_mul(4 * coefficients).is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
             return Err(Error::BadSamples);
         }
@@ -115,13 +115,17 @@ pub struct Workspace<'a> {
 /// # Errors
 /// `BadWorkspace` for memory that was not initialised, or was changed.
 pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
+    layout_of(header).map(|layout| layout.length())
+}
+
+fn layout_of(header: &[f64; HEADER]) -> Result<Layout, Error> {
     let &[mark, harmonics, samples] = header;
     // Compared as doubles: a conversion of what is no number would trap.
     let whole = |value: f64| (1.0..=16_777_216.0).contains(&value) && value.floor() == value;
     if mark.to_bits() != MARK.to_bits() || !whole(harmonics) || !whole(samples) {
         return Err(Error::BadWorkspace);
     }
-    Layout::new(harmonics as usize, samples as usize).map(|layout| layout.length()).map_err(|_| Error::BadWorkspace)
+    Layout::new(harmonics as usize, samples as usize).map_err(|_| Error::BadWorkspace)
 }
 
 impl<'a> Workspace<'a> {
@@ -130,11 +134,8 @@ impl<'a> Workspace<'a> {
     /// # Errors
     /// `BadWorkspace` for memory that was not initialised, or was changed.
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let header = workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?;
-        let extent = workspace_extent(header)?;
-        let &[_, harmonics, samples] = header;
-        let layout = Layout::new(harmonics as usize, samples as usize).map_err(|_| Error::BadWorkspace)?;
-        let rest = workspace.get_mut(HEADER..extent).ok_or(Error::BadWorkspace)?;
+        let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
+        let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
         let mut parts = Parts(rest);
         let table = parts.take(layout.table())?;
         Ok(Workspace {

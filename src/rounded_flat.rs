@@ -125,7 +125,7 @@ impl ContactFamily for RoundedFlat {
             return self.at_load_rest(0.0);
         }
         let mut inner = self.guess(rest);
-        let mut more = 8;
+        let mut iterations_left = 8;
         loop {
             let (w, c2) = (inner.w, (inner.half_width * inner.half_width).max(TINY));
             let now = self.inner(&inner);
@@ -137,8 +137,8 @@ impl ContactFamily for RoundedFlat {
             let gap = rest - now.approach.rest;
             let newton = gap * self.load / slope;
             let step = newton / (1.0 + 0.5 * newton * bend / slope).max(0.5);
-            more -= 1;
-            if step.abs() <= 2e-5 * w || more == 0 {
+            iterations_left -= 1;
+            if step.abs() <= 2e-5 * w || iterations_left == 0 {
                 let load = now.load.rest + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
                 let excess = now.excess + step * (rate + 0.5 * step * rate_change);
                 return Member {
