@@ -36,7 +36,7 @@ OFFSET(mslip_contact, slip_force, 16);
 OFFSET(mslip_contact, slip_displacement, 24);
 OFFSET(mslip_contact, initial_stiffness, 32);
 OFFSET(mslip_contact, slip_energy, 40);
-SIZE(mslip_contact, 1024);
+SIZE(mslip_contact, 1992);
 
 /* What the library writes lies where the header says, and nowhere else. */
 int main(int argc, char **argv)

@@ -118,7 +118,7 @@ module microslip
     type(mslip_material) :: material(2)  !! The two bodies.
   end type mslip_elliptic_parameters
 
-  integer, parameter :: contact_bytes = 1024, readable_numbers = 6
+  integer, parameter :: contact_bytes = 1992, readable_numbers = 6
   integer, parameter :: reserved_numbers = contact_bytes/8 - readable_numbers
 
   type, bind(c), public :: mslip_contact

@@ -172,7 +172,7 @@ typedef struct mslip_contact {
     // Dissipated per cycle at incipient gross slip [J].
     double slip_energy;
     // Prepared coefficients and marks: not to be read or written.
-    double reserved[122];
+    double reserved[243];
 } mslip_contact;
 
 #ifdef __cplusplus

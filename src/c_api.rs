@@ -110,7 +110,7 @@ pub struct mslip_contact {
     /// Dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
     /// Prepared coefficients and marks: not to be read or written.
-    pub reserved: [f64; 122],
+    pub reserved: [f64; 243],
 }
 
 const _: () = {

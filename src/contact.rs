@@ -5,6 +5,7 @@ use crate::elliptic::Elliptic;
 use crate::error::Error;
 use crate::family::ContactFamily;
 use crate::indentation::Indentation;
+use crate::inverse::{FROM_ORIGIN, Inverse};
 use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Pair, Parameters};
 use crate::rounded_flat::RoundedFlat;
 use core::f64::consts::{LN_2, PI};
@@ -41,8 +42,13 @@ pub struct Contact {
     pub(crate) flat_half_width: f64,
     /// mu N less `slip_force`: what rounding took.
     pub(crate) slip_force_rounding: f64,
+    /// What makes of a displacement the argument of the inverse's first polynomial, and of what is left until gross slip that
+    /// of the others \[1/m\]; elliptical: the second, over all of the way.
+    pub(crate) origin_scale: f64,
+    pub(crate) rest_scale: f64,
     rounded_flat: RoundedFlat,
-    spare: [f64; 56],
+    inverse: Inverse,
+    spare: [f64; 54],
     end_mark: u64,
 }
 
@@ -52,7 +58,7 @@ const MARK: u64 = 0x6d73_6c69_7001_c0a7;
 const LAW_ROUNDED_FLAT: u64 = 1;
 const LAW_ELLIPTIC: u64 = 2;
 
-const _: () = assert!(size_of::<Contact>() == 1024);
+const _: () = assert!(size_of::<Contact>() == 1992);
 
 /// Exponent of 2 beyond which no intermediate product may come: squares stay representable.
 const LARGEST_EXPONENT: i32 = 500;
@@ -145,11 +151,16 @@ impl Contact {
         if !slip_energy.is_normal() {
             return Err(Error::OutOfRange);
         }
+        let slip_displacement = displacement_unit * family.slip_approach();
+        let (from_origin, rest) = if self.is_elliptic() { (1.0, 1.0) } else { (FROM_ORIGIN, 1.0 - FROM_ORIGIN) };
         Ok(Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
             displacement_unit,
-            slip_displacement: displacement_unit * family.slip_approach(),
+            slip_displacement,
+            origin_scale: 1.0 / (from_origin * slip_displacement),
+            rest_scale: 1.0 / (rest * slip_displacement),
+            inverse: if self.is_elliptic() { Inverse::NONE } else { self.rounded_flat.inverse() },
             initial_stiffness: self.stiffness_unit / family.origin().compliance,
             slip_energy,
             ..self
@@ -161,8 +172,16 @@ impl Contact {
         self.mark == MARK && self.end_mark == MARK && (self.law == LAW_ROUNDED_FLAT || self.law == LAW_ELLIPTIC)
     }
 
+    pub(crate) fn is_elliptic(&self) -> bool {
+        self.law == LAW_ELLIPTIC
+    }
+
+    pub(crate) fn inverse(&self) -> &Inverse {
+        &self.inverse
+    }
+
     pub(crate) fn family(&self) -> &dyn ContactFamily {
-        if self.law == LAW_ELLIPTIC { &Elliptic } else { &self.rounded_flat }
+        if self.is_elliptic() { &Elliptic } else { &self.rounded_flat }
     }
 
     /// No tangential force is possible: an open contact, or one without friction.
@@ -192,8 +211,11 @@ const EMPTY: Contact = Contact {
     friction_coefficient: 0.0,
     flat_half_width: 0.0,
     slip_force_rounding: 0.0,
+    origin_scale: 0.0,
+    rest_scale: 0.0,
     rounded_flat: RoundedFlat::EMPTY,
-    spare: [0.0; 56],
+    inverse: Inverse::NONE,
+    spare: [0.0; 54],
     end_mark: MARK,
 };
 

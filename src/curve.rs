@@ -15,8 +15,25 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub struct CurvePoint<'a> {
     contact: &'a Contact,
     sign: f64,
-    /// The stick zone; none in gross slip, and none without friction.
-    stick: Option<Member>,
+    given: Given,
+}
+
+/// By what a point is known.
+#[derive(Debug, Clone, Copy)]
+enum Given {
+    /// The stick zone under a force.
+    Stick(Member),
+    /// A displacement up to that of gross slip.
+    Displacement(f64),
+    /// Gross slip, or no friction: there is no stick zone.
+    Slip,
+}
+
+/// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Response {
+    pub force: f64,
+    pub stiffness: f64,
 }
 
 impl Contact {
@@ -27,8 +44,8 @@ impl Contact {
     /// are taken as mu N).
     pub fn curve_at_force(&self, force: f64) -> Result<CurvePoint<'_>, Error> {
         self.check_force(force)?;
-        let stick = if self.is_frictionless() { None } else { Some(self.stick_at_force(force.abs())) };
-        Ok(CurvePoint { contact: self, sign: sign_of(force), stick })
+        let given = if self.is_frictionless() { Given::Slip } else { Given::Stick(self.stick_at_force(force.abs())) };
+        Ok(CurvePoint { contact: self, sign: sign_of(force), given })
     }
 
     pub(crate) fn check_force(&self, force: f64) -> Result<(), Error> {
@@ -48,8 +65,8 @@ impl Contact {
     pub fn curve_at_displacement(&self, displacement: f64) -> Result<CurvePoint<'_>, Error> {
         check_displacement(displacement)?;
         let slides = self.is_frictionless() || displacement.abs() > self.slip_displacement;
-        let stick = if slides { None } else { Some(self.stick_at_displacement(displacement.abs())) };
-        Ok(CurvePoint { contact: self, sign: sign_of(displacement), stick })
+        let given = if slides { Given::Slip } else { Given::Displacement(displacement.abs()) };
+        Ok(CurvePoint { contact: self, sign: sign_of(displacement), given })
     }
 
     /// The stick zone under a force from 0 to mu N.
@@ -67,6 +84,49 @@ impl Contact {
         let displacement = displacement.min(self.slip_displacement);
         self.family()
             .at_approach(Split { lost: displacement / unit, rest: (self.slip_displacement - displacement) / unit })
+    }
+
+    /// Force and stiffness at a displacement >= 0; beyond that of gross slip mu N and 0, and 0 and 0 without friction.
+    #[inline(always)]
+    pub(crate) fn response(&self, displacement: f64) -> Response {
+        let left = self.slip_displacement - displacement;
+        if left < 0.0 || self.is_frictionless() {
+            return Response { force: self.slip_force, stiffness: 0.0 };
+        }
+        if self.is_elliptic() {
+            return self.elliptic_response(displacement, left);
+        }
+        let inverse = self.inverse();
+        let y = displacement * self.origin_scale;
+        if y <= 1.0 {
+            if let Some((secant, tangent)) = inverse.near_origin(y) {
+                let first = self.initial_stiffness;
+                return Response { force: first * displacement * secant, stiffness: first * tangent };
+            }
+        } else if let Some((rest, rate)) = inverse.near_slip(left * self.rest_scale) {
+            let scale = self.slip_force * self.rest_scale;
+            return Response { force: self.slip_force - self.slip_force * rest, stiffness: scale * rate };
+        }
+        self.solved_response(displacement)
+    }
+
+    /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: the difference from the root, which loses nothing.
+    #[inline(always)]
+    fn elliptic_response(&self, displacement: f64, left: f64) -> Response {
+        let size = (left * self.rest_scale).max(0.0).sqrt();
+        let lost = displacement * self.rest_scale / (1.0 + size);
+        Response {
+            force: self.slip_force * (lost * (1.0 + size * (1.0 + size))),
+            stiffness: self.stiffness_unit * size,
+        }
+    }
+
+    /// Force and stiffness where there is no polynomial.
+    #[cold]
+    #[inline(never)]
+    fn solved_response(&self, displacement: f64) -> Response {
+        let stick = self.stick_at_displacement(displacement);
+        Response { force: self.force_of(&stick), stiffness: self.stiffness_of(&stick) }
     }
 
     /// Force \[N\] of a stick zone.
@@ -99,45 +159,63 @@ fn sign_of(value: f64) -> f64 {
 }
 
 impl CurvePoint<'_> {
-    pub(crate) fn stick(&self) -> Option<&Member> {
-        self.stick.as_ref()
+    /// The stick zone; none in gross slip, and none without friction.
+    pub(crate) fn stick(&self) -> Option<Member> {
+        match self.given {
+            Given::Stick(stick) => Some(stick),
+            Given::Displacement(displacement) => Some(self.contact.stick_at_displacement(displacement)),
+            Given::Slip => None,
+        }
     }
 
     /// Tangential force T \[N\].
     #[must_use]
     pub fn force(&self) -> f64 {
-        self.sign * self.stick.map_or(self.contact.slip_force, |stick| self.contact.force_of(&stick))
+        self.sign
+            * match &self.given {
+                Given::Stick(stick) => self.contact.force_of(stick),
+                Given::Displacement(displacement) => self.contact.response(*displacement).force,
+                Given::Slip => self.contact.slip_force,
+            }
     }
 
     /// Tangential displacement \[m\] of a point that sticks; in gross slip that at which it started.
     #[must_use]
     pub fn displacement(&self) -> f64 {
-        let unit = self.contact.displacement_unit;
-        self.sign * self.stick.map_or(self.contact.slip_displacement, |stick| unit * stick.approach.lost)
+        self.sign
+            * match self.given {
+                Given::Stick(stick) => self.contact.displacement_unit * stick.approach.lost,
+                Given::Displacement(displacement) => displacement,
+                Given::Slip => self.contact.slip_displacement,
+            }
     }
 
     /// dT/d(displacement) \[N/m\]; 0 in gross slip.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
-        self.stick.map_or(0.0, |stick| self.contact.stiffness_of(&stick))
+        match &self.given {
+            Given::Stick(stick) => self.contact.stiffness_of(stick),
+            Given::Displacement(displacement) => self.contact.response(*displacement).stiffness,
+            Given::Slip => 0.0,
+        }
     }
 
     /// d(displacement)/dT \[m/N\]; infinite at mu N where the stick zone shrinks to nothing, and without friction.
     #[must_use]
     pub fn compliance(&self) -> f64 {
         let unit = self.contact.stiffness_unit.max(f64::MIN_POSITIVE);
-        self.stick.map_or(f64::INFINITY, |stick| self.contact.family().compliance(&stick) / unit)
+        self.stick().map_or(f64::INFINITY, |stick| self.contact.family().compliance(&stick) / unit)
     }
 
     /// Half-width c of the stick zone \[m\]; 0 in gross slip, where nothing sticks.
     #[must_use]
     pub fn stick_half_width(&self) -> f64 {
-        self.stick.map_or(0.0, |stick| self.contact.half_width * self.contact.family().size(&stick))
+        self.stick().map_or(0.0, |stick| self.contact.half_width * self.contact.family().size(&stick))
     }
 
     /// The stick zone, in gross slip the smallest member of the family, to which it has shrunk.
     fn stick_or_last(&self) -> Member {
-        self.stick.unwrap_or_else(|| self.contact.stick_at_force(self.contact.slip_force))
+        self.stick().unwrap_or_else(|| self.contact.stick_at_force(self.contact.slip_force))
     }
 
     /// Shear traction \[Pa\] at x \[m\] (Eq. 21).

@@ -87,7 +87,7 @@ impl Contact {
     pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
         self.check_force_amplitude(force_amplitude)?;
         let point = self.curve_at_force(force_amplitude)?;
-        Ok(point.stick().map_or(0.0, |stick| self.energy_of(stick)))
+        Ok(point.stick().map_or(0.0, |stick| self.energy_of(&stick)))
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
@@ -105,7 +105,7 @@ impl Contact {
     pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
         check_amplitude(amplitude)?;
         let free = self.is_frictionless();
-        let top = if free { 0.0 } else { self.force_of(&self.stick_at_displacement(amplitude)) };
+        let top = if free { 0.0 } else { self.response(amplitude).force };
         Ok(HysteresisLoop { contact: self, amplitude, top })
     }
 }
@@ -129,7 +129,7 @@ impl HysteresisLoop<'_> {
             return (displacement, 0.0);
         }
         // In gross slip the branch reaches -mu N before its end.
-        let force = self.top - 2.0 * contact.force_of(&contact.stick_at_displacement(self.amplitude * sine * sine));
+        let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
         (displacement, back * force.max(-contact.slip_force))
     }
 }

@@ -14,7 +14,7 @@
 //! reversal keeps its `dT_r` as a row over the harmonic coefficients.
 
 use crate::contact::Contact;
-use crate::curve::check_displacement;
+use crate::curve::{Response, check_displacement};
 use crate::error::Error;
 use crate::masing::{self, Dissipation};
 use crate::memory::{self, Course, Reversal, State, Virgin};
@@ -321,8 +321,8 @@ impl<'w, 'a> Walk<'w, 'a> {
         if let Some(known) = self.known {
             return known;
         }
-        let (force, stick) = masing::force_at(self.contact, self.virgin.origin, &self.course, self.displacement);
-        let stiffness = stick.map_or(0.0, |stick| self.contact.stiffness_of(&stick));
+        let Response { force, stiffness } =
+            masing::response_at(self.contact, self.virgin.origin, &self.course, self.displacement);
         self.known = Some((force, stiffness));
         (force, stiffness)
     }

@@ -11,11 +11,13 @@ extern crate std;
 pub mod error;
 pub mod parameters;
 
+mod chebyshev;
 mod quadrature;
 mod series;
 
 mod family;
 mod indentation;
+mod inverse;
 mod origin;
 mod rounded_flat;
 mod traction;

@@ -7,25 +7,26 @@
 //! read-only, a refused step leaves nothing behind, and both may be one array.
 
 use crate::contact::Contact;
-use crate::curve::check_displacement;
+use crate::curve::{Response, check_displacement};
 use crate::error::Error;
-use crate::family::Member;
 use crate::memory::{Course, PER_REVERSAL, Reversal, State, Stretch, Virgin, course, follow, state_length};
 
-/// Force at the end of a course, and the stick zone on its branch; none in gross slip and without friction.
-pub(crate) fn force_at(contact: &Contact, origin: f64, course: &Course, displacement: f64) -> (f64, Option<Member>) {
+/// Force and stiffness at the end of a course.
+pub(crate) fn response_at(contact: &Contact, origin: f64, course: &Course, displacement: f64) -> Response {
     let limit = contact.slip_force;
     if contact.is_frictionless() {
-        return (0.0, None);
+        return Response { force: 0.0, stiffness: 0.0 };
     }
     if course.slides {
-        return (course.direction * limit, None);
+        return Response { force: course.direction * limit, stiffness: 0.0 };
     }
     let from = course.branch.unwrap_or(Reversal { displacement: origin, force: 0.0 });
     let halves = if course.branch.is_some() { 2.0 } else { 1.0 };
-    let stick = contact.stick_at_displacement((displacement - from.displacement).abs() / halves);
-    let force = from.force + course.direction * halves * contact.force_of(&stick);
-    (force.max(-limit).min(limit), Some(stick))
+    // A way that reaches gross slip only by rounding ends where that begins.
+    let way = ((displacement - from.displacement).abs() / halves).min(contact.slip_displacement);
+    let Response { force, stiffness } = contact.response(way);
+    let force = from.force + course.direction * halves * force;
+    Response { force: force.max(-limit).min(limit), stiffness }
 }
 
 /// Sums the energy of stretches: one monotonic loading dissipates a quarter of its cycle's energy, one branch twice that
@@ -85,7 +86,7 @@ pub struct Step<'a> {
     virgin: Virgin,
     start: Reversal,
     end: Reversal,
-    stick: Option<Member>,
+    stiffness: f64,
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\].
@@ -110,9 +111,9 @@ pub fn check_step(contact: &Contact, state: &[f64], displacement: f64) -> Result
 impl<'a> Step<'a> {
     fn along(contact: &'a Contact, state: &State, course: Course, displacement: f64) -> Step<'a> {
         let start = state.now;
-        let (force, stick) = force_at(contact, state.virgin.origin, &course, displacement);
+        let Response { force, stiffness } = response_at(contact, state.virgin.origin, &course, displacement);
         let virgin = state.virgin.after(contact, &course, displacement);
-        Step { contact, course, virgin, start, end: Reversal { displacement, force }, stick }
+        Step { contact, course, virgin, start, end: Reversal { displacement, force }, stiffness }
     }
 
     /// Tangential force \[N\] after the step.
@@ -124,7 +125,7 @@ impl<'a> Step<'a> {
     /// dT/d(displacement) \[N/m\] on the branch on which the step ends; 0 in gross slip.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
-        self.stick.map_or(0.0, |stick| self.contact.stiffness_of(&stick))
+        self.stiffness
     }
 
     /// Energy \[J\] dissipated by the step, not negative; `state` is the one from which it was found.
@@ -226,7 +227,7 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
         // The memory needs displacements only.
         let virgin = read.virgin.after(contact, &course, displacement);
         let (start, end) = (read.now, Reversal { displacement, force: 0.0 });
-        Step { contact, course, virgin, start, end, stick: None }.write(dry);
+        Step { contact, course, virgin, start, end, stiffness: 0.0 }.write(dry);
     }
     Ok(())
 }

@@ -13,6 +13,7 @@
 
 use crate::family::{ContactFamily, Member, Place, Split, Station};
 use crate::indentation::{Indentation, TINY};
+use crate::inverse::Inverse;
 use crate::origin::{Origin, TERMS};
 use crate::traction;
 use core::f64::consts::PI;
@@ -59,6 +60,11 @@ impl RoundedFlat {
             slip_approach: compliance + mean_load,
             origin: Origin::new(compliance, curvature_series(contact, load)),
         }
+    }
+
+    /// The inverse of its curve as polynomials.
+    pub(crate) fn inverse(&self) -> Inverse {
+        Inverse::new(self.slip_approach, self.origin.compliance, |approach| self.at_approach(approach))
     }
 
     /// What turns the integrals over the family into tractions and slip.

@@ -28,6 +28,27 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
     (zero + one * x) + (two + three * x) * square
 }
 
+/// A polynomial and its derivative at x.
+#[inline(always)]
+pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
+    let square = x * x;
+    let step = square * square;
+    let (mut sums, mut slopes) = ([0.0; 4], [0.0; 4]);
+    for row in rows.iter().rev() {
+        for ((slope, sum), term) in slopes.iter_mut().zip(&mut sums).zip(row) {
+            *slope = *slope * step + *sum;
+            *sum = *sum * step + term;
+        }
+    }
+    let [zero, one, two, three] = sums;
+    let [rate_0, rate_1, rate_2, rate_3] = slopes;
+    let value = (zero + one * x) + (two + three * x) * square;
+    // By x directly, and through x⁴.
+    let direct = (one + 2.0 * two * x) + 3.0 * three * square;
+    let through = (rate_0 + rate_1 * x) + (rate_2 + rate_3 * x) * square;
+    (value, direct + 4.0 * (square * x) * through)
+}
+
 /// Rows that a series with coefficients near 1 needs for all digits at x, at most those there are.
 #[inline]
 pub(crate) fn rows_for(x: f64, all: usize) -> usize {

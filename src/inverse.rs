@@ -1,0 +1,94 @@
+//! The inverse of the monotonic curve as polynomials, prepared once: force and stiffness at a displacement without
+//! iteration.
+//!
+//! With x_s the approach at gross slip, the first 2/5 of the way are one polynomial in the approach. What is left until
+//! gross slip, `ρ = (x_s - x)/(3/5 x_s)`, goes with its root v: the curve is singular at v = 0, where it may have any power of
+//! ρ^(1/3) or a logarithm, and seen from the octave 2⁻ʲ⁻¹ < v < 2⁻ʲ that is three half-lengths away, so that every octave needs
+//! the same few terms. What is interpolated is the tangent stiffness, of which the force is the integral: both keep their
+//! digits. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
+
+use crate::chebyshev::{Interpolant, POINT, POINTS, Polynomial};
+use crate::family::{Member, Split};
+use crate::indentation::TINY;
+use crate::series::value_and_slope;
+
+/// Share of x_s that the polynomial from the origin covers.
+pub(crate) const FROM_ORIGIN: f64 = 0.4;
+
+/// Octaves of v.
+const OCTAVES: usize = 5;
+
+/// The inverse of one curve.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct Inverse {
+    /// Λ τ/x over y = x/(2/5 x_s): the secant stiffness over the initial one.
+    origin: Polynomial,
+    /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
+    octaves: [Polynomial; OCTAVES],
+    /// 1 where all of them are accurate to rounding; 0 for a curve that bends too sharply, with Λ near 0.
+    resolved: f64,
+}
+
+impl Inverse {
+    pub const NONE: Inverse = Inverse { origin: [[0.0; 4]; _], octaves: [[[0.0; 4]; _]; OCTAVES], resolved: 0.0 };
+
+    /// The inverse of the curve on which `at_approach` finds members, whose compliance is Λ + λ.
+    pub fn new(slip_approach: f64, compliance: f64, at_approach: impl Fn(Split) -> Member) -> Inverse {
+        let (first, rest) = (FROM_ORIGIN * slip_approach, (1.0 - FROM_ORIGIN) * slip_approach);
+        let stiffness = |member: &Member| 1.0 / (compliance + member.excess);
+        let from_origin = Interpolant::through(|z| {
+            let lost = 0.5 * (1.0 + z) * first;
+            compliance * stiffness(&at_approach(Split { lost, rest: slip_approach - lost }))
+        });
+        let mut resolved = from_origin.is_resolved();
+        let mut octaves = [[[0.0; 4]; _]; OCTAVES];
+        let mut scale = 0.25;
+        for octave in &mut octaves {
+            // The load at each point besides its rate: their mean places the integral.
+            let mut loads = [0.0; POINTS];
+            let mut places = loads.iter_mut();
+            let rate = Interpolant::through(|z| {
+                let v = scale * (3.0 + z);
+                let left = rest * v * v;
+                let member = at_approach(Split { lost: slip_approach - left, rest: left });
+                if let Some(place) = places.next() {
+                    *place = member.load.rest;
+                }
+                2.0 * rest * scale * v * stiffness(&member)
+            });
+            resolved &= rate.is_resolved();
+            *octave = rate.integral();
+            let off = POINT.iter().zip(loads).map(|(&z, load)| load - value_and_slope(octave, z).0);
+            let constant = off.sum::<f64>() / POINTS as f64;
+            if let Some([first, ..]) = octave.first_mut() {
+                *first = constant;
+            }
+            scale *= 0.5;
+        }
+        let mut origin = from_origin.mean_from_end();
+        if let Some([first, ..]) = origin.first_mut() {
+            *first = 1.0;
+        }
+        Inverse { origin, octaves, resolved: if resolved { 1.0 } else { 0.0 } }
+    }
+
+    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1.
+    #[inline(always)]
+    pub fn near_origin(&self, y: f64) -> Option<(f64, f64)> {
+        let (mean, slope) = value_and_slope(&self.origin, y);
+        (self.resolved > 0.0).then_some((mean, mean + slope * y))
+    }
+
+    /// 1 - τ and its derivative by ρ; none where ρ is too small.
+    #[inline(always)]
+    pub fn near_slip(&self, rho: f64) -> Option<(f64, f64)> {
+        let v = rho.max(TINY).sqrt();
+        // 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first octave.
+        let exponent = (v.to_bits() >> 52).min(1022);
+        let octave = self.octaves.get((1022 - exponent) as usize)?;
+        let scale = f64::from_bits((2047 - 2 - exponent) << 52);
+        let (rest, slope) = value_and_slope(octave, 4.0 * (scale * v) - 3.0);
+        (self.resolved > 0.0).then_some((rest, 2.0 * scale * slope / v))
+    }
+}
