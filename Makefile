@@ -14,7 +14,8 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all install uninstall demo demo-dependencies test header clean help
+.PHONY: all install uninstall demo demo-dependencies test instructions instructions-record counting-dependencies header \
+	clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -66,6 +67,17 @@ demo-dependencies:
 ## test: every test, in Rust, C, C++ and Fortran
 test:
 	scripts/test.sh
+
+## instructions: count the instructions of each call, and compare them with the record and with each other
+instructions: counting-dependencies all
+	instruction_counts/run.sh dist
+
+## instructions-record: record the instructions of each call
+instructions-record: counting-dependencies all
+	instruction_counts/run.sh --record dist
+
+counting-dependencies:
+	@scripts/dependencies.sh counting
 
 ## header: make include/microslip.h from the Rust source
 header:

@@ -3,6 +3,7 @@
 #
 #   fortran   the compiler
 #   demo      Fortran with LAPACK, and gnuplot
+#   counting  what counts instructions
 #   test      all that `make test` uses
 #
 # What is missing is installed when root runs this on Debian or a relative of it, else named.
@@ -35,13 +36,19 @@ demo() {
     need gnuplot-nox gnuplot
 }
 
+counting() {
+    need gcc gcc
+    need binutils readelf
+    need valgrind valgrind
+}
+
 rust_component() {
     cargo "$2" --version > /dev/null 2>&1 || components="$components $1"
 }
 
 tests() {
     demo
-    need gcc gcc
+    counting
     need g++ g++
     need cmake cmake
     need pkg-config pkg-config
@@ -58,10 +65,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|counting|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo) "$group" ;;
+        fortran | demo | counting) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

@@ -153,6 +153,7 @@ fi
 step 'archive: symbols and sections' scripts/symbols.sh "$prefix"
 step 'archive: beside another Rust archive' two_archives
 step 'archive: inside a shared library' shared_library
+step 'archive: instructions' instruction_counts/run.sh "$prefix"
 
 step 'C header: C99' header_as "$CC -std=c99 -x c" c
 step 'C header: C++11' header_as "$CXX -std=c++11 -x c++" cpp
