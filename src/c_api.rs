@@ -6,6 +6,8 @@
 #![allow(unsafe_code, non_camel_case_types)]
 
 mod pointer;
+mod widest;
+
 mod single;
 
 mod cycle;

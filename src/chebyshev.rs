@@ -159,9 +159,9 @@ mod tests {
         assert!(interpolant.is_resolved());
         for z in [-1.0, -0.3, 0.0, 0.77, 1.0_f64] {
             let (integral, slope) = value_and_slope(&interpolant.integral(), z);
-            // A few units of rounding of e.
-            assert!((integral - (z.exp() - 1.0)).abs() < 1e-15, "{z}");
-            assert!((slope - z.exp()).abs() < 4e-15, "{z}");
+            // A few units of rounding of e; the derivative weighs twenty terms by up to nineteen.
+            assert!((integral - (z.exp() - 1.0)).abs() < 2e-15, "{z}");
+            assert!((slope - z.exp()).abs() < 8e-15, "{z} {slope}");
             let y: f64 = 0.5 * (1.0 + z);
             let mean = sum(interpolant.mean_from_end().iter().copied(), y);
             let exact = if y > 0.0 { 0.5 * (z.exp() - (-1f64).exp()) / y } else { (-1f64).exp() };

@@ -110,6 +110,33 @@ impl Contact {
         self.solved_response(displacement)
     }
 
+    /// Force and stiffness at displacements of either sign.
+    #[inline(always)]
+    pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+        let signed = |displacement: f64| {
+            let Response { force, stiffness } = self.response(displacement.abs());
+            Response { force: sign_of(displacement) * force, stiffness }
+        };
+        match (force, stiffness) {
+            (Some(force), Some(stiffness)) => {
+                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
+                    Response { force: *force, stiffness: *stiffness } = signed(displacement);
+                }
+            }
+            (Some(force), None) => {
+                for (force, &displacement) in force.iter_mut().zip(displacement) {
+                    *force = signed(displacement).force;
+                }
+            }
+            (None, Some(stiffness)) => {
+                for (stiffness, &displacement) in stiffness.iter_mut().zip(displacement) {
+                    *stiffness = signed(displacement).stiffness;
+                }
+            }
+            (None, None) => {}
+        }
+    }
+
     /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: the difference from the root, which loses nothing.
     #[inline(always)]
     fn elliptic_response(&self, displacement: f64, left: f64) -> Response {

@@ -1,34 +1,36 @@
 //! Harmonic force by alternating between frequency and time, with its exact Jacobian.
 //!
-//! The displacement `c0 + Σ (a_k cos kt + b_k sin kt)` is sampled at equidistant instants, the contact is led twice through
-//! the period from the virgin state, and the second period's forces are transformed back.
+//! The displacement `c0 + Σ (a_k cos kt + b_k sin kt)` is sampled at equidistant instants, the contact is led through the
+//! steady state, and its forces are transformed back. The steady state is that of the second of two periods from the virgin
+//! state. It starts where the displacement is farthest from 0: there nothing is remembered but the virgin curve, whatever was
+//! before. So one period is walked, from that sample; and half of it where the displacement has odd harmonics only, for
+//! then force and displacement change their sign with half a period.
 //!
 //! The Jacobian follows the memory exactly. On a branch from a reversal r, `T = T_r ± 2 M⁻¹(|δ-δ_r|/2)`, so that with the
-//! tangent stiffness k of the branch
+//! tangent stiffness k of the branch and φ the row 1, cos t, sin t, cos 2t, ... of a sample
 //!
 //! ```text
-//! dT = k (dδ - dδ_r) + dT_r,
+//! dT = k (φ - φ_r) + dT_r,        J = Σ φ ⊗ dT = Σ k φ ⊗ φ - Σ_r (Σ k φ) ⊗ φ_r + Σ_r (Σ φ) ⊗ dT_r,
 //! ```
 //!
-//! where `dδ_r` belongs to the sample of the reversal, and `dT_r` was known when the reversal was passed. Each remembered
-//! reversal keeps its `dT_r` as a row over the harmonic coefficients.
+//! the inner sums over the samples on one branch. The first sum is made of the Fourier sums of k up to the order 2H, the last
+//! is geometric, and `dT_r` was known when the reversal was passed.
 
 use crate::contact::Contact;
 use crate::curve::{Response, check_displacement};
 use crate::error::Error;
-use crate::masing::{self, Dissipation};
-use crate::memory::{self, Course, Reversal, State, Virgin};
+use crate::masing::Dissipation;
+use crate::memory::{self, Reversal, State, Stretch, Virgin};
 use core::f64::consts::PI;
 
 /// Tells a workspace from other memory.
-const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_5331);
+const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_5332);
 
 const HEADER: usize = 3;
 
 /// Numbers of doubles in the parts of a workspace.
 struct Layout {
-    /// 2H + 1 coefficients.
-    coefficients: usize,
+    harmonics: usize,
     samples: usize,
 }
 
@@ -42,12 +44,21 @@ impl Layout {
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
-        let coefficients = 2 * harmonics + 1;
-        // Four tables are more than a workspace holds: where addresses have 32 bits even that may be too much.
-        if (samples + 8).checked_mul(4 * coefficients).is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
+        // Eight tables are more than a workspace holds: where addresses have 32 bits even that may be too much.
+        if (samples + 8).checked_mul(8 * (2 * harmonics + 8)).is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
             return Err(Error::BadSamples);
         }
-        Ok(Layout { coefficients, samples })
+        Ok(Layout { harmonics, samples })
+    }
+
+    /// 2H + 1.
+    fn coefficients(&self) -> usize {
+        2 * self.harmonics + 1
+    }
+
+    /// Samples after which the tables repeat, but for the sign of odd orders: half a period if it has a middle.
+    fn half(&self) -> usize {
+        if self.samples.is_multiple_of(2) { self.samples / 2 } else { self.samples }
     }
 
     /// A period nests at most as many reversals as it has samples.
@@ -55,14 +66,21 @@ impl Layout {
         self.samples + 1
     }
 
-    fn table(&self) -> usize {
-        self.samples * self.coefficients
+    /// Columns of the table of even orders up to 2H, in whole registers; that of odd orders has as many.
+    fn stride(&self) -> usize {
+        whole_registers(2 * self.harmonics + 1)
     }
 
     fn length(&self) -> usize {
-        let gradients = self.reversals() * self.coefficients;
-        HEADER + self.table() + self.samples + 2 * self.reversals() + self.reversals() + gradients + self.coefficients
+        let tables = self.half() * (self.coefficients() + 2 * self.stride());
+        let walk = 3 * self.samples + self.reversals() * (3 + self.coefficients());
+        HEADER + tables + self.harmonics + walk + 4 * self.stride() + 4 * self.coefficients()
     }
+}
+
+/// Numbers in so many registers of four.
+fn whole_registers(numbers: usize) -> usize {
+    numbers.next_multiple_of(4)
 }
 
 /// Doubles of a workspace for so many harmonics H and samples a period; 0 where there is none (H = 0, or too few samples).
@@ -77,36 +95,82 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// `BadHarmonics` for none, `BadSamples` for samples <= 2H, `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     let layout = Layout::new(harmonics, samples)?;
-    let Some(workspace) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
-    workspace.fill(0.0);
-    if let [mark, h, n, rest @ ..] = workspace {
-        (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
-        for (sample, row) in rest.chunks_exact_mut(layout.coefficients.max(1)).take(samples).enumerate() {
-            for (k, value) in row.iter_mut().enumerate() {
-                // The turn k sample/samples, reduced before it meets π.
-                let turn = (k.div_ceil(2) * sample % samples) as f64 / samples as f64;
-                *value = if k % 2 == 1 || k == 0 { (2.0 * PI * turn).cos() } else { (2.0 * PI * turn).sin() };
+    let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
+    memory.fill(0.0);
+    let (half, stride) = (layout.half(), layout.stride());
+    // cos and sin of an order at a sample; the turn is reduced before it meets π.
+    let wave = |order: usize, sample: usize| {
+        let turn = (order * sample % samples) as f64 / samples as f64;
+        ((2.0 * PI * turn).cos(), (2.0 * PI * turn).sin())
+    };
+    let [mark, h, n, rest @ ..] = memory else { return Err(Error::WorkspaceTooShort) };
+    (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
+    let mut parts = Parts(rest);
+    let columns = parts.take(half * layout.coefficients())?;
+    for (column, values) in columns.chunks_exact_mut(half.max(1)).enumerate() {
+        for (sample, value) in values.iter_mut().enumerate() {
+            let (cosine, sine) = wave(column.div_ceil(2), sample);
+            *value = if column % 2 == 1 || column == 0 { cosine } else { sine };
+        }
+    }
+    for parity in [0, 1] {
+        let rows = parts.take(half * stride)?;
+        for (sample, row) in rows.chunks_exact_mut(stride.max(1)).enumerate() {
+            for order in (parity..=2 * harmonics).step_by(2) {
+                let (cosine, sine) = wave(order, sample);
+                let (at_cosine, at_sine) = places(order);
+                if let Some(place) = row.get_mut(at_cosine) {
+                    *place = cosine;
+                }
+                if let Some(place) = row.get_mut(at_sine).filter(|_| order > 0) {
+                    *place = sine;
+                }
             }
         }
     }
+    // 1/(exp(imΔ) - 1) = -1/2 - (i/2) cot(mΔ/2), Δ one step.
+    for (m, cotangent) in (1..).zip(parts.take(harmonics)?) {
+        let (sine, cosine) = (PI * m as f64 / samples as f64).sin_cos();
+        *cotangent = 0.5 * cosine / sine;
+    }
     Ok(())
+}
+
+/// Where the tables of one parity have the cosine and the sine of an order; the order 0 has no sine.
+#[inline(always)]
+fn places(order: usize) -> (usize, usize) {
+    (order.saturating_sub(1), order)
 }
 
 /// A workspace as it is used.
 #[derive(Debug)]
 pub struct Workspace<'a> {
+    harmonics: usize,
     samples: usize,
-    /// 2H + 1.
-    coefficients: usize,
-    /// One row a sample: 1, cos t, sin t, cos 2t, ...
-    table: &'a [f64],
+    half: usize,
+    stride: usize,
+    /// Over the samples of half a period, for each coefficient: 1, cos t, sin t, cos 2t, ...
+    columns: &'a [f64],
+    /// For each of these samples, the even orders up to 2H: 1, cos 2t, sin 2t, ..., and the odd ones: cos t, sin t, cos 3t, ...
+    tables: [&'a [f64]; 2],
+    /// cot(π m/samples)/2 for the orders m.
+    cotangents: &'a [f64],
     displacement: &'a mut [f64],
+    force: &'a mut [f64],
+    stiffness: &'a mut [f64],
+    /// Displacement and force of each reversal.
     reversals: &'a mut [f64],
     /// Sample of each reversal.
     turned_at: &'a mut [f64],
     /// dT_r of each reversal, a row over the coefficients.
     gradients: &'a mut [f64],
-    /// dT of the sample at hand.
+    /// Fourier sums of a whole period and of one branch, over even and over odd orders.
+    sums: [&'a mut [f64]; 2],
+    branch_sums: [&'a mut [f64]; 2],
+    /// Rows over the coefficients: φ_r, Σ φ and Σ k φ of a branch, and one more.
+    start: &'a mut [f64],
+    waves: &'a mut [f64],
+    weighted: &'a mut [f64],
     row: &'a mut [f64],
 }
 
@@ -136,29 +200,35 @@ impl<'a> Workspace<'a> {
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
         let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
+        let (half, stride, coefficients) = (layout.half(), layout.stride(), layout.coefficients());
         let mut parts = Parts(rest);
-        let table = parts.take(layout.table())?;
         Ok(Workspace {
+            harmonics: layout.harmonics,
             samples: layout.samples,
-            coefficients: layout.coefficients,
-            table,
+            half,
+            stride,
+            columns: parts.take(half * coefficients)?,
+            tables: [parts.take(half * stride)?, parts.take(half * stride)?],
+            cotangents: parts.take(layout.harmonics)?,
             displacement: parts.take(layout.samples)?,
+            force: parts.take(layout.samples)?,
+            stiffness: parts.take(layout.samples)?,
             reversals: parts.take(2 * layout.reversals())?,
             turned_at: parts.take(layout.reversals())?,
-            gradients: parts.take(layout.reversals() * layout.coefficients)?,
-            row: parts.take(layout.coefficients)?,
+            gradients: parts.take(layout.reversals() * coefficients)?,
+            sums: [parts.take(stride)?, parts.take(stride)?],
+            branch_sums: [parts.take(stride)?, parts.take(stride)?],
+            start: parts.take(coefficients)?,
+            waves: parts.take(coefficients)?,
+            weighted: parts.take(coefficients)?,
+            row: parts.take(coefficients)?,
         })
     }
 
     /// 2H + 1.
     #[must_use]
     pub fn coefficients(&self) -> usize {
-        self.coefficients
-    }
-
-    /// Row of a sample: 1, cos t, sin t, cos 2t, ...
-    fn table_row(&self, sample: usize) -> &'a [f64] {
-        self.table.chunks_exact(self.coefficients.max(1)).nth(sample).unwrap_or(&[])
+        2 * self.harmonics + 1
     }
 }
 
@@ -196,157 +266,572 @@ pub fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
 ///
 /// # Errors
 /// `BadDisplacement` for a coefficient that is not finite, `BadArraySize` where a length is not that of the workspace.
+#[inline(always)]
 pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
-    let n = workspace.coefficients.max(1);
-    let HarmonicOutput { mut force, mut jacobian, dissipated } = output;
+    let n = workspace.coefficients();
+    let HarmonicOutput { force, mut jacobian, dissipated } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|output| output.len() == length);
     if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
         return Err(Error::BadArraySize);
     }
     check_coefficients(displacement)?;
-    for output in [&mut force, &mut jacobian].into_iter().flatten() {
-        output.fill(0.0);
+    if let Some(jacobian) = &mut jacobian {
+        jacobian.fill(0.0);
     }
-    let mut energy = dissipated.is_some().then(|| Dissipation::new(contact));
-    if !contact.is_frictionless() {
-        for (value, row) in workspace.displacement.iter_mut().zip(workspace.table.chunks_exact(n)) {
-            *value = row.iter().zip(displacement).map(|(table, coefficient)| table * coefficient).sum();
+    if contact.is_frictionless() {
+        if let Some(force) = force {
+            force.fill(0.0);
         }
-        let mut walk = Walk::new(contact, workspace, jacobian.is_some());
-        for sample in 0..walk.workspace.samples {
-            walk.advance(sample, &mut None);
+        if let Some(dissipated) = dissipated {
+            *dissipated = 0.0;
         }
-        for sample in 0..walk.workspace.samples {
-            walk.advance(sample, &mut energy);
-            let row = walk.workspace.table_row(sample);
-            if let Some(force) = &mut force {
-                let now = walk.force();
-                force.iter_mut().zip(row).for_each(|(sum, table)| *sum += now * table);
-            }
-            if let Some(jacobian) = &mut jacobian {
-                walk.differentiate();
-                for (column, gradient) in jacobian.chunks_exact_mut(n).zip(walk.workspace.row.iter()) {
-                    column.iter_mut().zip(row).for_each(|(sum, table)| *sum += gradient * table);
-                }
-            }
-        }
-        let samples = walk.workspace.samples as f64;
-        for output in [&mut force, &mut jacobian].into_iter().flatten() {
-            for (k, value) in output.iter_mut().enumerate() {
-                *value *= if k % n == 0 { 1.0 / samples } else { 2.0 / samples };
-            }
-        }
+        return Ok(());
     }
-    if let (Some(dissipated), Some(energy)) = (dissipated, energy) {
-        *dissipated = energy.total();
+    if force.is_none() && jacobian.is_none() && dissipated.is_none() {
+        return Ok(());
+    }
+    let mirrored = workspace.sample(displacement);
+    let mut walk = Walk {
+        contact,
+        wanted: Wanted { force: force.is_some(), stiffness: jacobian.is_some() },
+        energy: dissipated.is_some().then(|| Dissipation::new(contact)),
+        virgin: Virgin::NEW,
+        depth: 0,
+        branch: Branch::VIRGIN,
+    };
+    walk.through_period(workspace, mirrored, &mut jacobian);
+    if let (Some(dissipated), Some(energy)) = (dissipated, walk.energy) {
+        *dissipated = if mirrored { 2.0 * energy.total() } else { energy.total() };
+    }
+    if let Some(force) = force {
+        workspace.transform_force(force);
+    }
+    if let Some(jacobian) = jacobian {
+        if mirrored {
+            keep_like_parities(jacobian, n);
+        }
+        workspace.add_stiffness_sums(jacobian);
+        let mean = 1.0 / workspace.samples as f64;
+        for column in jacobian.chunks_exact_mut(n.max(1)) {
+            column.iter_mut().zip((0..).map(|i| if i == 0 { mean } else { 2.0 * mean })).for_each(|(j, by)| *j *= by);
+        }
     }
     Ok(())
 }
 
-/// The walk through the samples: the memory, and the point at hand. Its force and its derivative are found when asked for.
-struct Walk<'w, 'a> {
-    contact: &'w Contact,
-    workspace: &'w mut Workspace<'a>,
-    with_gradients: bool,
-    virgin: Virgin,
-    depth: usize,
-    sample: usize,
-    displacement: f64,
-    course: Course,
-    /// Force and tangent stiffness of the point at hand.
-    known: Option<(f64, f64)>,
+/// The Jacobian of a whole period from that of half of it, whose other half is its mirror image: what couples even with odd
+/// orders cancels, the rest doubles.
+#[inline(always)]
+fn keep_like_parities(jacobian: &mut [f64], n: usize) {
+    for (c, column) in jacobian.chunks_exact_mut(n.max(1)).enumerate() {
+        for (i, value) in column.iter_mut().enumerate() {
+            *value *= if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 0 { 2.0 } else { 0.0 };
+        }
+    }
 }
 
-impl<'w, 'a> Walk<'w, 'a> {
-    fn new(contact: &'w Contact, workspace: &'w mut Workspace<'a>, with_gradients: bool) -> Walk<'w, 'a> {
-        let course = Course { depth: 0, branch: None, turned: false, direction: 1.0, slides: false };
-        Walk {
-            contact,
-            workspace,
-            with_gradients,
-            virgin: Virgin::NEW,
-            depth: 0,
-            sample: 0,
-            displacement: 0.0,
-            course,
-            known: Some((0.0, 0.0)),
+/// What of each sample is needed.
+#[derive(Debug, Clone, Copy)]
+struct Wanted {
+    force: bool,
+    stiffness: bool,
+}
+
+/// A branch of the walk: the virgin curve, one from a reversal, or gross slip.
+#[derive(Debug, Clone, Copy)]
+struct Branch {
+    /// Where it starts.
+    from: Reversal,
+    /// Direction +1 or -1, and the displacement at which it ends.
+    direction: f64,
+    end: f64,
+    slides: bool,
+    /// Two half-curves make a branch, one the virgin curve.
+    halves: f64,
+    /// Whether it starts at a reversal.
+    reversed: bool,
+}
+
+impl Branch {
+    const VIRGIN: Branch = Branch {
+        from: Reversal { displacement: 0.0, force: 0.0 },
+        direction: 1.0,
+        end: 0.0,
+        slides: false,
+        halves: 1.0,
+        reversed: false,
+    };
+
+    /// Where a displacement lies on the monotonic curve.
+    #[inline(always)]
+    fn way(&self, contact: &Contact, displacement: f64) -> f64 {
+        // A way that reaches gross slip only by rounding ends where that begins.
+        ((displacement - self.from.displacement).abs() / self.halves).min(contact.slip_displacement)
+    }
+
+    #[inline(always)]
+    fn response(&self, contact: &Contact, displacement: f64) -> Response {
+        let limit = contact.slip_force;
+        if self.slides {
+            return Response { force: self.direction * limit, stiffness: 0.0 };
+        }
+        let Response { force, stiffness } = contact.response(self.way(contact, displacement));
+        let force = self.from.force + self.direction * self.halves * force;
+        Response { force: force.max(-limit).min(limit), stiffness }
+    }
+}
+
+/// The walk through the steady state.
+struct Walk<'c> {
+    contact: &'c Contact,
+    wanted: Wanted,
+    energy: Option<Dissipation<'c>>,
+    virgin: Virgin,
+    depth: usize,
+    branch: Branch,
+}
+
+impl Walk<'_> {
+    /// Leads the contact from the farthest sample through a period, or half of it; force and stiffness of every sample, and the
+    /// Jacobian's part of every reversal.
+    #[inline(always)]
+    fn through_period(&mut self, workspace: &mut Workspace, mirrored: bool, jacobian: &mut Option<&mut [f64]>) {
+        let (samples, half) = (workspace.samples, workspace.half);
+        let steps = if mirrored { half } else { samples };
+        let after = |sample: usize, by: usize| {
+            let next = sample + by;
+            if next >= samples { next - samples } else { next }
+        };
+        let start = workspace.farthest();
+        let first = self.begin(workspace.displacement.get(start).copied().unwrap_or(0.0));
+        workspace.set_response(start, first);
+        let (mut taken, mut sample) = (0, start);
+        while taken < steps {
+            let before = sample;
+            sample = after(before, 1);
+            taken += 1;
+            self.pass(workspace, before, sample);
+            let mut count = 1;
+            let mut at = workspace.displacement.get(sample).copied().unwrap_or(0.0);
+            let entered = at;
+            let (mut ahead, Branch { direction, end, slides, .. }) = (after(sample, 1), self.branch);
+            while taken < steps {
+                let next = workspace.displacement.get(ahead).copied().unwrap_or(0.0);
+                if direction * (next - at) < 0.0 || (!slides && direction * (next - end) >= 0.0) {
+                    break;
+                }
+                at = next;
+                ahead = after(ahead, 1);
+                count += 1;
+                taken += 1;
+            }
+            if count > 1 {
+                self.account_for(entered, at);
+            }
+            self.follow_branch(workspace, sample, count, jacobian);
+            sample = after(sample, count - 1);
+        }
+        if mirrored && (self.wanted.force || self.wanted.stiffness) {
+            workspace.mirror(start);
         }
     }
 
-    fn advance(&mut self, sample: usize, energy: &mut Option<Dissipation>) {
-        let target = self.workspace.displacement.get(sample).copied().unwrap_or(0.0);
-        let used = self.workspace.reversals.get(..2 * self.depth).unwrap_or(&[]);
-        let now = Reversal { displacement: self.displacement, force: 0.0 };
+    /// The virgin curve at the farthest sample.
+    #[inline(always)]
+    fn begin(&mut self, displacement: f64) -> Response {
+        let slip = self.contact.slip_displacement;
+        let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
+        self.branch = Branch { direction, slides: displacement.abs() > slip, ..Branch::VIRGIN };
+        if self.branch.slides {
+            self.virgin = Virgin { origin: displacement - direction * slip, slid: direction };
+        }
+        self.branch.response(self.contact, displacement)
+    }
+
+    /// A step that may turn, close loops or slip: on which branch it ends.
+    #[inline(always)]
+    fn pass(&mut self, workspace: &mut Workspace, before: usize, sample: usize) {
+        let displacement = |sample: usize| workspace.displacement.get(sample).copied().unwrap_or(0.0);
+        let (from, target) = (displacement(before), displacement(sample));
+        let now = Reversal { displacement: from, force: workspace.force.get(before).copied().unwrap_or(0.0) };
+        let used = workspace.reversals.get(..2 * self.depth).unwrap_or(&[]);
         let state = State::of(self.virgin, now, used);
         let slip = self.contact.slip_displacement;
-        let mut course = memory::follow(&state, slip, target, |stretch| {
+        let energy = &mut self.energy;
+        let course = memory::follow(&state, slip, target, |stretch| {
             if let Some(energy) = energy {
                 energy.add(&stretch);
             }
         });
         if course.turned {
-            let force = self.force();
-            course.branch = Some(Reversal { displacement: self.displacement, force });
-            self.remember(course.depth, force);
+            self.remember(workspace, before, now);
         }
         self.depth = course.depth;
         self.virgin = self.virgin.after(self.contact, &course, target);
-        (self.sample, self.displacement, self.course, self.known) = (sample, target, course, None);
+        let reversal = |depth: usize| {
+            let pair = workspace.reversals.chunks_exact(2).nth(depth.wrapping_sub(1));
+            if let Some(&[displacement, force]) = pair { Some(Reversal { displacement, force }) } else { None }
+        };
+        let origin = self.virgin.origin;
+        let start = reversal(course.depth);
+        let from = start.unwrap_or(Reversal { displacement: origin, force: 0.0 });
+        let end = match start {
+            Some(newest) => match reversal(course.depth.wrapping_sub(1)) {
+                Some(older) => older.displacement,
+                None => 2.0 * origin - newest.displacement,
+            },
+            None => origin + course.direction * slip,
+        };
+        self.branch = Branch {
+            from,
+            direction: course.direction,
+            end,
+            slides: course.slides,
+            halves: if start.is_some() { 2.0 } else { 1.0 },
+            reversed: start.is_some(),
+        };
     }
 
-    /// Keeps the point at hand as a reversal.
-    fn remember(&mut self, depth: usize, force: f64) {
-        if self.with_gradients {
-            self.differentiate();
-            let Workspace { gradients, row, coefficients, .. } = &mut *self.workspace;
-            if let Some(gradient) = gradients.chunks_exact_mut((*coefficients).max(1)).nth(depth.wrapping_sub(1)) {
-                gradient.iter_mut().zip(row.iter()).for_each(|(kept, now)| *kept = *now);
+    /// Keeps the point at a sample as the newest reversal.
+    #[inline(always)]
+    fn remember(&self, workspace: &mut Workspace, sample: usize, now: Reversal) {
+        let depth = self.depth;
+        if self.wanted.stiffness {
+            workspace.differentiate(sample, if self.branch.reversed { depth } else { 0 });
+            let n = workspace.coefficients().max(1);
+            if let Some(gradient) = workspace.gradients.chunks_exact_mut(n).nth(depth) {
+                gradient.iter_mut().zip(workspace.row.iter()).for_each(|(kept, now)| *kept = *now);
             }
         }
-        let pair = self.workspace.reversals.chunks_exact_mut(2).nth(depth.wrapping_sub(1));
-        if let Some([displacement, remembered]) = pair {
-            (*displacement, *remembered) = (self.displacement, force);
+        if let Some([displacement, force]) = workspace.reversals.chunks_exact_mut(2).nth(depth) {
+            (*displacement, *force) = (now.displacement, now.force);
         }
-        if let Some(sample) = self.workspace.turned_at.get_mut(depth.wrapping_sub(1)) {
-            *sample = self.sample as f64;
+        if let Some(turned_at) = workspace.turned_at.get_mut(depth) {
+            *turned_at = sample as f64;
         }
     }
 
-    fn point(&mut self) -> (f64, f64) {
-        if let Some(known) = self.known {
-            return known;
+    /// The energy of a stretch within a branch; gross slip carries the virgin curve along.
+    #[inline(always)]
+    fn account_for(&mut self, from: f64, to: f64) {
+        let Branch { slides, direction, halves, .. } = self.branch;
+        if slides {
+            self.virgin.origin = to - direction * self.contact.slip_displacement;
         }
-        let Response { force, stiffness } =
-            masing::response_at(self.contact, self.virgin.origin, &self.course, self.displacement);
-        self.known = Some((force, stiffness));
-        (force, stiffness)
+        if let Some(energy) = &mut self.energy {
+            let way = |displacement: f64| self.branch.way(self.contact, displacement);
+            energy.add(&if slides {
+                Stretch { halves: 1.0, from: 0.0, to: 0.0, slipped: (to - from).abs() }
+            } else {
+                Stretch { halves, from: way(from), to: way(to), slipped: 0.0 }
+            });
+        }
     }
 
-    fn force(&mut self) -> f64 {
-        self.point().0
+    /// Force and stiffness of consecutive samples on the branch, and its part of the Jacobian beyond `Σ k φ ⊗ φ`.
+    #[inline(always)]
+    fn follow_branch(&self, workspace: &mut Workspace, first: usize, count: usize, jacobian: &mut Option<&mut [f64]>) {
+        let (branch, contact) = (self.branch, self.contact);
+        let depth = if branch.reversed { self.depth } else { 0 };
+        let (mut from, mut left) = (first, count);
+        if depth > 0 && jacobian.is_some() {
+            workspace.branch_sums.iter_mut().for_each(|sums| sums.fill(0.0));
+        }
+        while left > 0 {
+            // Neither beyond the middle, where the tables begin anew, nor beyond the end.
+            let boundary = if from < workspace.half { workspace.half } else { workspace.samples };
+            let length = left.min(boundary - from);
+            let range = from..from + length;
+            let parts = (
+                workspace.displacement.get(range.clone()),
+                workspace.force.get_mut(range.clone()),
+                workspace.stiffness.get_mut(range),
+            );
+            let (Some(displacement), Some(force), Some(stiffness)) = parts else { return };
+            if self.wanted.stiffness {
+                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
+                    Response { force: *force, stiffness: *stiffness } = branch.response(contact, displacement);
+                }
+                if depth > 0 {
+                    workspace.add_to_branch(from, length);
+                }
+            } else if self.wanted.force {
+                for (force, &displacement) in force.iter_mut().zip(displacement) {
+                    *force = branch.response(contact, displacement).force;
+                }
+            }
+            from = if from + length == workspace.samples { 0 } else { from + length };
+            left -= length;
+        }
+        if let Some(jacobian) = jacobian
+            && depth > 0
+        {
+            workspace.add_reversal(first, from, count, depth, jacobian);
+        }
+    }
+}
+
+impl Workspace<'_> {
+    /// The displacement at the samples; whether it has odd harmonics only, on an even number of samples.
+    #[inline(always)]
+    fn sample(&mut self, coefficients: &[f64]) -> bool {
+        let half = self.half;
+        let folds = half < self.samples;
+        // Even and odd orders in the halves of the same memory, or all in one.
+        let (even, odd) = self.displacement.split_at_mut_checked(half).unwrap_or((&mut [], &mut []));
+        even.fill(0.0);
+        odd.fill(0.0);
+        let mut only_odd = true;
+        for ((k, column), &coefficient) in self.columns.chunks_exact(half.max(1)).enumerate().zip(coefficients) {
+            if coefficient == 0.0 {
+                continue;
+            }
+            let is_odd = k.div_ceil(2) % 2 == 1;
+            only_odd &= is_odd;
+            let target = if is_odd && folds { &mut *odd } else { &mut *even };
+            target.iter_mut().zip(column).for_each(|(sum, table)| *sum += coefficient * table);
+        }
+        if folds {
+            for (even, odd) in even.iter_mut().zip(odd.iter_mut()) {
+                (*even, *odd) = (*even + *odd, *even - *odd);
+            }
+        }
+        folds && only_odd
     }
 
-    /// dT of the point at hand into the workspace's row: `k (dδ - dδ_r) + dT_r`.
-    fn differentiate(&mut self) {
-        let (_, stiffness) = self.point();
-        let now = self.workspace.table_row(self.sample);
-        let coefficients = self.workspace.coefficients;
-        if self.depth == 0 {
-            self.workspace.row.iter_mut().zip(now).for_each(|(row, now)| *row = stiffness * now);
-            return;
+    /// The first of the samples farthest from 0.
+    #[inline(always)]
+    fn farthest(&self) -> usize {
+        let largest = self.displacement.iter().fold(0.0, |largest: f64, value| {
+            let size = value.abs();
+            if size > largest { size } else { largest }
+        });
+        self.displacement.iter().position(|value| value.abs() == largest).unwrap_or(0)
+    }
+
+    #[inline(always)]
+    fn set_response(&mut self, sample: usize, response: Response) {
+        if let (Some(force), Some(stiffness)) = (self.force.get_mut(sample), self.stiffness.get_mut(sample)) {
+            (*force, *stiffness) = (response.force, response.stiffness);
         }
-        let turned_at = self.workspace.turned_at.get(self.depth.wrapping_sub(1)).copied().unwrap_or(0.0);
-        let then = self.workspace.table_row(turned_at as usize);
-        let Workspace { gradients, row, .. } = &mut *self.workspace;
-        let gradient = gradients.chunks_exact(coefficients.max(1)).nth(self.depth.wrapping_sub(1)).unwrap_or(&[]);
-        for (((row, now), then), gradient) in row.iter_mut().zip(now).zip(then).zip(gradient) {
-            *row = stiffness * (now - then) + gradient;
+    }
+
+    /// The half of the period that was not walked, from that after the farthest sample.
+    #[inline(always)]
+    fn mirror(&mut self, start: usize) {
+        let half = self.half;
+        // Walked: start + 1 up to start + half, which is one sample of each pair.
+        let ((one, two), (k_one, k_two)) = (halves(self.force, half), halves(self.stiffness, half));
+        let turned = start % half.max(1);
+        for (j, ((one, two), (k_one, k_two))) in one.iter_mut().zip(two).zip(k_one.iter_mut().zip(k_two)).enumerate() {
+            // Whether the walk met the pair's first sample.
+            if (start < half) == (j > turned) {
+                (*two, *k_two) = (-*one, *k_one);
+            } else {
+                (*one, *k_one) = (-*two, *k_two);
+            }
         }
+    }
+
+    /// Adds k φ of samples that lie in one half of the period to the sums of the branch.
+    #[inline(always)]
+    fn add_to_branch(&mut self, from: usize, length: usize) {
+        let (half, stride, used) = (self.half, self.stride.max(1), whole_registers(self.harmonics + 1));
+        let (row, sign) = if from < half { (from, 1.0) } else { (from - half, -1.0) };
+        let Some(weights) = self.stiffness.get(from..from + length) else { return };
+        for ((sums, table), sign) in self.branch_sums.iter_mut().zip(self.tables).zip([1.0, sign]) {
+            let rows = table.get(row * stride..(row + length) * stride).unwrap_or(&[]);
+            add_weighted(sums.get_mut(..used).unwrap_or(&mut []), rows, stride, weights, sign);
+        }
+    }
+
+    /// φ of a sample into a row over the coefficients.
+    #[inline(always)]
+    fn phi(tables: [&[f64]; 2], stride: usize, half: usize, sample: usize, row: &mut [f64]) {
+        let (at, sign) = if sample < half { (sample, 1.0) } else { (sample - half, -1.0) };
+        let [even, odd] = tables.map(|table| table.get(at * stride..(at + 1) * stride).unwrap_or(&[]));
+        spread(even, odd, sign, row);
+    }
+
+    /// dT of a sample on the branch from the reversal of that depth, the virgin curve at 0: `k (φ - φ_r) + dT_r`.
+    #[inline(always)]
+    fn differentiate(&mut self, sample: usize, depth: usize) {
+        let k = self.stiffness.get(sample).copied().unwrap_or(0.0);
+        Self::phi(self.tables, self.stride, self.half, sample, self.row);
+        if let Some(depth) = depth.checked_sub(1) {
+            let turned_at = self.turned_at.get(depth).copied().unwrap_or(0.0);
+            Self::phi(self.tables, self.stride, self.half, turned_at as usize, self.start);
+            let gradient = self.gradients.chunks_exact(2 * self.harmonics + 1).nth(depth).unwrap_or(&[]);
+            for ((row, start), gradient) in self.row.iter_mut().zip(self.start.iter()).zip(gradient) {
+                *row = k * (*row - start) + gradient;
+            }
+        } else {
+            self.row.iter_mut().for_each(|row| *row *= k);
+        }
+    }
+
+    /// Adds `(Σ φ) ⊗ dT_r - (Σ k φ) ⊗ φ_r` of a branch that begins with sample `first`, `count` long, so that `next` follows.
+    #[inline(always)]
+    fn add_reversal(&mut self, first: usize, next: usize, count: usize, depth: usize, jacobian: &mut [f64]) {
+        let n = self.coefficients().max(1);
+        let (tables, stride, half) = (self.tables, self.stride, self.half);
+        Self::phi(tables, stride, half, first, self.start);
+        Self::phi(tables, stride, half, next, self.row);
+        // Σ exp(imt) = [exp(im t_next) - exp(im t_first)]/(exp(imΔ) - 1).
+        if let Some(waves) = self.waves.first_mut() {
+            *waves = count as f64;
+        }
+        for (((sum, first), next), cotangent) in self
+            .waves
+            .get_mut(1..)
+            .unwrap_or(&mut [])
+            .chunks_exact_mut(2)
+            .zip(self.start.get(1..).unwrap_or(&[]).chunks_exact(2))
+            .zip(self.row.get(1..).unwrap_or(&[]).chunks_exact(2))
+            .zip(self.cotangents)
+        {
+            if let ([cosines, sines], &[c0, s0], &[c1, s1]) = (sum, first, next) {
+                let (c, s) = (c1 - c0, s1 - s0);
+                (*cosines, *sines) = (-0.5 * c + cotangent * s, -0.5 * s - cotangent * c);
+            }
+        }
+        let turned_at = self.turned_at.get(depth.wrapping_sub(1)).copied().unwrap_or(0.0);
+        Self::phi(tables, stride, half, turned_at as usize, self.start);
+        let [even, odd] = &self.branch_sums;
+        spread(even, odd, 1.0, self.weighted);
+        let gradient = self.gradients.chunks_exact(n).nth(depth.wrapping_sub(1)).unwrap_or(&[]);
+        for ((column, start), gradient) in jacobian.chunks_exact_mut(n).zip(self.start.iter()).zip(gradient) {
+            for ((j, wave), weighted) in column.iter_mut().zip(self.waves.iter()).zip(self.weighted.iter()) {
+                *j += gradient * wave - start * weighted;
+            }
+        }
+    }
+
+    /// The coefficients of the force from its samples.
+    #[inline(always)]
+    fn transform_force(&mut self, force: &mut [f64]) {
+        let used = whole_registers(self.harmonics + 1);
+        Self::fourier(self.force, self.half, self.stride, used, self.tables, &mut self.sums);
+        let [even, odd] = &self.sums;
+        spread(even, odd, 1.0, force);
+        let mean = 1.0 / self.samples as f64;
+        for (k, value) in force.iter_mut().enumerate() {
+            *value *= if k == 0 { mean } else { 2.0 * mean };
+        }
+    }
+
+    /// Fourier sums of samples, which are folded in place: what both halves of the period have in common goes with even
+    /// orders, their difference with odd ones.
+    #[inline(always)]
+    fn fourier(
+        samples: &mut [f64],
+        half: usize,
+        stride: usize,
+        used: usize,
+        tables: [&[f64]; 2],
+        sums: &mut [&mut [f64]; 2],
+    ) {
+        let (one, two) = halves(samples, half);
+        for (one, two) in one.iter_mut().zip(two.iter_mut()) {
+            (*one, *two) = (*one + *two, *one - *two);
+        }
+        let folded = if two.is_empty() { [&*one, &*one] } else { [&*one, &*two] };
+        for ((sums, table), weights) in sums.iter_mut().zip(tables).zip(folded) {
+            sums.fill(0.0);
+            add_weighted(sums.get_mut(..used).unwrap_or(&mut []), table, stride, weights, 1.0);
+        }
+    }
+
+    /// Adds `Σ k φ ⊗ φ`: products of waves are waves of the sum and of the difference of their orders.
+    #[inline(always)]
+    fn add_stiffness_sums(&mut self, jacobian: &mut [f64]) {
+        let n = self.coefficients().max(1);
+        Self::fourier(self.stiffness, self.half, self.stride, self.stride, self.tables, &mut self.sums);
+        let sums = &self.sums;
+        let sum = |order: usize| {
+            let [even, odd] = sums;
+            let of_parity = if order.is_multiple_of(2) { even } else { odd };
+            let (at_cosine, at_sine) = places(order);
+            let cosine = of_parity.get(at_cosine).copied().unwrap_or(0.0);
+            (cosine, if order == 0 { 0.0 } else { of_parity.get(at_sine).copied().unwrap_or(0.0) })
+        };
+        let mut columns = jacobian.chunks_exact_mut(n);
+        for q in 0..=self.harmonics {
+            let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
+                return;
+            };
+            let by_sine = by_sine.unwrap_or(&mut []);
+            for p in 0..=self.harmonics {
+                let (c_sum, s_sum) = sum(p + q);
+                let (c_difference, s_difference) = sum(p.abs_diff(q));
+                let s_difference = if p < q { -s_difference } else { s_difference };
+                let add = |column: &mut [f64], row: usize, value: f64| {
+                    if let Some(j) = column.get_mut(row) {
+                        *j += 0.5 * value;
+                    }
+                };
+                let cosine_row = (2 * p).saturating_sub(1);
+                add(by_cosine, cosine_row, c_difference + c_sum);
+                add(by_sine, cosine_row, s_sum - s_difference);
+                if p > 0 {
+                    add(by_cosine, 2 * p, s_sum + s_difference);
+                    add(by_sine, 2 * p, c_difference - c_sum);
+                }
+            }
+        }
+    }
+}
+
+/// The two halves of a period; a period without a middle is its own first half.
+#[inline(always)]
+fn halves(samples: &mut [f64], half: usize) -> (&mut [f64], &mut [f64]) {
+    samples.split_at_mut_checked(half).unwrap_or((&mut [], &mut []))
+}
+
+/// Even orders and, with a sign, odd ones into a row over the coefficients.
+#[inline(always)]
+fn spread(even: &[f64], odd: &[f64], sign: f64, row: &mut [f64]) {
+    let mut row = row.iter_mut();
+    let mut evens = even.iter();
+    let mut odds = odd.iter();
+    if let (Some(place), Some(constant)) = (row.next(), evens.next()) {
+        *place = *constant;
+    }
+    loop {
+        for _ in 0..2 {
+            let (Some(place), Some(value)) = (row.next(), odds.next()) else { return };
+            *place = sign * value;
+        }
+        for _ in 0..2 {
+            let (Some(place), Some(value)) = (row.next(), evens.next()) else { return };
+            *place = *value;
+        }
+    }
+}
+
+/// Adds rows, each times its weight and a sign, to their first columns; four rows at once, so that the sums wait but once.
+#[inline(always)]
+fn add_weighted(sums: &mut [f64], rows: &[f64], stride: usize, weights: &[f64], sign: f64) {
+    let stride = stride.max(1);
+    let (mut fours, mut weights) = (rows.chunks_exact(4 * stride), weights.chunks_exact(4));
+    for (four, weights) in fours.by_ref().zip(weights.by_ref()) {
+        let &[a, b, c, d] = weights else { return };
+        let (a, b, c, d) = (sign * a, sign * b, sign * c, sign * d);
+        let (one, rest) = four.split_at_checked(stride).unwrap_or((&[], &[]));
+        let (two, rest) = rest.split_at_checked(stride).unwrap_or((&[], &[]));
+        let (three, four) = rest.split_at_checked(stride).unwrap_or((&[], &[]));
+        for ((((sum, one), two), three), four) in sums.iter_mut().zip(one).zip(two).zip(three).zip(four) {
+            *sum += (a * one + b * two) + (c * three + d * four);
+        }
+    }
+    for (row, weight) in fours.remainder().chunks_exact(stride).zip(weights.remainder()) {
+        let weight = sign * weight;
+        sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
     }
 }
 

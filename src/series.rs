@@ -1,5 +1,7 @@
 //! Power series, summed four terms side by side so that none has to wait for the one before.
 
+use wide::f64x2;
+
 /// Coefficients of x⁰, x¹, ... in rows of four.
 pub(crate) type Rows<const R: usize> = [[f64; 4]; R];
 
@@ -28,25 +30,28 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
     (zero + one * x) + (two + three * x) * square
 }
 
-/// A polynomial and its derivative at x.
+/// A polynomial and its derivative at x: in every row the even and the odd power are one pair.
 #[inline(always)]
 pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
     let square = x * x;
-    let step = square * square;
-    let (mut sums, mut slopes) = ([0.0; 4], [0.0; 4]);
-    for row in rows.iter().rev() {
-        for ((slope, sum), term) in slopes.iter_mut().zip(&mut sums).zip(row) {
-            *slope = *slope * step + *sum;
-            *sum = *sum * step + term;
+    let step = f64x2::splat(square * square);
+    let ([mut low, mut high], [mut low_slope, mut high_slope]) = ([f64x2::splat(0.0); 2], [f64x2::splat(0.0); 2]);
+    for (n, [zero, one, two, three]) in rows.iter().rev().enumerate() {
+        if n > 0 {
+            (low_slope, high_slope) =
+                if n > 1 { (low_slope * step + low, high_slope * step + high) } else { (low, high) };
+            (low, high) = (low * step, high * step);
         }
+        let (first, second) = (f64x2::new([*zero, *one]), f64x2::new([*two, *three]));
+        (low, high) = if n > 0 { (low + first, high + second) } else { (first, second) };
     }
-    let [zero, one, two, three] = sums;
-    let [rate_0, rate_1, rate_2, rate_3] = slopes;
-    let value = (zero + one * x) + (two + three * x) * square;
-    // By x directly, and through x⁴.
-    let direct = (one + 2.0 * two * x) + 3.0 * three * square;
-    let through = (rate_0 + rate_1 * x) + (rate_2 + rate_3 * x) * square;
-    (value, direct + 4.0 * (square * x) * through)
+    let square_pair = f64x2::splat(square);
+    let sums = low + high * square_pair;
+    let slopes = low_slope + high_slope * square_pair;
+    // The derivative of x² and of x⁴, by which they were summed.
+    let rates = high * f64x2::splat(2.0 * x) + slopes * f64x2::splat(4.0 * (square * x));
+    let ([even, odd], [even_rate, odd_rate]) = (sums.to_array(), rates.to_array());
+    (even + odd * x, odd + (even_rate + odd_rate * x))
 }
 
 /// Rows that a series with coefficients near 1 needs for all digits at x, at most those there are.

@@ -2,11 +2,12 @@
 
 use super::mslip_contact;
 use super::pointer::{self, check_length, input, output, set, status};
+use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::equivalent;
 use crate::error::Error;
 use crate::harmonic::check_amplitude;
-use crate::harmonic_force::{self, HarmonicOutput};
+use crate::harmonic_force::{self, HarmonicOutput, Workspace};
 use libc::size_t;
 
 /// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n equidistant instants of one
@@ -147,6 +148,21 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     status(init())
 }
 
+pub(super) fn widest_harmonic_force(
+    contact: &Contact,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    on_widest!(
+        harmonic_force::harmonic_force,
+        contact: &Contact,
+        workspace: &mut Workspace,
+        displacement: &[f64],
+        output: HarmonicOutput => Result<(), Error>
+    )
+}
+
 /// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
 /// state). Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\], force \[N\]; jacobian \[N/m\] is
 /// d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
@@ -175,7 +191,7 @@ pub unsafe extern "C" fn mslip_harmonic_force(
             jacobian: unsafe { output(jacobian, n * n) },
             dissipated: unsafe { dissipated.as_mut() },
         };
-        harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
+        widest_harmonic_force(contact, &mut workspace, displacement, output)
     };
     status(compute())
 }

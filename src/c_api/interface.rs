@@ -1,6 +1,6 @@
 //! The functions of many contacts at once: every item is checked before the first one writes.
 
-use super::cycle::write_complex_stiffness;
+use super::cycle::{widest_harmonic_force, write_complex_stiffness};
 use super::mslip_contact;
 use super::pointer::{self, check_length, input, output, status};
 use super::single::update_one;
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn mslip_interface_harmonic_force(
                 jacobian: jacobian.as_mut().and_then(|jacobian| jacobian.get_mut(i * one * one..(i + 1) * one * one)),
                 dissipated: dissipated.as_mut().and_then(|dissipated| dissipated.get_mut(i)),
             };
-            harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
+            widest_harmonic_force(contact, &mut workspace, displacement, output)?;
         }
         Ok(())
     };

@@ -2,6 +2,7 @@
 
 use super::mslip_contact;
 use super::pointer::{self, check_length, input, output, set, status};
+use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -198,17 +199,26 @@ pub unsafe extern "C" fn mslip_monotonic_force(
         let contact = unsafe { pointer::contact(contact) }?;
         let displacement = unsafe { input(displacement, n) }?;
         displacement.iter().try_for_each(|&displacement| crate::curve::check_displacement(displacement))?;
-        let (mut force, mut stiffness) = unsafe { (output(force, n), output(stiffness, n)) };
-        let mut stick_half_width = unsafe { output(stick_half_width, n) };
-        for (i, &displacement) in displacement.iter().enumerate() {
-            let point = contact.curve_at_displacement(displacement)?;
-            set(&mut force, i, || point.force());
-            set(&mut stiffness, i, || point.stiffness());
-            set(&mut stick_half_width, i, || point.stick_half_width());
+        let (force, stiffness) = unsafe { (output(force, n), output(stiffness, n)) };
+        responses(contact, displacement, force, stiffness);
+        if let Some(stick_half_width) = unsafe { output(stick_half_width, n) } {
+            for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
+                *c = contact.curve_at_displacement(displacement)?.stick_half_width();
+            }
         }
         Ok(())
     };
     status(compute())
+}
+
+fn responses(contact: &Contact, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+    on_widest!(
+        Contact::responses,
+        contact: &Contact,
+        displacement: &[f64],
+        force: Option<&mut [f64]>,
+        stiffness: Option<&mut [f64]> => ()
+    )
 }
 
 /// Doubles of a state that holds that many nested reversals.
