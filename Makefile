@@ -14,8 +14,8 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all install uninstall demo demo-dependencies test instructions instructions-record counting-dependencies header \
-	clean help
+.PHONY: all install uninstall demo demo-dependencies test bench instructions instructions-record counting-dependencies \
+	header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -79,6 +79,11 @@ instructions-record: counting-dependencies all
 counting-dependencies:
 	@scripts/dependencies.sh counting
 
+## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
+bench: all
+	@scripts/dependencies.sh bench
+	$(MAKE) -C bench run PREFIX=../dist QUICK=$(QUICK)
+
 ## header: make include/microslip.h from the Rust source
 header:
 	$(CARGO) run --quiet --package xtask -- header
@@ -87,6 +92,7 @@ header:
 clean:
 	rm -rf dist target
 	$(MAKE) -C fortran_examples clean
+	$(MAKE) -C bench clean
 
 ## help: list the targets
 help:

@@ -3,6 +3,7 @@
 #
 #   fortran   the compiler
 #   demo      Fortran with LAPACK, and gnuplot
+#   bench     the C compiler, and gnuplot
 #   counting  what counts instructions
 #   test      all that `make test` uses
 #
@@ -40,6 +41,11 @@ counting() {
     need gcc gcc
     need binutils readelf
     need valgrind valgrind
+}
+
+bench() {
+    need gcc gcc
+    need gnuplot-nox gnuplot
 }
 
 rust_component() {

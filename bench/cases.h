@@ -1,0 +1,37 @@
+/* cases.h: the contacts and the motions. */
+#ifndef CASES_H
+#define CASES_H
+
+#include "law.h"
+#include "reference.h"
+#include "sliders.h"
+
+enum { SHAPES = 4, AMPLITUDES = 4, ORDERS = 3 };
+extern const double shapes[SHAPES];         /* a/b, from the cylinder to nearly flat */
+extern const double amplitudes[AMPLITUDES]; /* over the displacement of gross slip */
+extern const int orders[ORDERS];            /* harmonics */
+
+/* A steel contact of half-width 0.5 mm under 800 N, and all that competitors derive from it. */
+typedef struct subject {
+    double shape;
+    mslip_parameters parameters;
+    mslip_contact contact;
+    law law;
+    reference *truth;
+} subject;
+
+mslip_parameters parameters_of(double shape);
+subject subject_of(double shape);
+void subject_free(subject *s);
+
+/* The best n sliders there are for a contact; one slider: initial stiffness and slip force. */
+sliders bank_of(const subject *s, size_t n);
+/* The slider with the contact's K' and K'' at an amplitude. */
+sliders jenkins_of(const subject *s, double amplitude);
+
+/* Coefficients [c0, cos1, sin1, ...] of a motion with half the range `size`, none of whose turning points is a sample. */
+void motion_of(int harmonics, double size, double *coefficients);
+
+void succeed(int32_t status); /* or name the status and exit */
+
+#endif
