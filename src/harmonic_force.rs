@@ -66,21 +66,17 @@ impl Layout {
         self.samples + 1
     }
 
-    /// Columns of the table of even orders up to 2H, in whole registers; that of odd orders has as many.
-    fn stride(&self) -> usize {
-        whole_registers(2 * self.harmonics + 1)
+    /// Blocks of four numbers for the orders of one parity up to `largest`.
+    fn blocks(largest: usize) -> usize {
+        (largest + 1).div_ceil(4)
     }
 
     fn length(&self) -> usize {
-        let tables = self.half() * (self.coefficients() + 2 * self.stride());
+        let (up_to_h, up_to_2h) = (4 * Layout::blocks(self.harmonics), 4 * Layout::blocks(2 * self.harmonics));
+        let tables = self.half() * (self.coefficients() + 2 * up_to_2h) + self.harmonics;
         let walk = 3 * self.samples + self.reversals() * (3 + self.coefficients());
-        HEADER + tables + self.harmonics + walk + 4 * self.stride() + 4 * self.coefficients()
+        HEADER + tables + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.coefficients()
     }
-}
-
-/// Numbers in so many registers of four.
-fn whole_registers(numbers: usize) -> usize {
-    numbers.next_multiple_of(4)
 }
 
 /// Doubles of a workspace for so many harmonics H and samples a period; 0 where there is none (H = 0, or too few samples).
@@ -97,7 +93,7 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     let layout = Layout::new(harmonics, samples)?;
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
     memory.fill(0.0);
-    let (half, stride) = (layout.half(), layout.stride());
+    let half = layout.half();
     // cos and sin of an order at a sample; the turn is reduced before it meets π.
     let wave = |order: usize, sample: usize| {
         let turn = (order * sample % samples) as f64 / samples as f64;
@@ -114,17 +110,20 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
         }
     }
     for parity in [0, 1] {
-        let rows = parts.take(half * stride)?;
-        for (sample, row) in rows.chunks_exact_mut(stride.max(1)).enumerate() {
-            for order in (parity..=2 * harmonics).step_by(2) {
-                let (cosine, sine) = wave(order, sample);
-                let (at_cosine, at_sine) = places(order);
-                if let Some(place) = row.get_mut(at_cosine) {
-                    *place = cosine;
-                }
-                if let Some(place) = row.get_mut(at_sine).filter(|_| order > 0) {
-                    *place = sine;
-                }
+        let blocks = parts.take_blocks(half * Layout::blocks(2 * harmonics))?;
+        for (first, block) in (0..).step_by(4).zip(blocks.chunks_exact_mut(half.max(1))) {
+            for (sample, row) in block.iter_mut().enumerate() {
+                *row = [first, first + 1, first + 2, first + 3].map(|place| {
+                    let order = order_at(place, parity);
+                    let (cosine, sine) = wave(order, sample);
+                    if order > 2 * harmonics {
+                        0.0
+                    } else if place == order && order > 0 {
+                        sine
+                    } else {
+                        cosine
+                    }
+                });
             }
         }
     }
@@ -136,11 +135,15 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     Ok(())
 }
 
-/// Where the tables of one parity have the cosine and the sine of an order; the order 0 has no sine.
+/// The orders of one parity stand side by side, cosines before sines: 1, cos 2t, sin 2t, cos 4t, ... and cos t, sin t, cos 3t,
+/// ... The sine of an order has the order's own number, the cosine the one before; the order 0 has no sine.
 #[inline(always)]
-fn places(order: usize) -> (usize, usize) {
-    (order.saturating_sub(1), order)
+fn order_at(place: usize, parity: usize) -> usize {
+    place + (place + parity) % 2
 }
+
+/// Numbers in fours.
+type Blocks = [[f64; 4]];
 
 /// A workspace as it is used.
 #[derive(Debug)]
@@ -148,11 +151,10 @@ pub struct Workspace<'a> {
     harmonics: usize,
     samples: usize,
     half: usize,
-    stride: usize,
     /// Over the samples of half a period, for each coefficient: 1, cos t, sin t, cos 2t, ...
     columns: &'a [f64],
-    /// For each of these samples, the even orders up to 2H: 1, cos 2t, sin 2t, ..., and the odd ones: cos t, sin t, cos 3t, ...
-    tables: [&'a [f64]; 2],
+    /// Even and odd orders up to 2H, four numbers of each sample together, over the samples of half a period.
+    tables: [&'a Blocks; 2],
     /// cot(π m/samples)/2 for the orders m.
     cotangents: &'a [f64],
     displacement: &'a mut [f64],
@@ -164,9 +166,10 @@ pub struct Workspace<'a> {
     turned_at: &'a mut [f64],
     /// dT_r of each reversal, a row over the coefficients.
     gradients: &'a mut [f64],
-    /// Fourier sums of a whole period and of one branch, over even and over odd orders.
-    sums: [&'a mut [f64]; 2],
-    branch_sums: [&'a mut [f64]; 2],
+    /// Fourier sums: of the force, of the stiffness on one branch and on all.
+    force_sums: Sums<'a>,
+    branch_sums: Sums<'a>,
+    stiffness_sums: Sums<'a>,
     /// Rows over the coefficients: φ_r, Σ φ and Σ k φ of a branch, and one more.
     start: &'a mut [f64],
     waves: &'a mut [f64],
@@ -200,15 +203,15 @@ impl<'a> Workspace<'a> {
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
         let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
-        let (half, stride, coefficients) = (layout.half(), layout.stride(), layout.coefficients());
+        let (half, coefficients) = (layout.half(), layout.coefficients());
+        let (up_to_h, up_to_2h) = (Layout::blocks(layout.harmonics), Layout::blocks(2 * layout.harmonics));
         let mut parts = Parts(rest);
         Ok(Workspace {
             harmonics: layout.harmonics,
             samples: layout.samples,
             half,
-            stride,
             columns: parts.take(half * coefficients)?,
-            tables: [parts.take(half * stride)?, parts.take(half * stride)?],
+            tables: [parts.take_blocks(half * up_to_2h)?, parts.take_blocks(half * up_to_2h)?],
             cotangents: parts.take(layout.harmonics)?,
             displacement: parts.take(layout.samples)?,
             force: parts.take(layout.samples)?,
@@ -216,8 +219,9 @@ impl<'a> Workspace<'a> {
             reversals: parts.take(2 * layout.reversals())?,
             turned_at: parts.take(layout.reversals())?,
             gradients: parts.take(layout.reversals() * coefficients)?,
-            sums: [parts.take(stride)?, parts.take(stride)?],
-            branch_sums: [parts.take(stride)?, parts.take(stride)?],
+            force_sums: Sums([parts.take_blocks(up_to_h)?, parts.take_blocks(up_to_h)?]),
+            branch_sums: Sums([parts.take_blocks(up_to_2h)?, parts.take_blocks(up_to_2h)?]),
+            stiffness_sums: Sums([parts.take_blocks(up_to_2h)?, parts.take_blocks(up_to_2h)?]),
             start: parts.take(coefficients)?,
             waves: parts.take(coefficients)?,
             weighted: parts.take(coefficients)?,
@@ -241,6 +245,103 @@ impl<'a> Parts<'a> {
         self.0 = back;
         Ok(front)
     }
+
+    fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
+        Ok(self.take(4 * blocks)?.as_chunks_mut().0)
+    }
+}
+
+/// Fourier sums over even and over odd orders.
+#[derive(Debug)]
+struct Sums<'a>([&'a mut Blocks; 2]);
+
+impl Sums<'_> {
+    #[inline(always)]
+    fn clear(&mut self) {
+        self.0.iter_mut().for_each(|blocks| blocks.fill([0.0; 4]));
+    }
+
+    /// Adds consecutive samples to the sums over one parity.
+    #[inline(always)]
+    fn add(&mut self, tables: &[&Blocks; 2], parity: usize, rows: &Rows, samples: &[f64]) {
+        let (Some(sums), Some(table)) = (self.0.get_mut(parity), tables.get(parity)) else { return };
+        let sign = if parity == 1 { rows.sign } else { 1.0 };
+        for (sum, block) in sums.iter_mut().zip(table.chunks_exact(rows.half.max(1))) {
+            let part = weighted_sum(block.get(rows.first..).unwrap_or(&[]), samples);
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += sign * part);
+        }
+    }
+
+    #[inline(always)]
+    fn add_all(&mut self, others: &Sums) {
+        for (sums, others) in self.0.iter_mut().zip(&others.0) {
+            for (sum, other) in sums.iter_mut().zip(others.iter()) {
+                sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
+            }
+        }
+    }
+
+    /// Cosine and sine sum of an order; the order 0 has no sine.
+    #[inline(always)]
+    fn of_order(&self, order: usize) -> (f64, f64) {
+        let sums = if order.is_multiple_of(2) { &self.0[0] } else { &self.0[1] }.as_flattened();
+        let at = |place: usize| sums.get(place).copied().unwrap_or(0.0);
+        if order == 0 { (at(0), 0.0) } else { (at(order - 1), at(order)) }
+    }
+
+    /// All sums up to order H as a row over the coefficients.
+    #[inline(always)]
+    fn spread(&self, row: &mut [f64]) {
+        let Some((constant, pairs)) = row.split_first_mut() else { return };
+        *constant = self.of_order(0).0;
+        for (order, pair) in (1..).zip(pairs.as_chunks_mut::<2>().0) {
+            *pair = self.of_order(order).into();
+        }
+    }
+}
+
+/// Where consecutive samples, all in one half of the period, have their rows of the tables.
+#[derive(Debug, Clone, Copy)]
+struct Rows {
+    half: usize,
+    first: usize,
+    /// Of odd orders.
+    sign: f64,
+}
+
+impl Rows {
+    #[inline(always)]
+    fn of(sample: usize, half: usize) -> Rows {
+        if sample < half {
+            Rows { half, first: sample, sign: 1.0 }
+        } else {
+            Rows { half, first: sample - half, sign: -1.0 }
+        }
+    }
+}
+
+/// The sum of rows, each times its weight: two sums, so that one need not wait for the other.
+#[inline(always)]
+fn weighted_sum(rows: &Blocks, weights: &[f64]) -> [f64; 4] {
+    let (mut one, mut two) = ([0.0; 4], [0.0; 4]);
+    let rows = rows.get(..weights.len()).unwrap_or(&[]);
+    let (row_pairs, last_row) = rows.as_chunks::<2>();
+    let (weight_pairs, last_weight) = weights.as_chunks::<2>();
+    for ([first, second], [a, b]) in row_pairs.iter().zip(weight_pairs) {
+        for k in 0..4 {
+            one[k] += a * first[k];
+            two[k] += b * second[k];
+        }
+    }
+    if let (&[row], &[weight]) = (last_row, last_weight) {
+        for k in 0..4 {
+            one[k] += weight * row[k];
+        }
+    }
+    for k in 0..4 {
+        one[k] += two[k];
+    }
+    one
 }
 
 /// Where the coefficients of the force, its Jacobian (column-major) and the energy go; `None` is not computed.
@@ -298,39 +399,49 @@ pub fn harmonic_force(
     let mirrored = workspace.sample(displacement);
     let mut walk = Walk {
         contact,
-        wanted: Wanted { force: force.is_some(), stiffness: jacobian.is_some() },
+        wanted: Wanted { force: force.is_some(), stiffness: jacobian.is_some(), mirrored },
         energy: dissipated.is_some().then(|| Dissipation::new(contact)),
         virgin: Virgin::NEW,
         depth: 0,
         branch: Branch::VIRGIN,
     };
-    walk.through_period(workspace, mirrored, &mut jacobian);
+    walk.through_period(workspace, &mut jacobian);
     if let (Some(dissipated), Some(energy)) = (dissipated, walk.energy) {
         *dissipated = if mirrored { 2.0 * energy.total() } else { energy.total() };
     }
+    // The half that was not walked counts as much as the other.
+    let mean = if mirrored { 2.0 } else { 1.0 } / workspace.samples as f64;
     if let Some(force) = force {
-        workspace.transform_force(force);
+        workspace.force_sums.spread(force);
+        scale(force, mean);
     }
     if let Some(jacobian) = jacobian {
-        if mirrored {
-            keep_like_parities(jacobian, n);
-        }
         workspace.add_stiffness_sums(jacobian);
-        let mean = 1.0 / workspace.samples as f64;
-        for column in jacobian.chunks_exact_mut(n.max(1)) {
-            column.iter_mut().zip((0..).map(|i| if i == 0 { mean } else { 2.0 * mean })).for_each(|(j, by)| *j *= by);
+        for (c, column) in jacobian.chunks_exact_mut(n.max(1)).enumerate() {
+            scale(column, mean);
+            if mirrored {
+                clear_other_parity(c, column);
+            }
         }
     }
     Ok(())
 }
 
-/// The Jacobian of a whole period from that of half of it, whose other half is its mirror image: what couples even with odd
-/// orders cancels, the rest doubles.
+/// From sums to coefficients: the mean, and twice the mean for waves.
 #[inline(always)]
-fn keep_like_parities(jacobian: &mut [f64], n: usize) {
-    for (c, column) in jacobian.chunks_exact_mut(n.max(1)).enumerate() {
-        for (i, value) in column.iter_mut().enumerate() {
-            *value *= if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 0 { 2.0 } else { 0.0 };
+fn scale(sums: &mut [f64], mean: f64) {
+    sums.iter_mut().for_each(|sum| *sum *= 2.0 * mean);
+    if let Some(constant) = sums.first_mut() {
+        *constant *= 0.5;
+    }
+}
+
+/// In the sum of half a period and its mirror image, what couples even with odd orders cancels.
+#[inline(always)]
+fn clear_other_parity(c: usize, column: &mut [f64]) {
+    for (i, value) in column.iter_mut().enumerate() {
+        if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 1 {
+            *value = 0.0;
         }
     }
 }
@@ -340,6 +451,8 @@ fn keep_like_parities(jacobian: &mut [f64], n: usize) {
 struct Wanted {
     force: bool,
     stiffness: bool,
+    /// Of one half of the period: the other is its mirror image.
+    mirrored: bool,
 }
 
 /// A branch of the walk: the virgin curve, one from a reversal, or gross slip.
@@ -397,48 +510,48 @@ struct Walk<'c> {
 }
 
 impl Walk<'_> {
-    /// Leads the contact from the farthest sample through a period, or half of it; force and stiffness of every sample, and the
-    /// Jacobian's part of every reversal.
+    /// Leads the contact from the farthest sample through a period, or half of it: the Fourier sums, and the Jacobian's part of
+    /// every reversal.
     #[inline(always)]
-    fn through_period(&mut self, workspace: &mut Workspace, mirrored: bool, jacobian: &mut Option<&mut [f64]>) {
-        let (samples, half) = (workspace.samples, workspace.half);
-        let steps = if mirrored { half } else { samples };
-        let after = |sample: usize, by: usize| {
-            let next = sample + by;
-            if next >= samples { next - samples } else { next }
-        };
-        let start = workspace.farthest();
-        let first = self.begin(workspace.displacement.get(start).copied().unwrap_or(0.0));
-        workspace.set_response(start, first);
-        let (mut taken, mut sample) = (0, start);
-        while taken < steps {
-            let before = sample;
-            sample = after(before, 1);
-            taken += 1;
+    fn through_period(&mut self, workspace: &mut Workspace, jacobian: &mut Option<&mut [f64]>) {
+        let samples = workspace.samples;
+        let after = |sample: usize| if sample + 1 >= samples { 0 } else { sample + 1 };
+        let mut left = if self.wanted.mirrored { workspace.half } else { samples };
+        let mut before = workspace.farthest(left);
+        let first = self.begin(workspace.displacement.get(before).copied().unwrap_or(0.0));
+        workspace.set_response(before, first);
+        workspace.force_sums.clear();
+        workspace.stiffness_sums.clear();
+        while left > 0 {
+            let sample = after(before);
             self.pass(workspace, before, sample);
-            let mut count = 1;
-            let mut at = workspace.displacement.get(sample).copied().unwrap_or(0.0);
-            let entered = at;
-            let (mut ahead, Branch { direction, end, slides, .. }) = (after(sample, 1), self.branch);
-            while taken < steps {
-                let next = workspace.displacement.get(ahead).copied().unwrap_or(0.0);
+            let count = 1 + self.stay(workspace.displacement, sample, left - 1);
+            before = self.follow_branch(workspace, sample, count, jacobian);
+            left -= count;
+        }
+    }
+
+    /// How many samples after this one, at most `left`, lie on the branch as well.
+    #[inline(always)]
+    fn stay(&mut self, displacement: &[f64], sample: usize, left: usize) -> usize {
+        let (ahead, behind) =
+            displacement.split_at_checked(sample + 1).map_or((&[][..], displacement), |(b, a)| (a, b));
+        let entered = behind.last().copied().unwrap_or(0.0);
+        let Branch { direction, end, slides, .. } = self.branch;
+        let (mut at, mut count) = (entered, 0);
+        'all: for part in [ahead, behind] {
+            for &next in part.get(..left - count).unwrap_or(part) {
                 if direction * (next - at) < 0.0 || (!slides && direction * (next - end) >= 0.0) {
-                    break;
+                    break 'all;
                 }
                 at = next;
-                ahead = after(ahead, 1);
                 count += 1;
-                taken += 1;
             }
-            if count > 1 {
-                self.account_for(entered, at);
-            }
-            self.follow_branch(workspace, sample, count, jacobian);
-            sample = after(sample, count - 1);
         }
-        if mirrored && (self.wanted.force || self.wanted.stiffness) {
-            workspace.mirror(start);
+        if count > 0 {
+            self.account_for(entered, at);
         }
+        count
     }
 
     /// The virgin curve at the farthest sample.
@@ -533,46 +646,68 @@ impl Walk<'_> {
         }
     }
 
-    /// Force and stiffness of consecutive samples on the branch, and its part of the Jacobian beyond `Σ k φ ⊗ φ`.
+    /// Force and stiffness of consecutive samples on the branch, their Fourier sums, and the branch's part of the Jacobian
+    /// beyond `Σ k φ ⊗ φ`; the last of the samples.
     #[inline(always)]
-    fn follow_branch(&self, workspace: &mut Workspace, first: usize, count: usize, jacobian: &mut Option<&mut [f64]>) {
-        let (branch, contact) = (self.branch, self.contact);
-        let depth = if branch.reversed { self.depth } else { 0 };
-        let (mut from, mut left) = (first, count);
-        if depth > 0 && jacobian.is_some() {
-            workspace.branch_sums.iter_mut().for_each(|sums| sums.fill(0.0));
+    fn follow_branch(
+        &self,
+        workspace: &mut Workspace,
+        first: usize,
+        count: usize,
+        jacobian: &mut Option<&mut [f64]>,
+    ) -> usize {
+        let (branch, contact, wanted) = (self.branch, self.contact, self.wanted);
+        let (mut next, mut left) = (first, count);
+        if wanted.stiffness && !branch.slides {
+            workspace.branch_sums.clear();
         }
         while left > 0 {
             // Neither beyond the middle, where the tables begin anew, nor beyond the end.
-            let boundary = if from < workspace.half { workspace.half } else { workspace.samples };
-            let length = left.min(boundary - from);
-            let range = from..from + length;
+            let boundary = if next < workspace.half { workspace.half } else { workspace.samples };
+            let rows = Rows::of(next, workspace.half);
+            let range = next..boundary.min(next + left);
+            let length = range.len();
+            next = if range.end == workspace.samples { 0 } else { range.end };
+            left -= length;
+            if !(wanted.force || wanted.stiffness) {
+                continue;
+            }
             let parts = (
                 workspace.displacement.get(range.clone()),
                 workspace.force.get_mut(range.clone()),
                 workspace.stiffness.get_mut(range),
             );
-            let (Some(displacement), Some(force), Some(stiffness)) = parts else { return };
-            if self.wanted.stiffness {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
+            let (Some(displacement), Some(force), Some(stiffness)) = parts else { break };
+            if wanted.stiffness {
+                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
+                {
                     Response { force: *force, stiffness: *stiffness } = branch.response(contact, displacement);
                 }
-                if depth > 0 {
-                    workspace.add_to_branch(from, length);
+                if !branch.slides {
+                    workspace.branch_sums.add(&workspace.tables, 0, &rows, stiffness);
+                    workspace.branch_sums.add(&workspace.tables, 1, &rows, stiffness);
                 }
-            } else if self.wanted.force {
+            } else {
                 for (force, &displacement) in force.iter_mut().zip(displacement) {
                     *force = branch.response(contact, displacement).force;
                 }
             }
-            from = if from + length == workspace.samples { 0 } else { from + length };
-            left -= length;
+            if wanted.force {
+                if !wanted.mirrored {
+                    workspace.force_sums.add(&workspace.tables, 0, &rows, force);
+                }
+                workspace.force_sums.add(&workspace.tables, 1, &rows, force);
+            }
         }
         if let Some(jacobian) = jacobian
-            && depth > 0
+            && !branch.slides
         {
-            workspace.add_reversal(first, from, count, depth, jacobian);
+            workspace.stiffness_sums.add_all(&workspace.branch_sums);
+            if branch.reversed {
+                workspace.add_reversal(first, next, count, self.depth, jacobian);
+            }
         }
+        if next == 0 { workspace.samples - 1 } else { next - 1 }
     }
 }
 
@@ -604,14 +739,20 @@ impl Workspace<'_> {
         folds && only_odd
     }
 
-    /// The first of the samples farthest from 0.
+    /// The first of the samples farthest from 0, among so many.
     #[inline(always)]
-    fn farthest(&self) -> usize {
-        let largest = self.displacement.iter().fold(0.0, |largest: f64, value| {
-            let size = value.abs();
-            if size > largest { size } else { largest }
+    fn farthest(&self, among: usize) -> usize {
+        let samples = self.displacement.get(..among).unwrap_or(self.displacement);
+        let larger = |one: f64, two: f64| if two > one { two } else { one };
+        let (fours, others) = samples.as_chunks::<4>();
+        let lanes = fours.iter().fold([0.0; 4], |mut largest, four| {
+            for k in 0..4 {
+                largest[k] = larger(largest[k], four[k].abs());
+            }
+            largest
         });
-        self.displacement.iter().position(|value| value.abs() == largest).unwrap_or(0)
+        let largest = others.iter().map(|value| value.abs()).chain(lanes).fold(0.0, larger);
+        samples.iter().position(|value| value.abs() == largest).unwrap_or(0)
     }
 
     #[inline(always)]
@@ -621,51 +762,25 @@ impl Workspace<'_> {
         }
     }
 
-    /// The half of the period that was not walked, from that after the farthest sample.
-    #[inline(always)]
-    fn mirror(&mut self, start: usize) {
-        let half = self.half;
-        // Walked: start + 1 up to start + half, which is one sample of each pair.
-        let ((one, two), (k_one, k_two)) = (halves(self.force, half), halves(self.stiffness, half));
-        let turned = start % half.max(1);
-        for (j, ((one, two), (k_one, k_two))) in one.iter_mut().zip(two).zip(k_one.iter_mut().zip(k_two)).enumerate() {
-            // Whether the walk met the pair's first sample.
-            if (start < half) == (j > turned) {
-                (*two, *k_two) = (-*one, *k_one);
-            } else {
-                (*one, *k_one) = (-*two, *k_two);
-            }
-        }
-    }
-
-    /// Adds k φ of samples that lie in one half of the period to the sums of the branch.
-    #[inline(always)]
-    fn add_to_branch(&mut self, from: usize, length: usize) {
-        let (half, stride, used) = (self.half, self.stride.max(1), whole_registers(self.harmonics + 1));
-        let (row, sign) = if from < half { (from, 1.0) } else { (from - half, -1.0) };
-        let Some(weights) = self.stiffness.get(from..from + length) else { return };
-        for ((sums, table), sign) in self.branch_sums.iter_mut().zip(self.tables).zip([1.0, sign]) {
-            let rows = table.get(row * stride..(row + length) * stride).unwrap_or(&[]);
-            add_weighted(sums.get_mut(..used).unwrap_or(&mut []), rows, stride, weights, sign);
-        }
-    }
-
     /// φ of a sample into a row over the coefficients.
     #[inline(always)]
-    fn phi(tables: [&[f64]; 2], stride: usize, half: usize, sample: usize, row: &mut [f64]) {
-        let (at, sign) = if sample < half { (sample, 1.0) } else { (sample - half, -1.0) };
-        let [even, odd] = tables.map(|table| table.get(at * stride..(at + 1) * stride).unwrap_or(&[]));
-        spread(even, odd, sign, row);
+    fn phi(columns: &[f64], half: usize, sample: usize, row: &mut [f64]) {
+        let Rows { first, sign, .. } = Rows::of(sample, half);
+        let values = row.iter_mut().zip(columns.chunks_exact(half.max(1)));
+        for (k, (place, column)) in values.enumerate() {
+            let value = column.get(first).copied().unwrap_or(0.0);
+            *place = if k.div_ceil(2) % 2 == 1 { sign * value } else { value };
+        }
     }
 
     /// dT of a sample on the branch from the reversal of that depth, the virgin curve at 0: `k (φ - φ_r) + dT_r`.
     #[inline(always)]
     fn differentiate(&mut self, sample: usize, depth: usize) {
         let k = self.stiffness.get(sample).copied().unwrap_or(0.0);
-        Self::phi(self.tables, self.stride, self.half, sample, self.row);
+        Self::phi(self.columns, self.half, sample, self.row);
         if let Some(depth) = depth.checked_sub(1) {
             let turned_at = self.turned_at.get(depth).copied().unwrap_or(0.0);
-            Self::phi(self.tables, self.stride, self.half, turned_at as usize, self.start);
+            Self::phi(self.columns, self.half, turned_at as usize, self.start);
             let gradient = self.gradients.chunks_exact(2 * self.harmonics + 1).nth(depth).unwrap_or(&[]);
             for ((row, start), gradient) in self.row.iter_mut().zip(self.start.iter()).zip(gradient) {
                 *row = k * (*row - start) + gradient;
@@ -679,9 +794,9 @@ impl Workspace<'_> {
     #[inline(always)]
     fn add_reversal(&mut self, first: usize, next: usize, count: usize, depth: usize, jacobian: &mut [f64]) {
         let n = self.coefficients().max(1);
-        let (tables, stride, half) = (self.tables, self.stride, self.half);
-        Self::phi(tables, stride, half, first, self.start);
-        Self::phi(tables, stride, half, next, self.row);
+        let (columns, half) = (self.columns, self.half);
+        Self::phi(columns, half, first, self.start);
+        Self::phi(columns, half, next, self.row);
         // Σ exp(imt) = [exp(im t_next) - exp(im t_first)]/(exp(imΔ) - 1).
         if let Some(waves) = self.waves.first_mut() {
             *waves = count as f64;
@@ -701,9 +816,8 @@ impl Workspace<'_> {
             }
         }
         let turned_at = self.turned_at.get(depth.wrapping_sub(1)).copied().unwrap_or(0.0);
-        Self::phi(tables, stride, half, turned_at as usize, self.start);
-        let [even, odd] = &self.branch_sums;
-        spread(even, odd, 1.0, self.weighted);
+        Self::phi(columns, half, turned_at as usize, self.start);
+        self.branch_sums.spread(self.weighted);
         let gradient = self.gradients.chunks_exact(n).nth(depth.wrapping_sub(1)).unwrap_or(&[]);
         for ((column, start), gradient) in jacobian.chunks_exact_mut(n).zip(self.start.iter()).zip(gradient) {
             for ((j, wave), weighted) in column.iter_mut().zip(self.waves.iter()).zip(self.weighted.iter()) {
@@ -712,54 +826,10 @@ impl Workspace<'_> {
         }
     }
 
-    /// The coefficients of the force from its samples.
-    #[inline(always)]
-    fn transform_force(&mut self, force: &mut [f64]) {
-        let used = whole_registers(self.harmonics + 1);
-        Self::fourier(self.force, self.half, self.stride, used, self.tables, &mut self.sums);
-        let [even, odd] = &self.sums;
-        spread(even, odd, 1.0, force);
-        let mean = 1.0 / self.samples as f64;
-        for (k, value) in force.iter_mut().enumerate() {
-            *value *= if k == 0 { mean } else { 2.0 * mean };
-        }
-    }
-
-    /// Fourier sums of samples, which are folded in place: what both halves of the period have in common goes with even
-    /// orders, their difference with odd ones.
-    #[inline(always)]
-    fn fourier(
-        samples: &mut [f64],
-        half: usize,
-        stride: usize,
-        used: usize,
-        tables: [&[f64]; 2],
-        sums: &mut [&mut [f64]; 2],
-    ) {
-        let (one, two) = halves(samples, half);
-        for (one, two) in one.iter_mut().zip(two.iter_mut()) {
-            (*one, *two) = (*one + *two, *one - *two);
-        }
-        let folded = if two.is_empty() { [&*one, &*one] } else { [&*one, &*two] };
-        for ((sums, table), weights) in sums.iter_mut().zip(tables).zip(folded) {
-            sums.fill(0.0);
-            add_weighted(sums.get_mut(..used).unwrap_or(&mut []), table, stride, weights, 1.0);
-        }
-    }
-
     /// Adds `Σ k φ ⊗ φ`: products of waves are waves of the sum and of the difference of their orders.
     #[inline(always)]
-    fn add_stiffness_sums(&mut self, jacobian: &mut [f64]) {
+    fn add_stiffness_sums(&self, jacobian: &mut [f64]) {
         let n = self.coefficients().max(1);
-        Self::fourier(self.stiffness, self.half, self.stride, self.stride, self.tables, &mut self.sums);
-        let sums = &self.sums;
-        let sum = |order: usize| {
-            let [even, odd] = sums;
-            let of_parity = if order.is_multiple_of(2) { even } else { odd };
-            let (at_cosine, at_sine) = places(order);
-            let cosine = of_parity.get(at_cosine).copied().unwrap_or(0.0);
-            (cosine, if order == 0 { 0.0 } else { of_parity.get(at_sine).copied().unwrap_or(0.0) })
-        };
         let mut columns = jacobian.chunks_exact_mut(n);
         for q in 0..=self.harmonics {
             let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
@@ -767,8 +837,8 @@ impl Workspace<'_> {
             };
             let by_sine = by_sine.unwrap_or(&mut []);
             for p in 0..=self.harmonics {
-                let (c_sum, s_sum) = sum(p + q);
-                let (c_difference, s_difference) = sum(p.abs_diff(q));
+                let (c_sum, s_sum) = self.stiffness_sums.of_order(p + q);
+                let (c_difference, s_difference) = self.stiffness_sums.of_order(p.abs_diff(q));
                 let s_difference = if p < q { -s_difference } else { s_difference };
                 let add = |column: &mut [f64], row: usize, value: f64| {
                     if let Some(j) = column.get_mut(row) {
@@ -784,54 +854,6 @@ impl Workspace<'_> {
                 }
             }
         }
-    }
-}
-
-/// The two halves of a period; a period without a middle is its own first half.
-#[inline(always)]
-fn halves(samples: &mut [f64], half: usize) -> (&mut [f64], &mut [f64]) {
-    samples.split_at_mut_checked(half).unwrap_or((&mut [], &mut []))
-}
-
-/// Even orders and, with a sign, odd ones into a row over the coefficients.
-#[inline(always)]
-fn spread(even: &[f64], odd: &[f64], sign: f64, row: &mut [f64]) {
-    let mut row = row.iter_mut();
-    let mut evens = even.iter();
-    let mut odds = odd.iter();
-    if let (Some(place), Some(constant)) = (row.next(), evens.next()) {
-        *place = *constant;
-    }
-    loop {
-        for _ in 0..2 {
-            let (Some(place), Some(value)) = (row.next(), odds.next()) else { return };
-            *place = sign * value;
-        }
-        for _ in 0..2 {
-            let (Some(place), Some(value)) = (row.next(), evens.next()) else { return };
-            *place = *value;
-        }
-    }
-}
-
-/// Adds rows, each times its weight and a sign, to their first columns; four rows at once, so that the sums wait but once.
-#[inline(always)]
-fn add_weighted(sums: &mut [f64], rows: &[f64], stride: usize, weights: &[f64], sign: f64) {
-    let stride = stride.max(1);
-    let (mut fours, mut weights) = (rows.chunks_exact(4 * stride), weights.chunks_exact(4));
-    for (four, weights) in fours.by_ref().zip(weights.by_ref()) {
-        let &[a, b, c, d] = weights else { return };
-        let (a, b, c, d) = (sign * a, sign * b, sign * c, sign * d);
-        let (one, rest) = four.split_at_checked(stride).unwrap_or((&[], &[]));
-        let (two, rest) = rest.split_at_checked(stride).unwrap_or((&[], &[]));
-        let (three, four) = rest.split_at_checked(stride).unwrap_or((&[], &[]));
-        for ((((sum, one), two), three), four) in sums.iter_mut().zip(one).zip(two).zip(three).zip(four) {
-            *sum += (a * one + b * two) + (c * three + d * four);
-        }
-    }
-    for (row, weight) in fours.remainder().chunks_exact(stride).zip(weights.remainder()) {
-        let weight = sign * weight;
-        sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
     }
 }
 
