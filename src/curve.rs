@@ -6,6 +6,7 @@
 use crate::contact::Contact;
 use crate::error::Error;
 use crate::family::{Member, Place, Split};
+use crate::inverse::Inverse;
 
 /// Relative excess over mu N that is taken for rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -89,32 +90,31 @@ impl Contact {
     /// Force and stiffness at a displacement >= 0; beyond that of gross slip mu N and 0, and 0 and 0 without friction.
     #[inline(always)]
     pub(crate) fn response(&self, displacement: f64) -> Response {
-        let left = self.slip_displacement - displacement;
-        if left < 0.0 || self.is_frictionless() {
-            return Response { force: self.slip_force, stiffness: 0.0 };
+        self.responder().at(displacement)
+    }
+
+    /// What responses need, taken together once for many of them.
+    #[inline(always)]
+    pub(crate) fn responder(&self) -> Responder<'_> {
+        Responder {
+            contact: self,
+            elliptic: self.is_elliptic(),
+            inverse: self.inverse(),
+            slip_force: self.slip_force,
+            slip_displacement: self.slip_displacement,
+            initial_stiffness: self.initial_stiffness,
+            origin_scale: self.origin_scale,
+            rest_scale: self.rest_scale,
+            rest_stiffness: self.slip_force * self.rest_scale,
         }
-        if self.is_elliptic() {
-            return self.elliptic_response(displacement, left);
-        }
-        let inverse = self.inverse();
-        let y = displacement * self.origin_scale;
-        if y <= 1.0 {
-            if let Some((secant, tangent)) = inverse.near_origin(y) {
-                let first = self.initial_stiffness;
-                return Response { force: first * displacement * secant, stiffness: first * tangent };
-            }
-        } else if let Some((rest, rate)) = inverse.near_slip(left * self.rest_scale) {
-            let scale = self.slip_force * self.rest_scale;
-            return Response { force: self.slip_force - self.slip_force * rest, stiffness: scale * rate };
-        }
-        self.solved_response(displacement)
     }
 
     /// Force and stiffness at displacements of either sign.
     #[inline(always)]
     pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+        let responder = self.responder();
         let signed = |displacement: f64| {
-            let Response { force, stiffness } = self.response(displacement.abs());
+            let Response { force, stiffness } = responder.at(displacement.abs());
             Response { force: sign_of(displacement) * force, stiffness }
         };
         match (force, stiffness) {
@@ -137,21 +137,13 @@ impl Contact {
         }
     }
 
-    /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: the difference from the root, which loses nothing.
-    #[inline(always)]
-    fn elliptic_response(&self, displacement: f64, left: f64) -> Response {
-        let size = (left * self.rest_scale).max(0.0).sqrt();
-        let lost = displacement * self.rest_scale / (1.0 + size);
-        Response {
-            force: self.slip_force * (lost * (1.0 + size * (1.0 + size))),
-            stiffness: self.stiffness_unit * size,
-        }
-    }
-
     /// Force and stiffness where there is no polynomial.
     #[cold]
     #[inline(never)]
     fn solved_response(&self, displacement: f64) -> Response {
+        if self.is_frictionless() {
+            return Response { force: 0.0, stiffness: 0.0 };
+        }
         let stick = self.stick_at_displacement(displacement);
         Response { force: self.force_of(&stick), stiffness: self.stiffness_of(&stick) }
     }
@@ -173,6 +165,56 @@ impl Contact {
     /// Energy \[J\] dissipated per cycle whose half-cycles end with that stick zone.
     pub(crate) fn energy_of(&self, stick: &Member) -> f64 {
         self.energy_unit() * self.family().dissipation(stick)
+    }
+}
+
+/// Finds force and stiffness at displacements on the monotonic curve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Responder<'a> {
+    contact: &'a Contact,
+    elliptic: bool,
+    inverse: &'a Inverse,
+    slip_force: f64,
+    pub slip_displacement: f64,
+    initial_stiffness: f64,
+    origin_scale: f64,
+    rest_scale: f64,
+    rest_stiffness: f64,
+}
+
+impl Responder<'_> {
+    /// At a displacement >= 0.
+    #[inline(always)]
+    pub fn at(&self, displacement: f64) -> Response {
+        let left = self.slip_displacement - displacement;
+        if left < 0.0 {
+            return Response { force: self.slip_force, stiffness: 0.0 };
+        }
+        if self.elliptic {
+            return self.elliptic_at(displacement, left);
+        }
+        let y = displacement * self.origin_scale;
+        if y <= 1.0 {
+            if let Some((secant, tangent)) = self.inverse.near_origin(y) {
+                let first = self.initial_stiffness;
+                return Response { force: first * displacement * secant, stiffness: first * tangent };
+            }
+        } else if let Some((rest, rate)) = self.inverse.near_slip(left * self.rest_scale) {
+            let force = self.slip_force - self.slip_force * rest;
+            return Response { force, stiffness: self.rest_stiffness * rate };
+        }
+        self.contact.solved_response(displacement)
+    }
+
+    /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: the difference from the root, which loses nothing.
+    #[inline(always)]
+    fn elliptic_at(&self, displacement: f64, left: f64) -> Response {
+        let size = (left * self.rest_scale).max(0.0).sqrt();
+        let lost = displacement * self.rest_scale / (1.0 + size);
+        Response {
+            force: self.slip_force * (lost * (1.0 + size * (1.0 + size))),
+            stiffness: self.initial_stiffness * size,
+        }
     }
 }
 

@@ -17,7 +17,7 @@
 //! is geometric, and `dT_r` was known when the reversal was passed.
 
 use crate::contact::Contact;
-use crate::curve::{Response, check_displacement};
+use crate::curve::{Responder, Response, check_displacement};
 use crate::error::Error;
 use crate::masing::Dissipation;
 use crate::memory::{self, Reversal, State, Stretch, Virgin};
@@ -320,6 +320,21 @@ impl Rows {
     }
 }
 
+/// Adds `a cos + b sin`.
+#[inline(always)]
+fn add_wave(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[f64]) {
+    let (targets, last) = target.as_chunks_mut::<4>();
+    let ((cosines, last_cosines), (sines, last_sines)) = (cosines.as_chunks::<4>(), sines.as_chunks::<4>());
+    for ((target, cosine), sine) in targets.iter_mut().zip(cosines).zip(sines) {
+        for k in 0..4 {
+            target[k] += a * cosine[k] + b * sine[k];
+        }
+    }
+    for ((target, cosine), sine) in last.iter_mut().zip(last_cosines).zip(last_sines) {
+        *target += a * cosine + b * sine;
+    }
+}
+
 /// The sum of rows, each times its weight: two sums, so that one need not wait for the other.
 #[inline(always)]
 fn weighted_sum(rows: &Blocks, weights: &[f64]) -> [f64; 4] {
@@ -455,6 +470,23 @@ struct Wanted {
     mirrored: bool,
 }
 
+/// How many values one after the other, at most `left`, are not the first that `ends` says ends their run; and the last of
+/// them.
+#[inline(always)]
+fn run(parts: [&[f64]; 2], left: usize, first: f64, ends: impl Fn(f64, f64) -> bool) -> (usize, f64) {
+    let (mut at, mut count) = (first, 0);
+    for part in parts {
+        for &next in part.get(..left - count).unwrap_or(part) {
+            if ends(at, next) {
+                return (count, at);
+            }
+            at = next;
+            count += 1;
+        }
+    }
+    (count, at)
+}
+
 /// A branch of the walk: the virgin curve, one from a reversal, or gross slip.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
@@ -482,20 +514,40 @@ impl Branch {
 
     /// Where a displacement lies on the monotonic curve.
     #[inline(always)]
-    fn way(&self, contact: &Contact, displacement: f64) -> f64 {
-        // A way that reaches gross slip only by rounding ends where that begins.
-        ((displacement - self.from.displacement).abs() / self.halves).min(contact.slip_displacement)
+    fn way(&self, slip_displacement: f64, displacement: f64) -> f64 {
+        let way = (displacement - self.from.displacement).abs() / self.halves;
+        // One that reaches gross slip only by rounding ends where that begins.
+        if way > slip_displacement { slip_displacement } else { way }
     }
 
     #[inline(always)]
-    fn response(&self, contact: &Contact, displacement: f64) -> Response {
-        let limit = contact.slip_force;
-        if self.slides {
-            return Response { force: self.direction * limit, stiffness: 0.0 };
+    fn responder<'c>(&self, contact: &'c Contact) -> BranchResponder<'c> {
+        let towards = self.direction * self.halves;
+        BranchResponder { branch: *self, towards, limit: contact.slip_force, curve: contact.responder() }
+    }
+}
+
+/// Finds force and stiffness at displacements on a branch.
+#[derive(Debug, Clone, Copy)]
+struct BranchResponder<'c> {
+    branch: Branch,
+    /// Its direction, and twice that for a whole branch.
+    towards: f64,
+    limit: f64,
+    curve: Responder<'c>,
+}
+
+impl BranchResponder<'_> {
+    #[inline(always)]
+    fn at(&self, displacement: f64) -> Response {
+        let BranchResponder { branch, towards, limit, curve } = self;
+        if branch.slides {
+            return Response { force: branch.direction * limit, stiffness: 0.0 };
         }
-        let Response { force, stiffness } = contact.response(self.way(contact, displacement));
-        let force = self.from.force + self.direction * self.halves * force;
-        Response { force: force.max(-limit).min(limit), stiffness }
+        let Response { force, stiffness } = curve.at(branch.way(curve.slip_displacement, displacement));
+        let force = branch.from.force + towards * force;
+        let force = if force > *limit { *limit } else { force };
+        Response { force: if force < -limit { -limit } else { force }, stiffness }
     }
 }
 
@@ -538,16 +590,13 @@ impl Walk<'_> {
             displacement.split_at_checked(sample + 1).map_or((&[][..], displacement), |(b, a)| (a, b));
         let entered = behind.last().copied().unwrap_or(0.0);
         let Branch { direction, end, slides, .. } = self.branch;
-        let (mut at, mut count) = (entered, 0);
-        'all: for part in [ahead, behind] {
-            for &next in part.get(..left - count).unwrap_or(part) {
-                if direction * (next - at) < 0.0 || (!slides && direction * (next - end) >= 0.0) {
-                    break 'all;
-                }
-                at = next;
-                count += 1;
-            }
-        }
+        let (count, at) = if direction > 0.0 {
+            let end = if slides { f64::INFINITY } else { end };
+            run([ahead, behind], left, entered, |at, next| next < at || next >= end)
+        } else {
+            let end = if slides { f64::NEG_INFINITY } else { end };
+            run([ahead, behind], left, entered, |at, next| next > at || next <= end)
+        };
         if count > 0 {
             self.account_for(entered, at);
         }
@@ -563,7 +612,7 @@ impl Walk<'_> {
         if self.branch.slides {
             self.virgin = Virgin { origin: displacement - direction * slip, slid: direction };
         }
-        self.branch.response(self.contact, displacement)
+        self.branch.responder(self.contact).at(displacement)
     }
 
     /// A step that may turn, close loops or slip: on which branch it ends.
@@ -637,7 +686,7 @@ impl Walk<'_> {
             self.virgin.origin = to - direction * self.contact.slip_displacement;
         }
         if let Some(energy) = &mut self.energy {
-            let way = |displacement: f64| self.branch.way(self.contact, displacement);
+            let way = |displacement: f64| self.branch.way(self.contact.slip_displacement, displacement);
             energy.add(&if slides {
                 Stretch { halves: 1.0, from: 0.0, to: 0.0, slipped: (to - from).abs() }
             } else {
@@ -657,6 +706,7 @@ impl Walk<'_> {
         jacobian: &mut Option<&mut [f64]>,
     ) -> usize {
         let (branch, contact, wanted) = (self.branch, self.contact, self.wanted);
+        let responder = branch.responder(contact);
         let (mut next, mut left) = (first, count);
         if wanted.stiffness && !branch.slides {
             workspace.branch_sums.clear();
@@ -681,7 +731,7 @@ impl Walk<'_> {
             if wanted.stiffness {
                 for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
                 {
-                    Response { force: *force, stiffness: *stiffness } = branch.response(contact, displacement);
+                    Response { force: *force, stiffness: *stiffness } = responder.at(displacement);
                 }
                 if !branch.slides {
                     workspace.branch_sums.add(&workspace.tables, 0, &rows, stiffness);
@@ -689,7 +739,7 @@ impl Walk<'_> {
                 }
             } else {
                 for (force, &displacement) in force.iter_mut().zip(displacement) {
-                    *force = branch.response(contact, displacement).force;
+                    *force = responder.at(displacement).force;
                 }
             }
             if wanted.force {
@@ -715,21 +765,23 @@ impl Workspace<'_> {
     /// The displacement at the samples; whether it has odd harmonics only, on an even number of samples.
     #[inline(always)]
     fn sample(&mut self, coefficients: &[f64]) -> bool {
-        let half = self.half;
+        let half = self.half.max(1);
         let folds = half < self.samples;
+        let Some((constant, pairs)) = coefficients.split_first() else { return false };
         // Even and odd orders in the halves of the same memory, or all in one.
         let (even, odd) = self.displacement.split_at_mut_checked(half).unwrap_or((&mut [], &mut []));
-        even.fill(0.0);
+        even.fill(*constant);
         odd.fill(0.0);
-        let mut only_odd = true;
-        for ((k, column), &coefficient) in self.columns.chunks_exact(half.max(1)).enumerate().zip(coefficients) {
-            if coefficient == 0.0 {
+        let mut only_odd = *constant == 0.0;
+        let waves = self.columns.get(half..).unwrap_or(&[]).chunks_exact(2 * half);
+        for (order, (columns, &[a, b])) in (1..).zip(waves.zip(pairs.as_chunks::<2>().0)) {
+            if a == 0.0 && b == 0.0 {
                 continue;
             }
-            let is_odd = k.div_ceil(2) % 2 == 1;
+            let is_odd = order % 2 == 1;
             only_odd &= is_odd;
-            let target = if is_odd && folds { &mut *odd } else { &mut *even };
-            target.iter_mut().zip(column).for_each(|(sum, table)| *sum += coefficient * table);
+            let (cosines, sines) = columns.split_at_checked(half).unwrap_or((&[], &[]));
+            add_wave(if is_odd && folds { odd } else { even }, [a, b], cosines, sines);
         }
         if folds {
             for (even, odd) in even.iter_mut().zip(odd.iter_mut()) {
@@ -745,13 +797,17 @@ impl Workspace<'_> {
         let samples = self.displacement.get(..among).unwrap_or(self.displacement);
         let larger = |one: f64, two: f64| if two > one { two } else { one };
         let (fours, others) = samples.as_chunks::<4>();
-        let lanes = fours.iter().fold([0.0; 4], |mut largest, four| {
+        let mut lanes = [0.0; 4];
+        for four in fours {
             for k in 0..4 {
-                largest[k] = larger(largest[k], four[k].abs());
+                lanes[k] = larger(lanes[k], four[k].abs());
             }
-            largest
-        });
-        let largest = others.iter().map(|value| value.abs()).chain(lanes).fold(0.0, larger);
+        }
+        let [one, two, three, four] = lanes;
+        let mut largest = larger(larger(one, two), larger(three, four));
+        for other in others {
+            largest = larger(largest, other.abs());
+        }
         samples.iter().position(|value| value.abs() == largest).unwrap_or(0)
     }
 
@@ -766,10 +822,16 @@ impl Workspace<'_> {
     #[inline(always)]
     fn phi(columns: &[f64], half: usize, sample: usize, row: &mut [f64]) {
         let Rows { first, sign, .. } = Rows::of(sample, half);
-        let values = row.iter_mut().zip(columns.chunks_exact(half.max(1)));
-        for (k, (place, column)) in values.enumerate() {
-            let value = column.get(first).copied().unwrap_or(0.0);
-            *place = if k.div_ceil(2) % 2 == 1 { sign * value } else { value };
+        let half = half.max(1);
+        let Some((constant, pairs)) = row.split_first_mut() else { return };
+        *constant = 1.0;
+        let mut odd = true;
+        let waves = columns.get(half..).unwrap_or(&[]).chunks_exact(2 * half);
+        for ([cosine, sine], columns) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(waves) {
+            let at = |place: usize| columns.get(place).copied().unwrap_or(0.0);
+            let sign = if odd { sign } else { 1.0 };
+            (*cosine, *sine) = (sign * at(first), sign * at(half + first));
+            odd = !odd;
         }
     }
 
