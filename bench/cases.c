@@ -34,28 +34,14 @@ mslip_parameters parameters_of(double shape)
     return p;
 }
 
-subject subject_of(double shape)
-{
-    subject s = { .shape = shape, .parameters = parameters_of(shape) };
-    succeed(mslip_contact_init(&s.parameters, &s.contact));
-    s.law = law_of(&s.parameters);
-    s.truth = reference_of(&s.parameters);
-    return s;
-}
-
-void subject_free(subject *s)
-{
-    free(s->truth);
-}
-
-sliders bank_of(const subject *s, size_t n)
+static sliders bank_fitted(const mslip_contact *contact, size_t n)
 {
     double *stiffness = malloc(n * sizeof *stiffness), *slip = malloc(n * sizeof *slip), error;
     if (n == 1) {
-        *stiffness = s->contact.initial_stiffness;
-        *slip = s->contact.slip_force;
+        *stiffness = contact->initial_stiffness;
+        *slip = contact->slip_force;
     } else {
-        succeed(mslip_iwan_equivalent(&s->contact, n, stiffness, slip, &error));
+        succeed(mslip_iwan_equivalent(contact, n, stiffness, slip, &error));
     }
     const sliders bank = sliders_of(n, stiffness, slip);
     free(stiffness);
@@ -63,33 +49,64 @@ sliders bank_of(const subject *s, size_t n)
     return bank;
 }
 
+subject subject_of(double shape, int most_sliders)
+{
+    subject s = { .shape = shape, .parameters = parameters_of(shape) };
+    succeed(mslip_contact_init(&s.parameters, &s.contact));
+    s.law = law_of(&s.parameters);
+    s.truth = reference_of(&s.parameters);
+    for (int k = 0, n = 1; k < BANKS && n <= most_sliders; ++k, n *= 4) {
+        s.bank[k] = bank_fitted(&s.contact, (size_t)n);
+    }
+    return s;
+}
+
+void subject_free(subject *s)
+{
+    free(s->truth);
+    for (int k = 0; k < BANKS; ++k) {
+        sliders_free(&s->bank[k]);
+    }
+}
+
+const sliders *bank_of(const subject *s, int n)
+{
+    int k = 0;
+    while (k < BANKS - 1 && s->bank[k].n < (size_t)n) {
+        ++k;
+    }
+    return &s->bank[k];
+}
+
 sliders jenkins_of(const subject *s, double amplitude)
 {
     double stiffness, slip;
     if (mslip_jenkins_equivalent(&s->contact, amplitude, &stiffness, &slip) != MSLIP_OK) {
-        return bank_of(s, 1);
+        return bank_fitted(&s->contact, 1);
     }
     return sliders_of(1, &stiffness, &slip);
 }
 
 void motion_of(int harmonics, double size, double *c)
 {
-    double low = 0.0, high = 0.0;
-    c[0] = 0.0;
-    for (int k = 1; k <= harmonics; ++k) {
-        c[2 * k - 1] = cos(2.0 * k * k) / (k * k);
-        c[2 * k] = sin(2.0 * k * k) / (k * k);
-    }
-    for (int i = 0; i < 4096; ++i) {
+    enum { SCAN = 1 << 12 };
+    double low = 0.0, high = 0.0, top = 0.0;
+    for (int i = 0; i < SCAN; ++i) {
         double u = 0.0;
         for (int k = 1; k <= harmonics; ++k) {
-            u += c[2 * k - 1] * cos(2.0 * PI * k * i / 4096.0) + c[2 * k] * sin(2.0 * PI * k * i / 4096.0);
+            u += cos(2.0 * PI * k * i / SCAN - 2.0 * k * k) / (k * k);
         }
+        top = u > high ? 2.0 * PI * i / SCAN : top;
         low = fmin(low, u);
         high = fmax(high, u);
     }
-    for (int k = 1; k <= 2 * harmonics; ++k) {
-        c[k] *= size / (0.5 * (high - low));
-    }
+    /* One harmonic has its top where its phase says; the others are shifted there, as well as the scan knows. */
+    top = harmonics == 1 ? 2.0 : top;
+    const double shift = 2.0 * PI / 3.0 - top;
     c[0] = 0.1 * size;
+    for (int k = 1; k <= harmonics; ++k) {
+        const double phase = 2.0 * k * k + k * shift, amplitude = size / (0.5 * (high - low)) / (k * k);
+        c[2 * k - 1] = amplitude * cos(phase);
+        c[2 * k] = amplitude * sin(phase);
+    }
 }

@@ -91,19 +91,21 @@ static const double batch = 40e-6, slow = 2e-3;
 
 typedef struct { int repeats, rounds; double times[MOST_ROUNDS]; } series;
 
-static void prepare(series *s, work *run, void *context)
+static void prepare(series *s, work *run, void *context, double items)
 {
     sink = run(context); /* caches, tables and branch predictors */
     const double start = seconds();
     sink = run(context);
     const double once = seconds() - start;
     s->repeats = once < batch ? (int)(batch / (once + 2e-8)) + 1 : 1;
-    s->rounds = once < slow ? rounds : once < 10.0 * slow ? (rounds + 2) / 3 : 3;
+    s->times[0] = 1e9 * once / items;
+    s->rounds = once < slow ? rounds : once < 10.0 * slow ? (rounds + 2) / 3 : once < 100.0 * slow ? 3 : 1;
 }
 
 static void time_once(series *s, work *run, void *context, double items, int round)
 {
-    if (round < s->rounds) {
+    /* The one round of what takes longest was in `prepare`. */
+    if (s->rounds > 1 && round < s->rounds) {
         const double start = seconds();
         for (int i = 0; i < s->repeats; ++i) {
             sink = run(context);
@@ -126,9 +128,9 @@ void measure(size_t first)
     for (int i = 0; i < LOGS; ++i) {
         arguments[i] = 0.5 + 0.0019 * (i * 7919 % LOGS);
     }
-    prepare(logs, logarithms, arguments);
+    prepare(logs, logarithms, arguments, LOGS);
     for (size_t i = 0; i < n; ++i) {
-        prepare(&all[i], entries[first + i].run, entries[first + i].context);
+        prepare(&all[i], entries[first + i].run, entries[first + i].context, entries[first + i].items);
     }
     for (int round = 0; round < rounds; ++round) {
         time_once(logs, logarithms, arguments, LOGS, round);

@@ -58,7 +58,7 @@ static double pressure_at(const pressure *p, double x)
     return p->unit * value;
 }
 
-typedef struct { pressure outer, inner; double half_width; int sticks; } traction;
+typedef struct { pressure outer, inner; double half_width, load; int sticks; } traction;
 
 /* -q ln(x/b) over mu, at x = b sin(angle), times dx/d(angle). */
 static double integrand(const traction *q, double angle)
@@ -105,7 +105,9 @@ static double adaptive(const traction *q, double from, double to, double toleran
     if (fabs(fine - coarse) <= tolerance || depth == 0) {
         return fine;
     }
-    return adaptive(q, from, middle, 0.5 * tolerance, depth - 1) + adaptive(q, middle, to, 0.5 * tolerance, depth - 1);
+    /* Halved no further than rounding allows. */
+    const double half_tolerance = fmax(0.5 * tolerance, 1e-15 * q->load);
+    return adaptive(q, from, middle, half_tolerance, depth - 1) + adaptive(q, middle, to, half_tolerance, depth - 1);
 }
 
 double paper_displacement(const void *context, double w)
@@ -114,7 +116,7 @@ double paper_displacement(const void *context, double w)
     const law *law = &paper->law;
     const double sticks = law_size_of_load(law->flat, w) / law->size_of_load;
     const double force = law->friction * law->load * (1.0 - sticks);
-    traction q = { .outer = pressure_of(law->flat, law->w, law->load), .half_width = law->half_width,
+    traction q = { .outer = pressure_of(law->flat, law->w, law->load), .half_width = law->half_width, .load = law->load,
                    .sticks = w > 0.0 && sticks > 0.0 };
     if (q.sticks) {
         q.inner = pressure_of(law->flat, w, law->load * sticks);

@@ -31,6 +31,7 @@ static double sum_of(const double *sum)
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
+/* Force and stiffness in two passes: the sums of both at once would not fit into the registers. */
 void sliders_curve(const void *context, size_t n, const double *displacement, double *force, double *stiffness)
 {
     const sliders *s = context;
@@ -40,7 +41,11 @@ void sliders_curve(const void *context, size_t n, const double *displacement, do
             for (int l = 0; l < LANES; ++l) {
                 const double trial = s->stiffness[j + l] * displacement[i], slip = s->slip[j + l];
                 t[l] += trial < slip ? trial : slip;
-                k[l] += trial < slip ? s->stiffness[j + l] : 0.0;
+            }
+        }
+        for (size_t j = 0; j < s->padded; j += LANES) {
+            for (int l = 0; l < LANES; ++l) {
+                k[l] += s->stiffness[j + l] * displacement[i] < s->slip[j + l] ? s->stiffness[j + l] : 0.0;
             }
         }
         force[i] = sum_of(t);
@@ -80,9 +85,15 @@ double sliders_step(const sliders *s, double *restrict forces, double du, double
             f = f > -slip ? f : -slip;
             forces[j + l] = f;
             t[l] += f;
-            k[l] += f == trial ? s->stiffness[j + l] : 0.0;
         }
     }
-    *stiffness = sum_of(k);
+    for (size_t j = 0; stiffness && j < s->padded; j += LANES) {
+        for (int l = 0; l < LANES; ++l) {
+            k[l] += fabs(forces[j + l]) < s->slip[j + l] ? s->stiffness[j + l] : 0.0;
+        }
+    }
+    if (stiffness) {
+        *stiffness = sum_of(k);
+    }
     return sum_of(t);
 }

@@ -20,7 +20,7 @@ void sliders_curve(const void *sliders, size_t n, const double *displacement, do
 /* K', K'', and their derivatives by the amplitude, in closed form for each slider. */
 void sliders_stiffness(const sliders *s, double amplitude, double result[4]);
 
-/* One time step: forces of the sliders in, and out. */
+/* One time step: forces of the sliders in, and out. Where `stiffness` is NULL it is not computed. */
 double sliders_step(const sliders *s, double *forces, double du, double *stiffness);
 
 /* One element, for time marching. */

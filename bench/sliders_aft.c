@@ -24,7 +24,8 @@ struct aft {
     double *product;  /* Jacobian at work, stride x stride */
     double *anchored; /* a row for each sample */
     int *turns;
-    double *z, *dz;   /* of a bank: forces, and rows over the coefficients */
+    double *z, *dz;   /* of a bank: forces, and their derivatives, one array for each coefficient */
+    double *sticks;   /* 1 or 0 */
 };
 
 static double *zeros(size_t n)
@@ -51,6 +52,7 @@ aft *aft_of(int harmonics, int samples, size_t n)
     a->turns = malloc((rows + 1) * sizeof *a->turns);
     a->z = zeros(padded);
     a->dz = zeros(padded * stride);
+    a->sticks = zeros(padded);
     for (int n = 0; n < 2 * samples; ++n) {
         double *row = a->prefix + (size_t)n * width, *next = row + width;
         for (int k = 0; k <= 2 * harmonics; ++k) {
@@ -72,7 +74,7 @@ aft *aft_of(int harmonics, int samples, size_t n)
 
 void aft_free(aft *a)
 {
-    double *const arrays[] = { a->table, a->prefix, a->u, a->f, a->product, a->anchored, a->z, a->dz };
+    double *const arrays[] = { a->table, a->prefix, a->u, a->f, a->product, a->anchored, a->z, a->dz, a->sticks };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) {
         free(arrays[i]);
     }
@@ -183,47 +185,41 @@ void jenkins_stepped(aft *a, const sliders *one, const double *c, double *force,
     write_jacobian(a, jacobian);
 }
 
-/* One step of all sliders and of their rows dz; the sums over the sliders into d. */
+static double sum_of(const double *sum)
+{
+    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+/* One step of all sliders, then of their rows dz, one coefficient after the other; the sums over the sliders into d. */
 static double step_with_rows(const aft *a, const sliders *s, double du, const double *row, const double *before, double *d)
 {
-    double sum[LANES] = { 0 }, sums[64][LANES] = { { 0 } }, dk[64];
-    const int m = a->coefficients;
-    for (int j = 0; j < m; ++j) {
-        dk[j] = row[j] - (before ? before[j] : 0.0);
-    }
+    double *restrict z = a->z, *restrict sticks = a->sticks, all[LANES] = { 0 };
     for (size_t i = 0; i < s->padded; i += LANES) {
-        double sticks[LANES];
         for (int l = 0; l < LANES; ++l) {
-            const double trial = a->z[i + l] + s->stiffness[i + l] * du, f = clamped(trial, s->slip[i + l]);
-            a->z[i + l] = f;
-            sum[l] += f;
-            sticks[l] = f == trial ? 1.0 : 0.0;
+            const double trial = z[i + l] + s->stiffness[i + l] * du, f = clamped(trial, s->slip[i + l]);
+            z[i + l] = f;
+            sticks[i + l] = f == trial ? 1.0 : 0.0;
+            all[l] += f;
         }
-        double *dz = a->dz + i * (size_t)m;
-        for (int j = 0; j < m; ++j) {
+    }
+    for (int j = 0; j < a->coefficients; ++j) {
+        double *restrict dz = a->dz + (size_t)j * s->padded, sum[LANES] = { 0 };
+        const double change = row[j] - (before ? before[j] : 0.0);
+        for (size_t i = 0; i < s->padded; i += LANES) {
             for (int l = 0; l < LANES; ++l) {
-                const double value = sticks[l] * (dz[j * LANES + l] + s->stiffness[i + l] * dk[j]);
-                dz[j * LANES + l] = value;
-                sums[j][l] += value;
+                const double value = sticks[i + l] * (dz[i + l] + s->stiffness[i + l] * change);
+                dz[i + l] = value;
+                sum[l] += value;
             }
         }
+        d[j] = sum_of(sum);
     }
-    double total = 0.0;
-    for (int l = 0; l < LANES; ++l) {
-        total += sum[l];
-    }
-    for (int j = 0; j < m; ++j) {
-        d[j] = 0.0;
-        for (int l = 0; l < LANES; ++l) {
-            d[j] += sums[j][l];
-        }
-    }
-    return total;
+    return sum_of(all);
 }
 
 void sliders_stepped(aft *a, const sliders *s, const double *c, double *force, double *jacobian)
 {
-    double before = 0.0, ignored, d[64];
+    double before = 0.0, d[64];
     const double *row_before = NULL;
     displacements(a, c);
     memset(a->z, 0, s->padded * sizeof(double));
@@ -240,7 +236,7 @@ void sliders_stepped(aft *a, const sliders *s, const double *c, double *force, d
                 add_product(a, row, d);
             }
         } else {
-            a->f[sample] = sliders_step(s, a->z, du, &ignored);
+            a->f[sample] = sliders_step(s, a->z, du, NULL);
         }
         before = a->u[sample];
         row_before = row;

@@ -133,7 +133,7 @@ void task_harmonic(const subject *s, const extent *x, int harmonics)
                 j.method = sliders_by_reversals;
                 add(&c, "Jenkins by reversals", j, 0);
                 for (int n = 4; samples == 128 && n <= x->most_sliders; n *= 4) {
-                    j = (job) { .sliders = kept(bank_of(s, (size_t)n)), .aft = tables(harmonics, samples, (size_t)n) };
+                    j = (job) { .sliders = bank_of(s, n), .aft = tables(harmonics, samples, (size_t)n) };
                     j.method = sliders_stepped;
                     add(&c, "sliders", j, n);
                     j.method = sliders_by_reversals;

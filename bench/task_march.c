@@ -102,7 +102,7 @@ void task_march(const subject *s, const extent *x)
         add(s, "microslip whole path", whole_path, NULL, 0);
         add(s, "closed form by Newton", closed_form, NULL, 0);
         for (int n = 4; n <= x->most_sliders && n <= MOST_SLIDERS; n *= 4) {
-            add(s, "sliders", bank, kept(bank_of(s, (size_t)n)), n);
+            add(s, "sliders", bank, bank_of(s, n), n);
         }
         add(s, "Jenkins", jenkins, kept(jenkins_of(s, size)), 0)->is_yardstick = 1;
         for (size_t i = first; i < entry_count; ++i) {

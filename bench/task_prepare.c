@@ -39,7 +39,7 @@ void task_prepare(const subject *s)
         error_of(s->contact.slip_displacement, s);
     entry_add("prepare", "closed form by Newton", closed_form, (void *)&s->parameters, 1)->error =
         error_of(s->law.slip_displacement, s);
-    for (size_t n = 16; n <= 1024; n *= 8) {
+    for (size_t n = 16; n <= 256; n *= 4) {
         bank *b = context_of(sizeof *b);
         b->contact = &s->contact;
         b->n = n;

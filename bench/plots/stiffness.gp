@@ -18,10 +18,10 @@ do for [extension in 'svg png'] {
     shape = panel == 1 ? 0 : 0.9
     set title case(shape)
     if (panel == 1) { set ylabel 'time of one amplitude (ns)' } else { unset ylabel }
-    if (panel == 1) { set key at screen 0.53, screen 0.14 center top maxrows 2 Left reverse samplen 2.5 font ',12.5' } \
+    if (panel == 1) { set key at screen 0.53, screen 0.13 center top maxrows 2 Left reverse samplen 2 font ',12.5' } \
     else { unset key }
     plot of('microslip') using 1:2:3:4 with yerrorbars ls 1 title 'microslip', \
-         of('closed form by Gauss-Legendre') using 1:2 with linespoints ls 3 title 'closed form and Gauss-Legendre, plain C', \
+         of('closed form by Gauss-Legendre') using 1:2 with linespoints ls 3 title 'closed form, plain C', \
          of('Eq. 10 by Gauss-Legendre') using 1:2 with linespoints ls 4 title 'Eq. 10 by Gauss-Legendre', \
          of('Eq. 10 by adaptive Gauss-Kronrod') using 1:2 with linespoints ls 5 title 'Eq. 10 by adaptive Gauss-Kronrod', \
          of('sliders') using 1:2 with linespoints ls 6 title 'parallel sliders, 4 to 4096', \
