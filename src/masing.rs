@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::memory::{Course, PER_REVERSAL, Reversal, State, Stretch, Virgin, course, follow, state_length};
 
 /// Force and stiffness at the end of a course.
+#[inline(always)]
 pub(crate) fn response_at(contact: &Contact, origin: f64, course: &Course, displacement: f64) -> Response {
     let limit = contact.slip_force;
     if contact.is_frictionless() {
@@ -72,6 +73,7 @@ impl<'a> Dissipation<'a> {
 }
 
 /// The course of a step that the state has room for.
+#[inline(always)]
 fn admitted_course(contact: &Contact, state: &State, displacement: f64) -> Result<Course, Error> {
     check_displacement(displacement)?;
     let course = course(contact, state, displacement);
@@ -94,6 +96,7 @@ pub struct Step<'a> {
 /// # Errors
 /// `BadState`, `StateTooShort`, `BadDisplacement`; `StateFull` where a further reversal would have to be remembered than
 /// the state holds.
+#[inline(always)]
 pub fn step<'a>(contact: &'a Contact, state: &[f64], displacement: f64) -> Result<Step<'a>, Error> {
     let state = State::read(state)?;
     let course = admitted_course(contact, &state, displacement)?;
@@ -109,6 +112,7 @@ pub fn check_step(contact: &Contact, state: &[f64], displacement: f64) -> Result
 }
 
 impl<'a> Step<'a> {
+    #[inline(always)]
     fn along(contact: &'a Contact, state: &State, course: Course, displacement: f64) -> Step<'a> {
         let start = state.now;
         let Response { force, stiffness } = response_at(contact, state.virgin.origin, &course, displacement);
@@ -144,6 +148,7 @@ impl<'a> Step<'a> {
     }
 
     /// Writes the step into the state it was found from, or into a copy of it.
+    #[inline(always)]
     pub fn write(&self, state: &mut [f64]) {
         let &mut [
             _,

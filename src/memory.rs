@@ -62,6 +62,7 @@ impl Virgin {
     pub const NEW: Virgin = Virgin { origin: 0.0, slid: 0.0 };
 
     /// The curve after a course; without friction every point is an origin.
+    #[inline(always)]
     pub fn after(self, contact: &Contact, course: &Course, displacement: f64) -> Virgin {
         if contact.is_frictionless() {
             Virgin { origin: displacement, slid: 0.0 }
@@ -93,6 +94,7 @@ impl<'a> State<'a> {
     ///
     /// # Errors
     /// `StateTooShort` for an array that is no state, `BadState` for one that was not initialised or was changed.
+    #[inline(always)]
     pub fn read(state: &'a [f64]) -> Result<State<'a>, Error> {
         let &[mark, count, origin, slid, displacement, force, ref reversals @ ..] = state else {
             return Err(Error::StateTooShort);
@@ -103,11 +105,14 @@ impl<'a> State<'a> {
             return Err(Error::BadState);
         }
         let capacity = reversals.len() / PER_REVERSAL;
-        // Compared as doubles: a conversion of what is no number would trap.
-        if !(0.0..=capacity as f64).contains(&count) || count.floor() != count {
+        // Compared as doubles, then read off the last bits of a sum: a conversion of what is no number would trap.
+        const WHOLE: f64 = 4503599627370496.0;
+        let shifted = count + WHOLE;
+        if !(0.0..=capacity as f64).contains(&count) || shifted - WHOLE != count {
             return Err(Error::BadState);
         }
-        let used = reversals.get(..PER_REVERSAL * count as usize).ok_or(Error::BadState)?;
+        let depth = (shifted.to_bits() - WHOLE.to_bits()) as usize;
+        let used = reversals.get(..PER_REVERSAL * depth).ok_or(Error::BadState)?;
         if used.iter().all(|value| value.is_finite()) {
             let virgin = Virgin { origin, slid };
             Ok(State { virgin, now: Reversal { displacement, force }, reversals: used, capacity })
@@ -116,11 +121,13 @@ impl<'a> State<'a> {
         }
     }
 
+    #[inline(always)]
     pub fn depth(&self) -> usize {
         self.reversals.len() / PER_REVERSAL
     }
 
     /// Reversal 1 is the oldest.
+    #[inline(always)]
     pub fn reversal(&self, number: usize) -> Option<Reversal> {
         let mut pair = self.reversals.get(PER_REVERSAL * number.checked_sub(1)?..)?.iter();
         Some(Reversal { displacement: *pair.next()?, force: *pair.next()? })
@@ -162,6 +169,7 @@ pub(crate) struct Stretch {
 }
 
 /// The course of a contact; without friction there is nothing to remember.
+#[inline(always)]
 pub(crate) fn course(contact: &Contact, state: &State, target: f64) -> Course {
     if contact.is_frictionless() {
         return Course { depth: 0, branch: None, turned: false, direction: 1.0, slides: false };
@@ -171,6 +179,7 @@ pub(crate) fn course(contact: &Contact, state: &State, target: f64) -> Course {
 
 /// Follows the memory from the present point to another displacement, closing the loops on the way. `passed` hears of each
 /// stretch that is left.
+#[inline(always)]
 pub(crate) fn follow(state: &State, slip_displacement: f64, target: f64, mut passed: impl FnMut(Stretch)) -> Course {
     let start = state.now;
     let newest = state.reversal(state.depth());
