@@ -251,5 +251,8 @@ int check_benchmark(const char *golden)
     below("harmonic", "closed form by Newton", 1e-10);
     below("march", "closed form by Newton", 1e-10);
     samples_fall("microslip");
+#ifdef MSLIP_BETWEEN_REVERSALS
+    samples_fall("microslip between reversals");
+#endif
     return check_report();
 }
