@@ -48,7 +48,7 @@ pub struct Contact {
     pub(crate) rest_scale: f64,
     rounded_flat: RoundedFlat,
     inverse: Inverse,
-    spare: [f64; 54],
+    spare: [f64; 82],
     end_mark: u64,
 }
 
@@ -215,7 +215,7 @@ const EMPTY: Contact = Contact {
     rest_scale: 0.0,
     rounded_flat: RoundedFlat::EMPTY,
     inverse: Inverse::NONE,
-    spare: [0.0; 54],
+    spare: [0.0; 82],
     end_mark: MARK,
 };
 

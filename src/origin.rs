@@ -7,21 +7,75 @@
 //! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ.
 //! ```
 //!
-//! With `h'' = Σ c_m τᵐ` the four are `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
+//! Up to τ = 1/2 a polynomial of fewer terms is as good. With `h'' = Σ c_m τᵐ` the four are `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
 
 use crate::family::{Member, Split};
 use crate::series::{self, Rows, rows};
 
-/// Terms kept: the radius of convergence is 1, and the coefficients of h'' stay bounded.
+/// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
 pub(crate) const TERMS: usize = 48;
 
-type Terms = Rows<{ TERMS / 4 }>;
+/// Terms of the polynomial that stands for it up to τ = 1/2.
+const KEPT: usize = 20;
+
+type Terms = Rows<{ KEPT / 4 }>;
+
+/// Chebyshev polynomials T_n(4τ - 1), from n = [`KEPT`] on, by their powers of τ over the leading one: on (0, 1/2) none exceeds
+/// 2/8ⁿ in size.
+static CHEBYSHEV: [[f64; TERMS]; TERMS - KEPT] = {
+    let mut table = [[0.0; TERMS]; TERMS - KEPT];
+    let (mut before, mut now) = ([0.0; TERMS], [0.0; TERMS]);
+    before[0] = 1.0;
+    (now[0], now[1]) = (-1.0, 4.0);
+    let mut n = 1;
+    while n < TERMS {
+        if n >= KEPT {
+            let mut k = 0;
+            while k <= n {
+                table[n - KEPT][k] = now[k] / now[n];
+                k += 1;
+            }
+        }
+        let mut next = [0.0; TERMS];
+        let mut k = 0;
+        while k < TERMS {
+            let below = if k > 0 { now[k - 1] } else { 0.0 };
+            next[k] = 2.0 * (4.0 * below - now[k]) - before[k];
+            k += 1;
+        }
+        (before, now) = (now, next);
+        n += 1;
+    }
+    table
+};
+
+/// The polynomial of fewer terms that is a series to 2⁻⁵⁸ of its coefficients for τ <= 1/2 (Lanczos' economisation): from the
+/// last on, every power gives way to the Chebyshev polynomial that it leads.
+pub(crate) const fn economised(mut series: [f64; TERMS], chebyshev: &[[f64; TERMS]; TERMS - KEPT]) -> [f64; KEPT] {
+    let mut n = TERMS;
+    while n > KEPT {
+        n -= 1;
+        let leading = series[n];
+        let mut k = 0;
+        while k < n {
+            series[k] -= leading * chebyshev[n - KEPT][k];
+            k += 1;
+        }
+    }
+    let mut kept = [0.0; KEPT];
+    let mut k = 0;
+    while k < KEPT {
+        kept[k] = series[k];
+        k += 1;
+    }
+    kept
+}
 
 /// What integrations of τᵐ leave: `numerator / ((m+1)…)`, the product over the numbers added to m.
 const fn factors(numerator: f64, added: &[usize]) -> Terms {
-    let mut terms = [numerator; TERMS];
+    let mut terms = [numerator; KEPT];
     let mut m = 0;
-    while m < TERMS {
+    while m < KEPT {
         let mut k = 0;
         while k < added.len() {
             terms[m] /= (m + added[k]) as f64;
@@ -64,8 +118,9 @@ pub(crate) struct NearOrigin {
 impl Origin {
     /// The series from the coefficients of its curvature.
     pub(crate) const fn new(compliance: f64, curvature: [f64; TERMS]) -> Origin {
+        let curvature = economised(curvature, &CHEBYSHEV);
         let mut half_approach = 0.0;
-        let mut m = TERMS;
+        let mut m = KEPT;
         while m > 0 {
             m -= 1;
             half_approach = 0.5 * half_approach + curvature[m] * APPROACH[m / 4][m % 4];
@@ -82,7 +137,7 @@ impl Origin {
 
     /// `Σ c_m f_m τᵐ`.
     fn sum(&self, factors: &Terms, tau: f64) -> f64 {
-        let used = series::rows_for(tau, TERMS / 4);
+        let used = series::rows_for(tau, KEPT / 4);
         let pairs = self.curvature.iter().zip(factors).take(used);
         series::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
     }
