@@ -2,4 +2,4 @@
 # check.sh [PREFIX]: builds the benchmark against an installed microslip and tests it; the last line has the counts.
 set -eu
 cd "$(dirname "$0")"
-make --silent check PREFIX="${1:-../dist}"
+make --silent --no-print-directory check PREFIX="${1:-../dist}"

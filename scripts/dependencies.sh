@@ -71,10 +71,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|counting|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|counting|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | counting) "$group" ;;
+        fortran | demo | bench | counting) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac
