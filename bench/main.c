@@ -117,8 +117,8 @@ int main(int argc, char **argv)
          *table = open_file(directory, "table.md");
     entries_write(csv);
     table_write(table);
-    fputs("\nMedians over contacts from the cylinder to a/b = 0.999 and over amplitudes from 0.01 to 3 times the displacement of "
-          "gross slip; quadrature without gross slip. Errors are relative to quadruple precision, those of the harmonic force at equal "
+    fputs("\nMedians over contacts from the cylinder to a/b = 0.999 and over amplitudes from 0.01 to 3 times the "
+          "displacement of gross slip; quadrature without gross slip. Errors are relative to quadruple precision, those of the harmonic force at equal "
           "samples; times marked * are beyond the largest bank of sliders, which step every sample. Left out: quadrature inside "
           "the harmonic force and the time march (a sample would cost what a force costs), the closed form's Jacobian (it would "
           "need what the library has), interpolated tables of the curve (the same law again, with tables to be kept for every "
