@@ -125,9 +125,14 @@ impl Interpolant {
         rows(&integral)
     }
 
+    /// As a polynomial in y = (1+z)/2.
+    pub fn powers_from_end(&self) -> [f64; POINTS] {
+        self.powers(&FROM_END, POINTS)
+    }
+
     /// The mean over (0, y), as a polynomial in y = (1+z)/2.
     pub fn mean_from_end(&self) -> Polynomial {
-        let mut powers = self.powers(&FROM_END, POINTS);
+        let mut powers = self.powers_from_end();
         for (power, n) in powers.iter_mut().zip(1..) {
             *power /= n as f64;
         }

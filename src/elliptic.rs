@@ -17,7 +17,7 @@
 
 use crate::family::{ContactFamily, Member, Place, Split, Station};
 use crate::indentation::TINY;
-use crate::origin::{Origin, TERMS};
+use crate::origin::{Origin, TERMS, economised};
 use crate::parameters::Material;
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -36,7 +36,7 @@ const CURVATURE: [f64; TERMS] = {
     table
 };
 
-static ORIGIN: Origin = Origin::new(1.0, CURVATURE);
+static ORIGIN: Origin = Origin::new(1.0, economised(CURVATURE));
 
 const SLIP_APPROACH: f64 = 1.5;
 

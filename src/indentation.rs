@@ -150,13 +150,18 @@ impl Indentation {
     /// The two limits, `w = sqrt(g/π)` of the cylinder and `w = (3ag/4)^(1/3)` of the flat, added as cubes, are 3 % off at
     /// worst; Halley's iteration cubes that error each time.
     pub fn of_load(flat: f64, load: f64) -> Indentation {
-        let mut now = Indentation::new(flat, Indentation::w_roughly(flat, load));
+        Indentation::near_load(Indentation::new(flat, Indentation::w_roughly(flat, load)), load)
+    }
+
+    /// The contact of this load, from one near it.
+    pub fn near_load(start: Indentation, load: f64) -> Indentation {
+        let mut now = start;
         for _ in 0..4 {
             let slope = (4.0 * now.w * now.psi).max(TINY);
             let newton = (now.load() - load) / slope;
             let bend = now.bend() / slope;
             let step = newton / (1.0 - 0.5 * newton * bend).max(0.5);
-            now = Indentation::new(flat, now.w - step);
+            now = Indentation::new(now.flat, now.w - step);
             if step.abs() <= 1e-6 * now.w {
                 break;
             }

@@ -34,7 +34,7 @@ impl Inverse {
     pub const NONE: Inverse = Inverse { origin: [[0.0; 4]; _], octaves: [[[0.0; 4]; _]; OCTAVES], resolved: 0.0 };
 
     /// The inverse of the curve on which `at_approach` finds members, whose compliance is Λ + λ.
-    pub fn new(slip_approach: f64, compliance: f64, at_approach: impl Fn(Split) -> Member) -> Inverse {
+    pub fn new(slip_approach: f64, compliance: f64, mut at_approach: impl FnMut(Split) -> Member) -> Inverse {
         let (first, rest) = (FROM_ORIGIN * slip_approach, (1.0 - FROM_ORIGIN) * slip_approach);
         let stiffness = |member: &Member| 1.0 / (compliance + member.excess);
         let from_origin = Interpolant::through(|z| {

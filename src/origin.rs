@@ -15,14 +15,13 @@ use crate::series::{self, Rows, rows};
 /// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
 pub(crate) const TERMS: usize = 48;
 
-/// Terms of the polynomial that stands for it up to τ = 1/2.
-const KEPT: usize = 20;
+/// Terms of the polynomial that stands for it up to τ = 1/2, to 5.8⁻²⁰ of the series.
+pub(crate) const KEPT: usize = 20;
 
 type Terms = Rows<{ KEPT / 4 }>;
 
-/// Chebyshev polynomials T_n(4τ - 1), from n = [`KEPT`] on, by their powers of τ over the leading one: on (0, 1/2) none exceeds
-/// 2/8ⁿ in size.
-static CHEBYSHEV: [[f64; TERMS]; TERMS - KEPT] = {
+/// Chebyshev polynomials T_n(4τ - 1), from n = [`KEPT`] on, by their powers of τ over the leading one.
+const CHEBYSHEV: [[f64; TERMS]; TERMS - KEPT] = {
     let mut table = [[0.0; TERMS]; TERMS - KEPT];
     let (mut before, mut now) = ([0.0; TERMS], [0.0; TERMS]);
     before[0] = 1.0;
@@ -49,16 +48,16 @@ static CHEBYSHEV: [[f64; TERMS]; TERMS - KEPT] = {
     table
 };
 
-/// The polynomial of fewer terms that is a series to 2⁻⁵⁸ of its coefficients for τ <= 1/2 (Lanczos' economisation): from the
-/// last on, every power gives way to the Chebyshev polynomial that it leads.
-pub(crate) const fn economised(mut series: [f64; TERMS], chebyshev: &[[f64; TERMS]; TERMS - KEPT]) -> [f64; KEPT] {
+/// The polynomial of fewer terms that stands for a power series up to τ = 1/2 (Lanczos' economisation): from the last on, every
+/// power gives way to the Chebyshev polynomial that it leads.
+pub(crate) const fn economised(mut series: [f64; TERMS]) -> [f64; KEPT] {
     let mut n = TERMS;
     while n > KEPT {
         n -= 1;
         let leading = series[n];
         let mut k = 0;
         while k < n {
-            series[k] -= leading * chebyshev[n - KEPT][k];
+            series[k] -= leading * CHEBYSHEV[n - KEPT][k];
             k += 1;
         }
     }
@@ -117,8 +116,7 @@ pub(crate) struct NearOrigin {
 
 impl Origin {
     /// The series from the coefficients of its curvature.
-    pub(crate) const fn new(compliance: f64, curvature: [f64; TERMS]) -> Origin {
-        let curvature = economised(curvature, &CHEBYSHEV);
+    pub(crate) const fn new(compliance: f64, curvature: [f64; KEPT]) -> Origin {
         let mut half_approach = 0.0;
         let mut m = KEPT;
         while m > 0 {

@@ -11,10 +11,11 @@
 //!
 //! Beyond τ = 1/2 these are computed as they stand; below, the series at the origin takes over.
 
+use crate::chebyshev::Interpolant;
 use crate::family::{ContactFamily, Member, Place, Split, Station};
 use crate::indentation::{Indentation, TINY};
 use crate::inverse::Inverse;
-use crate::origin::{Origin, TERMS};
+use crate::origin::{KEPT, Origin};
 use crate::traction;
 use core::f64::consts::PI;
 
@@ -43,7 +44,7 @@ impl RoundedFlat {
         mean_load: 0.0,
         mean_square: 0.0,
         slip_approach: 0.0,
-        origin: Origin::new(0.0, [0.0; TERMS]),
+        origin: Origin::new(0.0, [0.0; KEPT]),
     };
 
     /// The contact `b` (lengths in units of its half-width), with the compliance Λ of its full stick.
@@ -58,13 +59,64 @@ impl RoundedFlat {
             mean_load,
             mean_square: contact.mean_square(load),
             slip_approach: compliance + mean_load,
-            origin: Origin::new(compliance, curvature_series(contact, load)),
+            origin: Origin::new(compliance, curvature(contact, load)),
         }
     }
 
-    /// The inverse of its curve as polynomials.
+    /// The inverse of its curve as polynomials. The points follow each other: near one lies the next.
     pub(crate) fn inverse(&self) -> Inverse {
-        Inverse::new(self.slip_approach, self.origin.compliance, |approach| self.at_approach(approach))
+        let mut last: Option<(f64, f64, f64)> = None;
+        Inverse::new(self.slip_approach, self.origin.compliance, |approach| {
+            if approach.lost <= self.origin.half_approach {
+                return self.origin.at_approach(approach);
+            }
+            let rest = approach.rest;
+            let start = match last {
+                // w goes as a power of the rest, which changes slowly.
+                Some((before, w, power)) => {
+                    let change = power * (rest / before - 1.0);
+                    Indentation::new(self.flat, w * (1.0 + change * (1.0 + 0.5 * (change - change / power))))
+                }
+                None => self.guess(rest),
+            };
+            let (member, w, power) = self.near_approach_rest(rest, start);
+            last = Some((rest, w, power));
+            member
+        })
+    }
+
+    /// The member with that rest of the approach, from one near it; its w, and the power of the rest with which w goes there.
+    ///
+    /// Halley's iteration on w cubes a distance of a few per cent each time; the last step is an expansion, in which third
+    /// powers of 2e-5 are below rounding.
+    fn near_approach_rest(&self, rest: f64, start: Indentation) -> (Member, f64, f64) {
+        let mut inner = start;
+        let mut iterations_left = 8;
+        loop {
+            let (w, c2) = (inner.w, (inner.half_width * inner.half_width).max(TINY));
+            let now = self.inner(&inner);
+            let compliance = self.origin.compliance + now.excess;
+            // Derivatives by w of the rest times the load of b, and of the compliance.
+            let slope = (4.0 * w * inner.psi * compliance).max(TINY);
+            let bend = inner.bend() * compliance - 4.0 * w * w * inner.psi / c2;
+            let (rate, rate_change) = (-w / c2, (w - inner.flat) / c2 * ((w + inner.flat) / c2));
+            let gap = rest - now.approach.rest;
+            let newton = gap * self.load / slope;
+            let step = newton / (1.0 + 0.5 * newton * bend / slope).max(0.5);
+            iterations_left -= 1;
+            if step.abs() <= 2e-5 * w || iterations_left == 0 {
+                let load = now.load.rest + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
+                let excess = now.excess + step * (rate + 0.5 * step * rate_change);
+                let member = Member {
+                    load: Split { lost: 1.0 - load, rest: load },
+                    approach: Split { lost: self.slip_approach - rest, rest },
+                    excess,
+                    measure: Some((w + step) / self.w),
+                };
+                return (member, w + step, (rest * self.load / slope) / w.max(TINY));
+            }
+            inner = Indentation::new(self.flat, (w + step).max(0.0));
+        }
     }
 
     /// What turns the integrals over the family into tractions and slip.
@@ -124,38 +176,8 @@ impl ContactFamily for RoundedFlat {
         Member { load: Split { lost: 1.0 - rest, rest }, excess, ..member }
     }
 
-    /// Halley's iteration on w, which cubes the guess's few per cent each time; the last step is an expansion, in which
-    /// third powers of 2e-5 are below rounding.
     fn at_approach_rest(&self, rest: f64) -> Member {
-        if rest <= 0.0 {
-            return self.at_load_rest(0.0);
-        }
-        let mut inner = self.guess(rest);
-        let mut iterations_left = 8;
-        loop {
-            let (w, c2) = (inner.w, (inner.half_width * inner.half_width).max(TINY));
-            let now = self.inner(&inner);
-            let compliance = self.origin.compliance + now.excess;
-            // Derivatives by w of the rest times the load of b, and of the compliance.
-            let slope = (4.0 * w * inner.psi * compliance).max(TINY);
-            let bend = inner.bend() * compliance - 4.0 * w * w * inner.psi / c2;
-            let (rate, rate_change) = (-w / c2, (w - inner.flat) / c2 * ((w + inner.flat) / c2));
-            let gap = rest - now.approach.rest;
-            let newton = gap * self.load / slope;
-            let step = newton / (1.0 + 0.5 * newton * bend / slope).max(0.5);
-            iterations_left -= 1;
-            if step.abs() <= 2e-5 * w || iterations_left == 0 {
-                let load = now.load.rest + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
-                let excess = now.excess + step * (rate + 0.5 * step * rate_change);
-                return Member {
-                    load: Split { lost: 1.0 - load, rest: load },
-                    approach: Split { lost: self.slip_approach - rest, rest },
-                    excess,
-                    measure: Some((w + step) / self.w),
-                };
-            }
-            inner = Indentation::new(self.flat, (w + step).max(0.0));
-        }
+        if rest <= 0.0 { self.at_load_rest(0.0) } else { self.near_approach_rest(rest, self.guess(rest)).0 }
     }
 
     fn dissipation_beyond_half(&self, member: &Member) -> f64 {
@@ -209,71 +231,19 @@ impl ContactFamily for RoundedFlat {
     }
 }
 
-/// Coefficients of h''(τ) at τ = 0.
-///
-/// With `q = 1/h'' = 4 c² ψ/g_b`, `k = cot ψ` and `r = 1/ψ` along the family,
-///
-/// ```text
-/// q' = -(2 + k r),      k' = k (1 + k²)/q,      r' = r² k/q,
-/// ```
-///
-/// so that 1/q, k and r have positive coefficients throughout: nothing cancels, whatever a/b is. All three are scaled by
-/// the contact's own ψ to stay near 1 for the flattest contact.
-fn curvature_series(contact: &Indentation, load: f64) -> [f64; TERMS] {
-    let psi = contact.psi;
-    let psi2 = psi * psi;
-    let first = 4.0 * psi * psi2 / load;
-    // In the order in which coefficient n of each follows from those before.
-    let mut q_rate = Series::NEW; // -q'
-    let mut q_less = Series::NEW; // -(q - q_0), coefficients from 1 on
-    let (mut curvature, mut k, mut r) = (Series::NEW, Series::NEW, Series::NEW); // 1/q, k, r
-    let (mut growth, mut k_square, mut r_square) = (Series::NEW, Series::NEW, Series::NEW); // k/q, ψ² + k², r²
-    k.push(psi * contact.flat / contact.w);
-    r.push(1.0);
-    for n in 0..TERMS {
-        let constant = |value: f64| if n == 0 { value } else { 0.0 };
-        // From q (1/q) = 1.
-        curvature.push((constant(1.0) + q_less.times(&curvature)) / first);
-        q_rate.push(k.times(&r) + constant(2.0 * psi2));
-        q_less.push(q_rate.last() / (n + 1) as f64);
-        growth.push(k.times(&curvature));
-        k_square.push(k.times(&k) + constant(psi2));
-        r_square.push(r.times(&r));
-        k.push(growth.times(&k_square) / (n + 1) as f64);
-        r.push(r_square.times(&growth) / (n + 1) as f64);
-    }
-    curvature.coefficients.map(|coefficient| coefficient * psi2)
-}
-
-/// A power series as far as it is known.
-struct Series {
-    coefficients: [f64; TERMS],
-    known: usize,
-}
-
-impl Series {
-    const NEW: Series = Series { coefficients: [0.0; TERMS], known: 0 };
-
-    fn known(&self) -> &[f64] {
-        self.coefficients.get(..self.known).unwrap_or(&[])
-    }
-
-    fn last(&self) -> f64 {
-        self.known().last().copied().unwrap_or(0.0)
-    }
-
-    /// The next coefficient; beyond the last that is kept it is dropped.
-    fn push(&mut self, coefficient: f64) {
-        if let Some(place) = self.coefficients.get_mut(self.known) {
-            *place = coefficient;
-            self.known += 1;
-        }
-    }
-
-    /// The coefficient of the product that both, known equally far, have last in common.
-    fn times(&self, other: &Series) -> f64 {
-        self.known().iter().zip(other.known().iter().rev()).map(|(one, two)| one * two).sum()
-    }
+/// `h'' = g_b/(4 c² ψ_c)` as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
+fn curvature(contact: &Indentation, load: f64) -> [f64; KEPT] {
+    let mut inner = *contact;
+    let mut scale = 1.0;
+    let interpolant = Interpolant::through(|z| {
+        inner = Indentation::near_load(inner, (0.75 - 0.25 * z) * load);
+        load / (4.0 * inner.half_width * inner.half_width * inner.psi)
+    });
+    interpolant.powers_from_end().map(|power| {
+        let coefficient = scale * power;
+        scale *= 2.0;
+        coefficient
+    })
 }
 
 #[cfg(test)]
