@@ -1,6 +1,7 @@
 //! A contact, prepared once and then only read: the family it belongs to, and the units that turn its numbers into forces
 //! and displacements.
 
+use crate::cycle_rules::GAUSS;
 use crate::elliptic::Elliptic;
 use crate::error::Error;
 use crate::family::ContactFamily;
@@ -48,9 +49,14 @@ pub struct Contact {
     pub(crate) rest_scale: f64,
     rounded_flat: RoundedFlat,
     inverse: Inverse,
-    spare: [f64; 82],
+    /// x and dτ at the nodes of the complex stiffness in gross slip.
+    slip_nodes: SlipNodes,
+    spare: [f64; 2],
     end_mark: u64,
 }
+
+/// x, and dτ with the weight of a node.
+pub(crate) type SlipNodes = [[f64; GAUSS.len()]; 2];
 
 /// Tells a prepared contact from other memory.
 const MARK: u64 = 0x6d73_6c69_7001_c0a7;
@@ -163,8 +169,19 @@ impl Contact {
             inverse: if self.is_elliptic() { Inverse::NONE } else { self.rounded_flat.inverse() },
             initial_stiffness: self.stiffness_unit / family.origin().compliance,
             slip_energy,
+            slip_nodes: slip_nodes(family),
             ..self
         })
+    }
+
+    pub(crate) fn slip_nodes(&self) -> &SlipNodes {
+        &self.slip_nodes
+    }
+
+    /// K' over the initial stiffness and its derivative by y, where the inverse is one polynomial.
+    #[inline(always)]
+    pub(crate) fn polynomial_cycle(&self, y: f64) -> Option<(f64, f64)> {
+        if self.is_elliptic() { None } else { self.inverse.cycle(y) }
     }
 
     /// Whether this memory was prepared by this library.
@@ -180,6 +197,10 @@ impl Contact {
         &self.inverse
     }
 
+    pub(crate) fn shape(&self) -> &RoundedFlat {
+        &self.rounded_flat
+    }
+
     pub(crate) fn family(&self) -> &dyn ContactFamily {
         if self.is_elliptic() { &Elliptic } else { &self.rounded_flat }
     }
@@ -193,6 +214,23 @@ impl Contact {
     pub(crate) fn energy_unit(&self) -> f64 {
         self.slip_force * self.displacement_unit
     }
+}
+
+/// Members of a family from the smallest to b, for integrals over all of it: sizes σ whose spacing grows in proportion to their
+/// distance from the branch points of the family, and shrinks towards b, where integrands have roots.
+fn slip_nodes(family: &dyn ContactFamily) -> SlipNodes {
+    let spread = family.spread();
+    // σ = sinh(spread y)/sinh(spread), y = z (2-z).
+    let scale = 0.5 / (0.5 * (spread.exp() - (-spread).exp()));
+    let mut nodes = [[0.0; GAUSS.len()]; 2];
+    let [lost, weights] = &mut nodes;
+    for ((lost, slip_weight), (z, weight)) in lost.iter_mut().zip(weights).zip(GAUSS) {
+        let (up, down) = ((spread * z * (2.0 - z)).exp(), (-spread * z * (2.0 - z)).exp());
+        let rate = spread * scale * (up + down) * 2.0 * (1.0 - z);
+        let station = family.station((scale * (up - down)).min(1.0));
+        (*lost, *slip_weight) = (station.approach.lost, weight * rate * station.load_rate);
+    }
+    nodes
 }
 
 /// An open contact of no law.
@@ -215,7 +253,8 @@ const EMPTY: Contact = Contact {
     rest_scale: 0.0,
     rounded_flat: RoundedFlat::EMPTY,
     inverse: Inverse::NONE,
-    spare: [0.0; 82],
+    slip_nodes: [[0.0; GAUSS.len()]; 2],
+    spare: [0.0; 2],
     end_mark: MARK,
 };
 

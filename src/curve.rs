@@ -162,6 +162,24 @@ impl Contact {
         self.stiffness_unit / self.family().compliance(stick)
     }
 
+    /// Energy \[J\] dissipated per cycle of a displacement amplitude up to gross slip, and its derivative \[N\].
+    #[inline(always)]
+    pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
+        let family = self.family();
+        if let Some((load, stiffness)) = self.responder().load_at(amplitude) {
+            if load.lost <= 0.5 {
+                let (dissipation, slope) = family.origin().dissipation_and_slope(load.lost);
+                return (self.energy_unit() * dissipation, self.displacement_unit * slope * stiffness);
+            }
+            let excess = self.stiffness_unit / stiffness.max(f64::MIN_POSITIVE) - family.origin().compliance;
+            let (dissipation, slope) = self.shape().cycle(load.rest, excess);
+            return (self.energy_unit() * dissipation, self.displacement_unit * slope * stiffness);
+        }
+        let stick = self.stick_at_displacement(amplitude);
+        let slope = self.slip_force * family.dissipation_slope(&stick) / family.compliance(&stick);
+        (self.energy_of(&stick), slope)
+    }
+
     /// Energy \[J\] dissipated per cycle whose half-cycles end with that stick zone.
     pub(crate) fn energy_of(&self, stick: &Member) -> f64 {
         self.energy_unit() * self.family().dissipation(stick)
@@ -204,6 +222,25 @@ impl Responder<'_> {
             return Response { force, stiffness: self.rest_stiffness * rate };
         }
         self.contact.solved_response(displacement)
+    }
+
+    /// The load at a displacement up to that of gross slip, both parts accurate, and the stiffness; none where there is no
+    /// polynomial.
+    #[inline(always)]
+    pub fn load_at(&self, displacement: f64) -> Option<(Split, f64)> {
+        if self.elliptic {
+            return None;
+        }
+        let y = displacement * self.origin_scale;
+        if y <= 1.0 {
+            let (secant, tangent) = self.inverse.near_origin(y)?;
+            let lost = self.initial_stiffness * displacement / self.slip_force.max(f64::MIN_POSITIVE) * secant;
+            Some((Split { lost, rest: 1.0 - lost }, self.initial_stiffness * tangent))
+        } else {
+            let left = self.slip_displacement - displacement;
+            let (rest, rate) = self.inverse.near_slip(left * self.rest_scale)?;
+            Some((Split { lost: 1.0 - rest, rest }, self.rest_stiffness * rate))
+        }
     }
 
     /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: the difference from the root, which loses nothing.

@@ -146,6 +146,11 @@ impl ContactFamily for Elliptic {
         }
     }
 
+    /// No branch point: nearly even spacing.
+    fn spread(&self) -> f64 {
+        1.0
+    }
+
     fn pressure(&self, place: &Place) -> f64 {
         SLIP_APPROACH / PI * (place.inside_edge * (1.0 + place.x)).max(0.0).sqrt()
     }

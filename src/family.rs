@@ -92,6 +92,10 @@ pub(crate) trait ContactFamily {
     /// The member of that measure.
     fn station(&self, measure: f64) -> Station;
 
+    /// ln of twice the ratio of the largest member's measure to the distance of the nearest branch point from that of the
+    /// smallest.
+    fn spread(&self) -> f64;
+
     /// Pressure at a place, in units of N/(bL) or, elliptical, of N over the product of the semi-axes.
     fn pressure(&self, place: &Place) -> f64;
 

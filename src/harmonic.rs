@@ -8,11 +8,19 @@
 //! K'' = E/(π δ0²)
 //! ```
 //!
-//! K' is the one quantity without a closed form. Up to τ = 1/2 the series at the origin gives the integrand; with
-//! `τ = τ0 sin²(φ/2)` it is a trigonometric polynomial to rounding, which the midpoint rule integrates. Beyond, the stick
-//! zone's size is the variable and the tanh-sinh rule takes the roots at both ends.
+//! K' is the one quantity without a closed form. With the tangent stiffness k it is
 //!
-//! For the derivative in microslip the tangent stiffness k falls from stick zone to stick zone,
+//! ```text
+//! K' = (8/π) ∫ sqrt(t (1-t)) k(δ0 t) dt,     0 <= t <= 1, up to gross slip
+//! ```
+//!
+//! - Where the inverse of the curve is one polynomial in the approach, so is K': the powers' integrals are known.
+//! - Up to near gross slip few nodes do, in a variable that knows where k is singular (`cycle_rules`).
+//! - In gross slip the nodes are the same for all amplitudes, and kept with the contact.
+//! - Between, within a few per cent of gross slip, the stick zone's size is the variable and the tanh-sinh rule takes the roots
+//!   at both ends.
+//!
+//! For the last in microslip k falls from stick zone to stick zone,
 //!
 //! ```text
 //! dK'/dδ0 = -(8/(π δ0)) ∫ k² X^(3/2) (1-X)^(1/2) dλ
@@ -22,8 +30,9 @@
 
 use crate::contact::Contact;
 use crate::curve::check_displacement;
+use crate::cycle_rules::{GAUSS, RULES};
 use crate::error::Error;
-use crate::family::{ContactFamily, Member, Station, integrate};
+use crate::family::{ContactFamily, Station, integrate};
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude; what is asked for is computed.
@@ -31,8 +40,7 @@ use core::f64::consts::PI;
 pub struct ComplexStiffness<'a> {
     contact: &'a Contact,
     amplitude: f64,
-    /// The stick zone at the reversals; none in gross slip.
-    stick: Option<Member>,
+    slides: bool,
 }
 
 /// The closed loop of one displacement amplitude (Eq. 11, 12).
@@ -44,29 +52,8 @@ pub struct HysteresisLoop<'a> {
     top: f64,
 }
 
-/// Nodes of the midpoint rule over half a period: exact for trigonometric polynomials of degree below 2 x 16, and the
-/// integrand's coefficients fall as 0.17ⁿ or faster.
-const MIDPOINTS: usize = 16;
-
-/// sin²(φ/2) at those nodes, φ = (j - 1/2) π/16; backwards they are cos²(φ/2).
-const SINE_SQUARED: [f64; MIDPOINTS] = [
-    0.002407636663901557,
-    0.021529832133895567,
-    0.05903936782582248,
-    0.11349477331863152,
-    0.18280335791817726,
-    0.2643016315870012,
-    0.3548576613727688,
-    0.4509914298352197,
-    0.5490085701647803,
-    0.6451423386272311,
-    0.7356983684129988,
-    0.8171966420818227,
-    0.8865052266813684,
-    0.9409606321741775,
-    0.9784701678661044,
-    0.9975923633360985,
-];
+/// Share of the displacement of gross slip from which the contact's own nodes are enough.
+const SLIP_NODES_FROM: f64 = 1.02;
 
 impl Contact {
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
@@ -76,8 +63,7 @@ impl Contact {
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness<'_>, Error> {
         check_amplitude(amplitude)?;
         let slides = self.is_frictionless() || amplitude >= self.slip_displacement;
-        let stick = if slides { None } else { Some(self.stick_at_displacement(amplitude)) };
-        Ok(ComplexStiffness { contact: self, amplitude, stick })
+        Ok(ComplexStiffness { contact: self, amplitude, slides })
     }
 
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -134,6 +120,18 @@ impl HysteresisLoop<'_> {
     }
 }
 
+/// A sum in four sums.
+#[inline(always)]
+fn side_by_side(terms: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    for four in terms.as_chunks::<4>().0 {
+        for k in 0..4 {
+            sums[k] += four[k];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
     if amplitude >= 0.0 {
         check_displacement(amplitude).map_err(|_| Error::BadAmplitude)
@@ -165,109 +163,141 @@ impl ComplexStiffness<'_> {
 
     /// K' \[N/m\].
     #[must_use]
+    #[inline(always)]
     pub fn real(&self) -> f64 {
-        if self.is_at_rest() { self.contact.initial_stiffness } else { self.contact.stiffness_unit * self.real_part() }
+        self.real_and_slope().0
     }
 
     /// K'' \[N/m\], not negative.
     #[must_use]
+    #[inline(always)]
     pub fn imaginary(&self) -> f64 {
-        if self.is_at_rest() {
-            return self.amplitude * self.slope_at_rest().1;
-        }
-        let amplitude = self.amplitude_not_zero();
-        self.dissipated() / amplitude / amplitude / PI
+        self.imaginary_and_slope().0
     }
 
     /// dK'/d(amplitude) \[N/m²\], not positive.
     #[must_use]
+    #[inline(always)]
     pub fn real_slope(&self) -> f64 {
-        if self.is_at_rest() {
-            return self.slope_at_rest().0;
-        }
-        self.contact.stiffness_unit / self.contact.displacement_unit * self.real_part_slope()
+        self.real_and_slope().1
     }
 
     /// dK''/d(amplitude) \[N/m²\].
     #[must_use]
+    #[inline(always)]
     pub fn imaginary_slope(&self) -> f64 {
-        if self.is_at_rest() {
-            return self.slope_at_rest().1;
-        }
-        let per_displacement = match &self.stick {
-            Some(stick) => {
-                self.contact.slip_force * self.family().dissipation_slope(stick) / self.family().compliance(stick)
-            }
-            None => 4.0 * self.contact.slip_force,
-        };
-        let amplitude = self.amplitude_not_zero();
-        (per_displacement / amplitude - 2.0 * (self.dissipated() / amplitude / amplitude)) / amplitude / PI
+        self.imaginary_and_slope().1
     }
 
     /// Energy \[J\] dissipated per cycle.
     #[must_use]
     pub fn dissipated(&self) -> f64 {
+        self.energy_and_slope().0
+    }
+
+    /// K' and its derivative.
+    #[inline(always)]
+    pub(crate) fn real_and_slope(&self) -> (f64, f64) {
+        let (contact, amplitude) = (self.contact, self.amplitude_not_zero());
+        if self.is_at_rest() {
+            return (contact.initial_stiffness, self.slope_at_rest().0);
+        }
+        let y = amplitude * contact.origin_scale;
+        if y <= 1.0
+            && let Some((real, slope)) = contact.polynomial_cycle(y)
+        {
+            let initial = contact.initial_stiffness;
+            return (initial * real, (initial * contact.origin_scale * slope).min(0.0));
+        }
+        let share = amplitude / contact.slip_displacement;
+        if let Some(rule) = RULES.iter().find(|rule| share <= rule.largest) {
+            let responder = contact.responder();
+            let (mut real, mut slope) = (0.0, 0.0);
+            for (t, weight, slope_weight) in rule.nodes {
+                let stiffness = responder.at(amplitude * t).stiffness;
+                real += weight * stiffness;
+                slope += slope_weight * stiffness;
+            }
+            return (real, (slope / amplitude).min(0.0));
+        }
+        if share >= SLIP_NODES_FROM {
+            return self.real_in_slip();
+        }
+        let slope = contact.stiffness_unit / contact.displacement_unit * self.real_part_slope();
+        (contact.stiffness_unit * self.real_part(), slope)
+    }
+
+    /// Both in gross slip, from the nodes that the contact keeps.
+    #[inline(always)]
+    fn real_in_slip(&self) -> (f64, f64) {
+        let (contact, approach) = (self.contact, self.approach());
+        let per_approach = 1.0 / approach;
+        let [lost, weights] = contact.slip_nodes();
+        // Root and quotient of each node, in whole registers, then their sums.
+        let (mut roots, mut quotients) = ([0.0; GAUSS.len()], [0.0; GAUSS.len()]);
+        for i in 0..GAUSS.len() {
+            let x = lost[i] * per_approach;
+            let rest = (1.0 - x).max(f64::MIN_POSITIVE);
+            roots[i] = weights[i] * (x * rest).max(0.0).sqrt();
+            quotients[i] = roots[i] / rest;
+        }
+        let (real, slope) = (side_by_side(&roots), side_by_side(&quotients));
+        let real = 8.0 / PI * real * per_approach;
+        let slope = (4.0 / PI * slope * per_approach - 2.0 * real) * per_approach;
+        (contact.stiffness_unit * real, (contact.stiffness_unit / contact.displacement_unit * slope).min(0.0))
+    }
+
+    /// K'' and its derivative.
+    #[inline(always)]
+    pub(crate) fn imaginary_and_slope(&self) -> (f64, f64) {
+        if self.is_at_rest() {
+            let slope = self.slope_at_rest().1;
+            return (self.amplitude * slope, slope);
+        }
+        let amplitude = self.amplitude_not_zero();
+        let (energy, slope) = self.energy_and_slope();
+        let imaginary = energy / amplitude / amplitude / PI;
+        (imaginary, (slope / amplitude / PI - 2.0 * imaginary) / amplitude)
+    }
+
+    /// Energy dissipated per cycle, and its derivative by the amplitude.
+    #[inline(always)]
+    fn energy_and_slope(&self) -> (f64, f64) {
         let contact = self.contact;
-        match &self.stick {
-            Some(stick) => contact.energy_of(stick),
-            None => contact.slip_energy + 4.0 * contact.slip_force * (self.amplitude - contact.slip_displacement),
+        if self.slides {
+            let slid = 4.0 * contact.slip_force;
+            (contact.slip_energy + slid * (self.amplitude - contact.slip_displacement), slid)
+        } else {
+            contact.cycle_energy(self.amplitude)
         }
     }
 
     fn real_part(&self) -> f64 {
-        let approach = self.approach();
-        let sum = match &self.stick {
-            Some(stick) if stick.load.lost <= 0.5 => self.over_the_origin(stick, |x, y, _| (x * y).sqrt()),
-            stick => self.over_the_family(stick.as_ref(), |x, y, station| (x * y).sqrt() * station.load_rate),
-        };
-        8.0 / PI / approach * sum
+        let sum = self.over_the_family(|x, y, station| (x * y).sqrt() * station.load_rate);
+        8.0 / PI / self.approach() * sum
     }
 
     fn real_part_slope(&self) -> f64 {
         let approach = self.approach();
-        let Some(stick) = &self.stick else {
-            let roots = self.over_the_family(None, |x, y, station| (x / y).sqrt() * station.load_rate);
+        if self.slides {
+            let roots = self.over_the_family(|x, y, station| (x / y).sqrt() * station.load_rate);
             return ((4.0 / PI / approach * roots - 2.0 * self.real_part()) / approach).min(0.0);
-        };
-        let sum = if stick.load.lost <= 0.5 {
-            self.over_the_origin(stick, |x, y, near| {
-                x * (x * y).sqrt() * near.curvature / (near.compliance * near.compliance)
-            })
-        } else {
-            self.over_the_family(Some(stick), |x, y, station| {
-                x * (x * y).sqrt() * station.excess_rate / (station.compliance * station.compliance)
-            })
-        };
+        }
+        let sum = self.over_the_family(|x, y, station| {
+            x * (x * y).sqrt() * station.excess_rate / (station.compliance * station.compliance)
+        });
         -8.0 / PI / approach * sum
     }
 
-    /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ0 of a stick zone near the origin.
-    fn over_the_origin(&self, stick: &Member, f: impl Fn(f64, f64, &NearPoint) -> f64) -> f64 {
-        let origin = self.family().origin();
-        let (approach, top) = (self.approach(), stick.load.lost);
-        let sum: f64 = SINE_SQUARED
-            .iter()
-            .zip(SINE_SQUARED.iter().rev())
-            .map(|(sine, cosine)| {
-                let sums = origin.sums(top * sine);
-                let x = ((origin.compliance * top * sine + sums.approach) / approach).min(1.0);
-                let near = NearPoint { compliance: origin.compliance + sums.compliance, curvature: sums.curvature };
-                (sine * cosine).sqrt() * f(x, 1.0 - x, &near)
-            })
-            .sum();
-        sum * top * PI / MIDPOINTS as f64
-    }
-
     /// `∫ f(X, 1-X, station) dσ` from the stick zone, or from the smallest member in gross slip, to the contact.
-    fn over_the_family(&self, stick: Option<&Member>, f: impl Fn(f64, f64, &Station) -> f64) -> f64 {
+    fn over_the_family(&self, f: impl Fn(f64, f64, &Station) -> f64) -> f64 {
         let (family, approach) = (self.family(), self.approach());
-        let (from, rest) = match stick {
-            Some(stick) => (family.measure(stick), stick.approach.rest),
-            None => (
-                0.0,
-                (self.contact.slip_displacement - self.amplitude)
-                    / self.contact.displacement_unit.max(f64::MIN_POSITIVE),
-            ),
+        let (from, rest) = if self.slides {
+            let beyond = self.amplitude - self.contact.slip_displacement;
+            (0.0, -beyond / self.contact.displacement_unit.max(f64::MIN_POSITIVE))
+        } else {
+            let stick = self.contact.stick_at_displacement(self.amplitude);
+            (family.measure(&stick), stick.approach.rest)
         };
         let integrand = |station: &Station| {
             let x = (station.approach.lost / approach).clamp(0.0, 1.0);
@@ -295,11 +325,6 @@ impl ComplexStiffness<'_> {
         let unit = self.contact.stiffness_unit / self.contact.displacement_unit.max(f64::MIN_POSITIVE);
         (-bend * unit, 4.0 / (3.0 * PI) * bend * unit)
     }
-}
-
-struct NearPoint {
-    compliance: f64,
-    curvature: f64,
 }
 
 #[cfg(test)]

@@ -161,12 +161,23 @@ impl Indentation {
             let newton = (now.load() - load) / slope;
             let bend = now.bend() / slope;
             let step = newton / (1.0 - 0.5 * newton * bend).max(0.5);
+            if step.abs() <= 1e-9 * now.w {
+                // Its square is below rounding.
+                return now.moved(-step);
+            }
             now = Indentation::new(now.flat, now.w - step);
             if step.abs() <= 1e-6 * now.w {
                 break;
             }
         }
         now
+    }
+
+    /// The contact whose w is larger by very little.
+    fn moved(&self, step: f64) -> Indentation {
+        let (w, c) = (self.w + step, self.half_width.max(TINY));
+        let psi = self.psi + step * (self.flat / c / c);
+        Indentation { w, psi, half_width: self.half_width + step * (self.w / c), ..*self }
     }
 
     /// w of the contact of this load to 3 %.

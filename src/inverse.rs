@@ -10,13 +10,26 @@
 use crate::chebyshev::{Interpolant, POINT, POINTS, Polynomial};
 use crate::family::{Member, Split};
 use crate::indentation::TINY;
-use crate::series::value_and_slope;
+use crate::series::{rows, value_and_slope};
 
 /// Share of x_s that the polynomial from the origin covers.
 pub(crate) const FROM_ORIGIN: f64 = 0.4;
 
 /// Octaves of v.
 const OCTAVES: usize = 5;
+
+/// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: what K' makes of the power n of the secant stiffness.
+static CYCLE_WEIGHTS: Polynomial = {
+    let mut weights = [1.0; POINTS];
+    let mut integral = 1.0;
+    let mut n = 1;
+    while n < POINTS {
+        integral *= (n as f64 + 0.5) / (n as f64 + 2.0);
+        weights[n] = (n as f64 + 1.0) * integral;
+        n += 1;
+    }
+    rows(&weights)
+};
 
 /// The inverse of one curve.
 #[repr(C)]
@@ -78,6 +91,16 @@ impl Inverse {
     pub fn near_origin(&self, y: f64) -> Option<(f64, f64)> {
         let (mean, slope) = value_and_slope(&self.origin, y);
         (self.resolved > 0.0).then_some((mean, mean + slope * y))
+    }
+
+    /// K' over the initial stiffness and its derivative by y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of every power of
+    /// the tangent stiffness.
+    pub fn cycle(&self, y: f64) -> Option<(f64, f64)> {
+        let mut powers = self.origin;
+        for (row, weights) in powers.iter_mut().zip(&CYCLE_WEIGHTS) {
+            row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
+        }
+        (self.resolved > 0.0).then_some(value_and_slope(&powers, y))
     }
 
     /// 1 - τ and its derivative by ρ; none where ρ is too small.

@@ -29,6 +29,7 @@ pub mod memory;
 
 pub mod masing;
 
+mod cycle_rules;
 pub mod harmonic;
 pub mod harmonic_force;
 

@@ -158,6 +158,18 @@ impl Origin {
         self.sum(&DISSIPATION_SLOPE, tau) * tau * tau
     }
 
+    /// Both at once.
+    #[inline(always)]
+    pub fn dissipation_and_slope(&self, tau: f64) -> (f64, f64) {
+        let mut terms = self.curvature;
+        for (row, factors) in terms.iter_mut().zip(&DISSIPATION) {
+            row.iter_mut().zip(factors).for_each(|(term, factor)| *term *= factor);
+        }
+        let (sum, slope) = series::value_and_slope(&terms, tau);
+        let square = tau * tau;
+        (sum * tau * square, (3.0 * sum + slope * tau) * square)
+    }
+
     /// The member at which a load of at most 1/2 is lost.
     pub fn at_load(&self, load: Split, slip_approach: f64) -> Member {
         let lost = self.compliance * load.lost + self.sum(&APPROACH, load.lost) * load.lost * load.lost;

@@ -155,6 +155,24 @@ impl RoundedFlat {
         Indentation::new(self.flat, Indentation::w_roughly(self.flat, load))
     }
 
+    /// Dissipation and its derivative by τ at a stick zone of that rest of the load, λ being known to rounding of Λ + λ. With
+    /// `h = β_b - s (λ + β_c)` the derivative `4 (τ λ - h)` is as short as this.
+    pub(crate) fn cycle(&self, rest: f64, excess: f64) -> (f64, f64) {
+        let w = (self.w * self.w + (-2.0 * excess).exp_m1()).max(0.25 * self.w * self.w * rest).sqrt();
+        let inner = Indentation::near_load(Indentation::new(self.flat, w), rest * self.load);
+        let load = rest * self.load;
+        let (mean, excess) = (inner.mean_load(load), self.excess(&inner));
+        (self.dissipation_of(&inner, rest, load, excess), 4.0 * (excess - self.mean_load + rest * mean))
+    }
+
+    /// Eq. 13-16 for a stick zone.
+    fn dissipation_of(&self, inner: &Indentation, rest: f64, load: f64, excess: f64) -> f64 {
+        // At gross slip s vanishes faster than the logarithm of the cylinder grows.
+        let work = rest * excess.min(1e3);
+        let (mean, square) = (inner.mean_load(load), inner.mean_square(load));
+        4.0 * ((1.0 + rest) * (self.mean_load - rest * mean) - work - (self.mean_square - rest * rest * square))
+    }
+
     fn stick(&self, member: &Member) -> Indentation {
         Indentation::new(self.flat, self.w * self.measure(member))
     }
@@ -182,12 +200,7 @@ impl ContactFamily for RoundedFlat {
 
     fn dissipation_beyond_half(&self, member: &Member) -> f64 {
         let inner = self.stick(member);
-        let load = inner.load();
-        let s = member.load.rest;
-        // At gross slip s vanishes faster than the logarithm of the cylinder grows.
-        let work = s * member.excess.min(1e3);
-        let (mean, square) = (inner.mean_load(load), inner.mean_square(load));
-        4.0 * ((1.0 + s) * (self.mean_load - s * mean) - work - (self.mean_square - s * s * square))
+        self.dissipation_of(&inner, member.load.rest, inner.load(), member.excess)
     }
 
     fn size(&self, member: &Member) -> f64 {
@@ -211,6 +224,12 @@ impl ContactFamily for RoundedFlat {
             load_rate: self.w * 4.0 * w * inner.psi / self.load,
             excess_rate: self.w * w / c2.max(TINY),
         }
+    }
+
+    /// `arsinh(w_b/a)`: c vanishes at w = ± i a. A flat below 1e-5 is felt by no digit; far from it the spacing is even.
+    fn spread(&self) -> f64 {
+        let ratio = (self.w / self.flat.max(1e-5)).max(0.5);
+        (ratio + (ratio * ratio + 1.0).sqrt()).ln()
     }
 
     fn pressure(&self, place: &Place) -> f64 {

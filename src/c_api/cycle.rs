@@ -6,7 +6,7 @@ use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::equivalent;
 use crate::error::Error;
-use crate::harmonic::check_amplitude;
+use crate::harmonic::{ComplexStiffness, check_amplitude};
 use crate::harmonic_force::{self, HarmonicOutput, Workspace};
 use libc::size_t;
 
@@ -111,11 +111,25 @@ pub(super) fn write_complex_stiffness(
     }
     let stiffness = contact.complex_stiffness(amplitude)?;
     let [k_real, k_imag, dk_real, dk_imag] = outputs;
-    set(k_real, i, || stiffness.real());
-    set(k_imag, i, || stiffness.imaginary());
-    set(dk_real, i, || stiffness.real_slope());
-    set(dk_imag, i, || stiffness.imaginary_slope());
+    if k_real.is_some() || dk_real.is_some() {
+        let (real, slope) = real_and_slope(&stiffness);
+        set(k_real, i, || real);
+        set(dk_real, i, || slope);
+    }
+    if k_imag.is_some() || dk_imag.is_some() {
+        let (imaginary, slope) = imaginary_and_slope(&stiffness);
+        set(k_imag, i, || imaginary);
+        set(dk_imag, i, || slope);
+    }
     Ok(())
+}
+
+fn real_and_slope(stiffness: &ComplexStiffness) -> (f64, f64) {
+    on_widest!(ComplexStiffness::real_and_slope, stiffness: &ComplexStiffness => (f64, f64))
+}
+
+fn imaginary_and_slope(stiffness: &ComplexStiffness) -> (f64, f64) {
+    on_widest!(ComplexStiffness::imaginary_and_slope, stiffness: &ComplexStiffness => (f64, f64))
 }
 
 /// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed.
