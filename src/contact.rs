@@ -34,6 +34,8 @@ pub struct Contact {
     law: u64,
     /// Displacement for an approach of 1 \[m\].
     pub(crate) displacement_unit: f64,
+    /// Its inverse; 0 without friction.
+    pub(crate) per_displacement_unit: f64,
     /// Stiffness for a compliance of 1 \[N/m\].
     pub(crate) stiffness_unit: f64,
     /// Pressure for one of 1 \[Pa\].
@@ -51,7 +53,7 @@ pub struct Contact {
     inverse: Inverse,
     /// x and dτ at the nodes of the complex stiffness in gross slip.
     slip_nodes: SlipNodes,
-    spare: [f64; 2],
+    spare: [f64; 1],
     end_mark: u64,
 }
 
@@ -163,6 +165,7 @@ impl Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
             displacement_unit,
+            per_displacement_unit: 1.0 / displacement_unit,
             slip_displacement,
             origin_scale: 1.0 / (from_origin * slip_displacement),
             rest_scale: 1.0 / (rest * slip_displacement),
@@ -244,6 +247,7 @@ const EMPTY: Contact = Contact {
     mark: MARK,
     law: 0,
     displacement_unit: 0.0,
+    per_displacement_unit: 0.0,
     stiffness_unit: 0.0,
     pressure_unit: 0.0,
     friction_coefficient: 0.0,
@@ -254,7 +258,7 @@ const EMPTY: Contact = Contact {
     rounded_flat: RoundedFlat::EMPTY,
     inverse: Inverse::NONE,
     slip_nodes: [[0.0; GAUSS.len()]; 2],
-    spare: [0.0; 2],
+    spare: [0.0; 1],
     end_mark: MARK,
 };
 

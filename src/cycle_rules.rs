@@ -149,7 +149,7 @@ mod tests {
     /// `K'` of `1/(1/ξ - t)`, the derivative of which is known as well: `8/π ∫ sqrt(t (1-t))/(A-t) dt = 4 (2A - 1 - 2 sqrt(A ))`.
     #[test]
     fn a_pole_at_gross_slip_is_integrated() {
-        for (rule, worst) in RULES.iter().zip([1.0, 0.8, 0.97]) {
+        for (rule, worst) in RULES.iter().zip([1.0_f64, 0.8, 0.97]) {
             for part in [worst.min(rule.largest), rule.largest] {
                 // A pole is stronger than what a curve has there.
                 let a = 1.0 / (0.9 * part);

@@ -147,10 +147,9 @@ impl ComplexStiffness<'_> {
         self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_unit
     }
 
-    /// δ0 in units of the approach; 1 where there is no cycle.
+    /// δ0 in units of the approach.
     fn approach(&self) -> f64 {
-        let unit = self.contact.displacement_unit;
-        if self.is_at_rest() { 1.0 } else { self.amplitude.max(1e-30 * unit) / unit.max(f64::MIN_POSITIVE) }
+        self.amplitude * self.contact.per_displacement_unit
     }
 
     fn amplitude_not_zero(&self) -> f64 {

@@ -284,7 +284,8 @@ impl Sums<'_> {
     /// Cosine and sine sum of an order; the order 0 has no sine.
     #[inline(always)]
     fn of_order(&self, order: usize) -> (f64, f64) {
-        let sums = if order.is_multiple_of(2) { &self.0[0] } else { &self.0[1] }.as_flattened();
+        let [even, odd] = &self.0;
+        let sums = if order.is_multiple_of(2) { even } else { odd }.as_flattened();
         let at = |place: usize| sums.get(place).copied().unwrap_or(0.0);
         if order == 0 { (at(0), 0.0) } else { (at(order - 1), at(order)) }
     }

@@ -161,10 +161,6 @@ impl Indentation {
             let newton = (now.load() - load) / slope;
             let bend = now.bend() / slope;
             let step = newton / (1.0 - 0.5 * newton * bend).max(0.5);
-            if step.abs() <= 1e-9 * now.w {
-                // Its square is below rounding.
-                return now.moved(-step);
-            }
             now = Indentation::new(now.flat, now.w - step);
             if step.abs() <= 1e-6 * now.w {
                 break;
@@ -173,11 +169,16 @@ impl Indentation {
         now
     }
 
-    /// The contact whose w is larger by very little.
-    fn moved(&self, step: f64) -> Indentation {
-        let (w, c) = (self.w + step, self.half_width.max(TINY));
-        let psi = self.psi + step * (self.flat / c / c);
-        Indentation { w, psi, half_width: self.half_width + step * (self.w / c), ..*self }
+    /// The contact of this load, from one that is nearly always within 1e-9 of it.
+    pub fn close_to_load(start: Indentation, load: f64) -> Indentation {
+        let Indentation { w, psi, half_width, flat } = start;
+        let step = (load - start.load()) / (4.0 * w * psi).max(TINY);
+        if step.abs() > 1e-9 * w {
+            return Indentation::near_load(start, load);
+        }
+        // The square of such a step is below rounding.
+        let c = half_width.max(TINY);
+        Indentation { w: w + step, psi: psi + step * (flat / c / c), half_width: half_width + step * (w / c), flat }
     }
 
     /// w of the contact of this load to 3 %.

@@ -159,8 +159,8 @@ impl RoundedFlat {
     /// `h = β_b - s (λ + β_c)` the derivative `4 (τ λ - h)` is as short as this.
     pub(crate) fn cycle(&self, rest: f64, excess: f64) -> (f64, f64) {
         let w = (self.w * self.w + (-2.0 * excess).exp_m1()).max(0.25 * self.w * self.w * rest).sqrt();
-        let inner = Indentation::near_load(Indentation::new(self.flat, w), rest * self.load);
         let load = rest * self.load;
+        let inner = Indentation::close_to_load(Indentation::new(self.flat, w), load);
         let (mean, excess) = (inner.mean_load(load), self.excess(&inner));
         (self.dissipation_of(&inner, rest, load, excess), 4.0 * (excess - self.mean_load + rest * mean))
     }
