@@ -181,6 +181,19 @@ impl Contact {
         &self.slip_nodes
     }
 
+    /// Whether the curve, followed back beyond its origin, comes to the point where its compliance vanishes within 3/4 of the
+    /// displacement of gross slip: to first order at `-Λ²/(2 h'')`.
+    #[inline(always)]
+    pub(crate) fn bends_sharply(&self) -> bool {
+        let origin = self.family().origin();
+        origin.compliance * origin.compliance < 1.5 * origin.first_curvature() * self.family().slip_approach()
+    }
+
+    /// 1 over the displacement of gross slip; 0 without friction.
+    pub(crate) fn per_slip_displacement(&self) -> f64 {
+        if self.is_elliptic() { self.rest_scale } else { FROM_ORIGIN * self.origin_scale }
+    }
+
     /// K' over the initial stiffness and its derivative by y, where the inverse is one polynomial.
     #[inline(always)]
     pub(crate) fn polynomial_cycle(&self, y: f64) -> Option<(f64, f64)> {
