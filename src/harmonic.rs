@@ -122,27 +122,38 @@ impl Contact {
 }
 
 impl HysteresisLoop<'_> {
-    /// Displacement \[m\] and force \[N\] at instant `i` of `n` equidistant ones in a period of `amplitude cos t`, from t = 0.
+    /// Displacement \[m\] at instant `i` of `n` equidistant ones in a period of `amplitude cos t`, from t = 0.
     #[must_use]
-    pub fn point(&self, i: usize, n: usize) -> (f64, f64) {
-        let n = n.max(1);
-        self.at((i % n) as f64 / n as f64)
+    pub fn displacement(&self, i: usize, n: usize) -> f64 {
+        let (back, turn) = half_turn(i, n);
+        back * self.amplitude * (2.0 * PI * turn).cos()
     }
 
-    /// The point at t = 2π `turn`, 0 <= `turn` < 1.
-    fn at(&self, turn: f64) -> (f64, f64) {
+    /// Force \[N\] at that instant.
+    #[must_use]
+    pub fn force(&self, i: usize, n: usize) -> f64 {
+        self.force_after(half_turn(i, n))
+    }
+
+    /// Force on the branch of that sign, after so many turns.
+    fn force_after(&self, (back, turn): (f64, f64)) -> f64 {
         let contact = self.contact;
-        // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
-        let (back, turn) = if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) };
-        let (sine, cosine) = ((PI * turn).sin(), (2.0 * PI * turn).cos());
-        let displacement = back * self.amplitude * cosine;
         if contact.is_frictionless() {
-            return (displacement, 0.0);
+            return 0.0;
         }
+        // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
+        let sine = (PI * turn).sin();
         // In gross slip the branch reaches -mu N before its end.
         let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
-        (displacement, back * force.max(-contact.slip_force))
+        back * force.max(-contact.slip_force)
     }
+}
+
+/// Instant `i` of `n` in turns since the last reversal, and the sign of the branch that began there: +1 for the first.
+fn half_turn(i: usize, n: usize) -> (f64, f64) {
+    let n = n.max(1);
+    let turn = (i % n) as f64 / n as f64;
+    if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) }
 }
 
 /// A sum in four sums.
@@ -483,7 +494,7 @@ mod tests {
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
                     for node in TANH_SINH.iter() {
                         let turn: f64 = from + (to - from) * node.from_0;
-                        let (_, force) = contact.hysteresis_loop(amplitude).unwrap().at(0.5 * turn);
+                        let force = contact.hysteresis_loop(amplitude).unwrap().force_after((1.0, 0.5 * turn));
                         let share = 2.0 / amplitude * (to - from) * node.weight * force;
                         real += share * (PI * turn).cos();
                         imaginary -= share * (PI * turn).sin();

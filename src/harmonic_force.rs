@@ -505,7 +505,9 @@ struct Branch {
 
 impl Branch {
     const VIRGIN: Branch = Branch {
-        from: Reversal { displacement: 0.0, force: 0.0 },
+        // No force; with this sign a vector of both is no extension by zero, for which compilers have an instruction that
+        // valgrind does not know.
+        from: Reversal { displacement: 0.0, force: -0.0 },
         direction: 1.0,
         end: 0.0,
         slides: false,
@@ -528,7 +530,7 @@ impl Branch {
     }
 }
 
-/// Finds force and stiffness at displacements on a branch.
+/// Finds force and stiffness at displacements on a branch that does not slide.
 #[derive(Debug, Clone, Copy)]
 struct BranchResponder<'c> {
     branch: Branch,
@@ -542,9 +544,6 @@ impl BranchResponder<'_> {
     #[inline(always)]
     fn at(&self, displacement: f64) -> Response {
         let BranchResponder { branch, towards, limit, curve } = self;
-        if branch.slides {
-            return Response { force: branch.direction * limit, stiffness: 0.0 };
-        }
         let Response { force, stiffness } = curve.at(branch.way(curve.slip_displacement, displacement));
         let force = branch.from.force + towards * force;
         let force = if force > *limit { *limit } else { force };
@@ -571,8 +570,7 @@ impl Walk<'_> {
         let after = |sample: usize| if sample + 1 >= samples { 0 } else { sample + 1 };
         let mut left = if self.wanted.mirrored { workspace.half } else { samples };
         let mut before = workspace.farthest(left);
-        let first = self.begin(workspace.displacement.get(before).copied().unwrap_or(0.0));
-        workspace.set_response(before, first);
+        self.begin(workspace, before);
         workspace.force_sums.clear();
         workspace.stiffness_sums.clear();
         while left > 0 {
@@ -606,14 +604,20 @@ impl Walk<'_> {
 
     /// The virgin curve at the farthest sample.
     #[inline(always)]
-    fn begin(&mut self, displacement: f64) -> Response {
+    fn begin(&mut self, workspace: &mut Workspace, sample: usize) {
         let slip = self.contact.slip_displacement;
+        let displacement = workspace.displacement.get(sample).copied().unwrap_or(0.0);
         let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
         self.branch = Branch { direction, slides: displacement.abs() > slip, ..Branch::VIRGIN };
+        let parts = (workspace.force.get_mut(sample), workspace.stiffness.get_mut(sample));
+        let (Some(force), Some(stiffness)) = parts else { return };
         if self.branch.slides {
             self.virgin = Virgin { origin: displacement - direction * slip, slid: direction };
+            *force = direction * self.contact.slip_force;
+            *stiffness = 0.0;
+        } else {
+            Response { force: *force, stiffness: *stiffness } = self.branch.responder(self.contact).at(displacement);
         }
-        self.branch.responder(self.contact).at(displacement)
     }
 
     /// A step that may turn, close loops or slip: on which branch it ends.
@@ -636,27 +640,22 @@ impl Walk<'_> {
         }
         self.depth = course.depth;
         self.virgin = self.virgin.after(self.contact, &course, target);
-        let reversal = |depth: usize| {
-            let pair = workspace.reversals.chunks_exact(2).nth(depth.wrapping_sub(1));
-            if let Some(&[displacement, force]) = pair { Some(Reversal { displacement, force }) } else { None }
-        };
-        let origin = self.virgin.origin;
-        let start = reversal(course.depth);
-        let from = start.unwrap_or(Reversal { displacement: origin, force: 0.0 });
-        let end = match start {
-            Some(newest) => match reversal(course.depth.wrapping_sub(1)) {
-                Some(older) => older.displacement,
-                None => 2.0 * origin - newest.displacement,
+        let reversal = |depth: usize| workspace.reversals.as_chunks::<2>().0.get(depth.wrapping_sub(1));
+        let (origin, direction, slides) = (self.virgin.origin, course.direction, course.slides);
+        self.branch = match reversal(course.depth) {
+            Some(&[displacement, force]) => {
+                let older = reversal(course.depth.wrapping_sub(1));
+                let end = older.map_or(2.0 * origin - displacement, |[older, _]| *older);
+                let from = Reversal { displacement, force };
+                Branch { from, direction, end, slides, halves: 2.0, reversed: true }
+            }
+            None => Branch {
+                from: Reversal { displacement: origin, ..Branch::VIRGIN.from },
+                direction,
+                end: origin + direction * slip,
+                slides,
+                ..Branch::VIRGIN
             },
-            None => origin + course.direction * slip,
-        };
-        self.branch = Branch {
-            from,
-            direction: course.direction,
-            end,
-            slides: course.slides,
-            halves: if start.is_some() { 2.0 } else { 1.0 },
-            reversed: start.is_some(),
         };
     }
 
@@ -729,15 +728,15 @@ impl Walk<'_> {
                 workspace.stiffness.get_mut(range),
             );
             let (Some(displacement), Some(force), Some(stiffness)) = parts else { break };
-            if wanted.stiffness {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
-                {
+            if branch.slides {
+                force.fill(branch.direction * contact.slip_force);
+                stiffness.fill(0.0);
+            } else if wanted.stiffness {
+                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement) {
                     Response { force: *force, stiffness: *stiffness } = responder.at(displacement);
                 }
-                if !branch.slides {
-                    workspace.branch_sums.add(&workspace.tables, 0, &rows, stiffness);
-                    workspace.branch_sums.add(&workspace.tables, 1, &rows, stiffness);
-                }
+                workspace.branch_sums.add(&workspace.tables, 0, &rows, stiffness);
+                workspace.branch_sums.add(&workspace.tables, 1, &rows, stiffness);
             } else {
                 for (force, &displacement) in force.iter_mut().zip(displacement) {
                     *force = responder.at(displacement).force;
@@ -810,13 +809,6 @@ impl Workspace<'_> {
             largest = larger(largest, other.abs());
         }
         samples.iter().position(|value| value.abs() == largest).unwrap_or(0)
-    }
-
-    #[inline(always)]
-    fn set_response(&mut self, sample: usize, response: Response) {
-        if let (Some(force), Some(stiffness)) = (self.force.get_mut(sample), self.stiffness.get_mut(sample)) {
-            (*force, *stiffness) = (response.force, response.stiffness);
-        }
     }
 
     /// φ of a sample into a row over the coefficients.

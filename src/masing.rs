@@ -9,7 +9,7 @@
 use crate::contact::Contact;
 use crate::curve::{Response, check_displacement};
 use crate::error::Error;
-use crate::memory::{Course, PER_REVERSAL, Reversal, State, Stretch, Virgin, course, follow, state_length};
+use crate::memory::{Course, PER_REVERSAL, Reversal, State, Stretch, Track, Virgin, course, follow, state_length};
 
 /// Force and stiffness at the end of a course.
 #[inline(always)]
@@ -58,7 +58,15 @@ impl<'a> Dissipation<'a> {
     fn close(&mut self) {
         let contact = self.contact;
         let Stretch { halves, from, to, slipped } = self.open;
-        let energy = |way: f64| contact.energy_of(&contact.stick_at_displacement(way));
+        let energy = |way: f64| {
+            if way <= 0.0 {
+                0.0
+            } else if way >= contact.slip_displacement {
+                contact.slip_energy
+            } else {
+                contact.cycle_energy(way).0
+            }
+        };
         if to > from {
             self.sum += 0.25 * halves * (energy(to) - energy(from)).max(0.0);
         }
@@ -137,14 +145,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// `BadState`, `StateTooShort`: those of [`step`].
     pub fn dissipated(&self, state: &[f64]) -> Result<f64, Error> {
-        let state = State::read(state)?;
-        let contact = self.contact;
-        if contact.is_frictionless() || self.end.displacement == self.start.displacement {
-            return Ok(0.0);
-        }
-        let mut dissipation = Dissipation::new(contact);
-        follow(&state, contact.slip_displacement, self.end.displacement, |stretch| dissipation.add(&stretch));
-        Ok(dissipation.total())
+        Ok(dissipation(self.contact, &State::read(state)?, self.end.displacement))
     }
 
     /// Writes the step into the state it was found from, or into a copy of it.
@@ -225,16 +226,68 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
         return Ok(());
     }
     let mut scratch = Scratch::of(state)?;
-    let dry = scratch.state();
+    let mut dry = Track::start(scratch.state())?;
     for &displacement in path {
-        let read = State::read(dry)?;
-        let course = admitted_course(contact, &read, displacement)?;
+        let course = admitted_course(contact, &dry.state(), displacement)?;
         // The memory needs displacements only.
-        let virgin = read.virgin.after(contact, &course, displacement);
-        let (start, end) = (read.now, Reversal { displacement, force: 0.0 });
-        Step { contact, course, virgin, start, end, stiffness: 0.0 }.write(dry);
+        let virgin = dry.state().virgin.after(contact, &course, displacement);
+        dry.go(&course, virgin, Reversal { displacement, force: 0.0 });
     }
     Ok(())
+}
+
+/// Where the numbers of each step of a path go; `None` is not computed.
+#[derive(Debug)]
+pub struct PathOutput<'a> {
+    /// Force \[N\] after each step.
+    pub force: Option<&'a mut [f64]>,
+    /// Tangent stiffness \[N/m\].
+    pub stiffness: Option<&'a mut [f64]>,
+    /// Energy \[J\] dissipated by each step.
+    pub dissipated: Option<&'a mut [f64]>,
+}
+
+/// Leads a state through a path that it has room for. Where nothing of each step is wanted, forces are found where the path
+/// turns, which is where they are remembered, and at its end.
+///
+/// # Errors
+/// Those of [`step`].
+#[inline(always)]
+pub fn lead(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    let PathOutput { mut force, mut stiffness, mut dissipated } = output;
+    let (silent, mut track) = (force.is_none() && stiffness.is_none(), Track::start(state)?);
+    for (i, &displacement) in path.iter().enumerate() {
+        let state = track.state();
+        let course = admitted_course(contact, &state, displacement)?;
+        let (virgin, last) = (state.virgin.after(contact, &course, displacement), state.now.displacement);
+        if let Some(place) = dissipated.as_mut().and_then(|dissipated| dissipated.get_mut(i)) {
+            *place = dissipation(contact, &state, displacement);
+        }
+        // Neither turning here nor before: the next step goes on where this one goes.
+        let goes_on = path.get(i + 1).is_some_and(|next| (next - displacement) * (displacement - last) > 0.0);
+        let mut response = Response { force: 0.0, stiffness: 0.0 };
+        if !(silent && goes_on) {
+            response = response_at(contact, state.virgin.origin, &course, displacement);
+        }
+        for (output, value) in [(&mut force, response.force), (&mut stiffness, response.stiffness)] {
+            if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
+                *place = value;
+            }
+        }
+        track.go(&course, virgin, Reversal { displacement, force: response.force });
+    }
+    track.finish();
+    Ok(())
+}
+
+/// Energy \[J\] dissipated on the way to a displacement.
+fn dissipation(contact: &Contact, state: &State, displacement: f64) -> f64 {
+    if contact.is_frictionless() || displacement == state.now.displacement {
+        return 0.0;
+    }
+    let mut dissipation = Dissipation::new(contact);
+    follow(state, contact.slip_displacement, displacement, |stretch| dissipation.add(&stretch));
+    dissipation.total()
 }
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the first loading, and twice that of half of each

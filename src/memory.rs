@@ -142,6 +142,55 @@ impl<'a> State<'a> {
     }
 }
 
+/// A state that is led along a path: read once, and written at the end.
+#[derive(Debug)]
+pub(crate) struct Track<'s> {
+    virgin: Virgin,
+    now: Reversal,
+    depth: usize,
+    header: &'s mut [f64],
+    reversals: &'s mut [f64],
+}
+
+impl<'s> Track<'s> {
+    /// # Errors
+    /// Those of [`State::read`].
+    pub fn start(state: &'s mut [f64]) -> Result<Track<'s>, Error> {
+        let read = State::read(state)?;
+        let (virgin, now, depth) = (read.virgin, read.now, read.depth());
+        let (header, reversals) = state.split_at_mut_checked(HEADER).ok_or(Error::StateTooShort)?;
+        Ok(Track { virgin, now, depth, header, reversals })
+    }
+
+    #[inline(always)]
+    pub fn state(&self) -> State<'_> {
+        State {
+            virgin: self.virgin,
+            now: self.now,
+            reversals: self.reversals.get(..PER_REVERSAL * self.depth).unwrap_or(&[]),
+            capacity: self.reversals.len() / PER_REVERSAL,
+        }
+    }
+
+    /// Goes where a course leads.
+    #[inline(always)]
+    pub fn go(&mut self, course: &Course, virgin: Virgin, end: Reversal) {
+        if course.turned
+            && let Some(newest) = self.reversals.as_chunks_mut().0.get_mut(course.depth.wrapping_sub(1))
+        {
+            *newest = [self.now.displacement, self.now.force];
+        }
+        (self.virgin, self.now, self.depth) = (virgin, end, course.depth);
+    }
+
+    /// Writes where it came to.
+    pub fn finish(self) {
+        let Reversal { displacement, force } = self.now;
+        let values = [self.depth as f64, self.virgin.origin, self.virgin.slid, displacement, force];
+        self.header.iter_mut().skip(1).zip(values).for_each(|(place, value)| *place = value);
+    }
+}
+
 /// Where a step leads, by displacements alone: no force is computed to find it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {

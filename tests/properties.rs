@@ -227,7 +227,7 @@ proptest! {
         let n = 64;
         for turn in 0..2 * n {
             let cycle = contact.hysteresis_loop(amplitude * contact.slip_displacement).unwrap();
-            let (displacement, force) = cycle.point(turn, n);
+            let (displacement, force) = (cycle.displacement(turn, n), cycle.force(turn, n));
             let (walked, ..) = walker.step(displacement / contact.slip_displacement);
             if turn > n {
                 prop_assert!((walked - force).abs() <= 1e-12 * contact.slip_force, "{turn}: {walked} {force}");

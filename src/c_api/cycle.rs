@@ -34,9 +34,8 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
             return Ok(());
         }
         for i in 0..n {
-            let (u, t) = cycle.point(i, n);
-            set(&mut displacement, i, || u);
-            set(&mut force, i, || t);
+            set(&mut displacement, i, || cycle.displacement(i, n));
+            set(&mut force, i, || cycle.force(i, n));
         }
         Ok(())
     };
@@ -107,6 +106,10 @@ pub(super) fn write_complex_stiffness(
     outputs: &mut [Option<&mut [f64]>; 4],
 ) -> Result<(), Error> {
     if outputs.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    if contact.is_frictionless() {
+        outputs.iter_mut().for_each(|output| set(output, i, || 0.0));
         return Ok(());
     }
     let stiffness = contact.complex_stiffness(amplitude)?;

@@ -6,7 +6,8 @@ use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
-use crate::{masing, memory};
+use crate::masing::{self, PathOutput};
+use crate::memory;
 use core::ptr;
 use libc::size_t;
 
@@ -136,6 +137,9 @@ pub unsafe extern "C" fn mslip_slip(
         check_positions(x)?;
         point.slip(0.0)?;
         let (mut slip, mut damage) = unsafe { (output(slip, n), output(damage, n)) };
+        if slip.is_none() && damage.is_none() {
+            return Ok(());
+        }
         for (i, &x) in x.iter().enumerate() {
             let here = point.slip(x)?;
             set(&mut slip, i, || here);
@@ -168,6 +172,9 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
         force.iter().try_for_each(|&force| contact.check_force(force))?;
         let (mut displacement, mut compliance) = unsafe { (output(displacement, n), output(compliance, n)) };
         let mut stick_half_width = unsafe { output(stick_half_width, n) };
+        if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
+            return Ok(());
+        }
         for (i, &force) in force.iter().enumerate() {
             let point = contact.curve_at_force(force)?;
             set(&mut displacement, i, || point.displacement());
@@ -285,6 +292,9 @@ pub(super) unsafe fn update_one(
 ) -> Result<(), Error> {
     let (step, energy) = {
         let state = unsafe { input(state0, state_length) }?;
+        if state1.is_null() && outputs.iter().all(|output| output.is_null()) {
+            return masing::check_step(contact, state, displacement);
+        }
         let step = masing::step(contact, state, displacement)?;
         let wanted = outputs.get(2).is_some_and(|dissipated| !dissipated.is_null());
         (step, if wanted { step.dissipated(state)? } else { 0.0 })
@@ -340,21 +350,21 @@ pub unsafe extern "C" fn mslip_masing_path(
             }
             unsafe { output(state1, state_length) }.ok_or(Error::StateTooShort)?
         };
-        let [mut force, mut stiffness, mut dissipated] =
+        let [force, stiffness, dissipated] =
             [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
-        for (i, &displacement) in path.iter().enumerate() {
-            let step = masing::step(contact, state, displacement)?;
-            if dissipated.is_some() {
-                let energy = step.dissipated(state)?;
-                set(&mut dissipated, i, || energy);
-            }
-            step.write(state);
-            set(&mut force, i, || step.force());
-            set(&mut stiffness, i, || step.stiffness());
-        }
-        Ok(())
+        lead(contact, state, path, PathOutput { force, stiffness, dissipated })
     };
     status(walk())
+}
+
+fn lead(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    on_widest!(
+        masing::lead,
+        contact: &Contact,
+        state: &mut [f64],
+        path: &[f64],
+        output: PathOutput => Result<(), Error>
+    )
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).
