@@ -732,7 +732,8 @@ impl Walk<'_> {
                 force.fill(branch.direction * contact.slip_force);
                 stiffness.fill(0.0);
             } else if wanted.stiffness {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement) {
+                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
+                {
                     Response { force: *force, stiffness: *stiffness } = responder.at(displacement);
                 }
                 workspace.branch_sums.add(&workspace.tables, 0, &rows, stiffness);

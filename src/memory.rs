@@ -8,8 +8,11 @@
 //! caller:
 //!
 //! ```text
-//! [mark, number of reversals, origin, slid, displacement, force,   displacement and force of each reversal, oldest first]
+//! [mark, number of reversals, displacement, slid, force, origin,   displacement and force of each reversal, oldest first]
 //! ```
+//!
+//! What is written by itself does not stand beside what it would be read with as one vector: a processor waits long for such
+//! a pair.
 
 use crate::contact::Contact;
 use crate::error::Error;
@@ -96,7 +99,7 @@ impl<'a> State<'a> {
     /// `StateTooShort` for an array that is no state, `BadState` for one that was not initialised or was changed.
     #[inline(always)]
     pub fn read(state: &'a [f64]) -> Result<State<'a>, Error> {
-        let &[mark, count, origin, slid, displacement, force, ref reversals @ ..] = state else {
+        let &[mark, count, displacement, slid, force, origin, ref reversals @ ..] = state else {
             return Err(Error::StateTooShort);
         };
         let numbers =
@@ -186,7 +189,7 @@ impl<'s> Track<'s> {
     /// Writes where it came to.
     pub fn finish(self) {
         let Reversal { displacement, force } = self.now;
-        let values = [self.depth as f64, self.virgin.origin, self.virgin.slid, displacement, force];
+        let values = [self.depth as f64, displacement, self.virgin.slid, force, self.virgin.origin];
         self.header.iter_mut().skip(1).zip(values).for_each(|(place, value)| *place = value);
     }
 }

@@ -5,9 +5,9 @@ use super::pointer::{self, check_length, input, output, set, status};
 use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::parameters::{EllipticParameters, Parameters};
 use crate::masing::{self, PathOutput};
 use crate::memory;
+use crate::parameters::{EllipticParameters, Parameters};
 use core::ptr;
 use libc::size_t;
 
