@@ -147,6 +147,20 @@ static void test_contact_init(void)
     CHECK(mslip_contact_init(&p, &contact) == MSLIP_OK);
     CHECK(contact.slip_force == 0.0 && contact.slip_displacement == 0.0 && contact.slip_energy == 0.0);
 
+    /* Like another: the same bytes, whatever the other is; or nothing at all. */
+    mslip_contact first, like;
+    p = flat_parameters();
+    CHECK(mslip_contact_init(&p, &first) == MSLIP_OK);
+    p.friction_coefficient *= 0.5;
+    CHECK(mslip_contact_init(&p, &contact) == MSLIP_OK);
+    CHECK(mslip_contact_init_like(&p, &first, &like) == MSLIP_OK && memcmp(&like, &contact, sizeof like) == 0);
+    CHECK(mslip_contact_init_like(&p, &first, &first) == MSLIP_OK && memcmp(&first, &contact, sizeof first) == 0);
+    CHECK(mslip_contact_init_like(NULL, &first, &like) == MSLIP_NULL_POINTER);
+    CHECK(mslip_contact_init_like(&p, NULL, &like) == MSLIP_NULL_POINTER);
+    CHECK(mslip_contact_init_like(&p, &first, NULL) == MSLIP_NULL_POINTER);
+    first.reserved[0] = 0.0;
+    CHECK(mslip_contact_init_like(&p, &first, &like) == MSLIP_BAD_CONTACT && memcmp(&like, &contact, sizeof like) == 0);
+
     /* Incompressible bodies, and one stiff on one soft. */
     p = flat_parameters();
     p.material[0].poisson_ratio = 0.5;

@@ -26,7 +26,7 @@ module microslip
 
   public :: mslip_version, mslip_abi_version, mslip_status_text
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
-  public :: mslip_contact_init, mslip_contact_init_elliptic
+  public :: mslip_contact_init, mslip_contact_init_like, mslip_contact_init_elliptic
   public :: mslip_tractions, mslip_slip
   public :: mslip_monotonic_displacement, mslip_monotonic_force
   public :: mslip_state_length, mslip_state_init
@@ -238,6 +238,14 @@ module microslip
       type(mslip_contact), intent(inout) :: contact
       integer(mslip_int) :: status
     end function c_contact_init
+
+    function c_contact_init_like(parameters, like, contact) bind(c, name='mslip_contact_init_like') result(status)
+      import :: mslip_contact, mslip_int, mslip_parameters
+      type(mslip_parameters), intent(in) :: parameters
+      type(mslip_contact), intent(in) :: like
+      type(mslip_contact), intent(inout) :: contact
+      integer(mslip_int) :: status
+    end function c_contact_init_like
 
     function c_contact_init_elliptic(parameters, contact) bind(c, name='mslip_contact_init_elliptic') result(status)
       import :: mslip_contact, mslip_elliptic_parameters, mslip_int
@@ -471,6 +479,17 @@ contains
 
     status = c_contact_init(parameters, contact)
   end subroutine mslip_contact_init
+
+  subroutine mslip_contact_init_like(parameters, like, contact, status)
+    !! Prepare a contact as `mslip_contact_init` does, with the same numbers in it, but faster where `like` has the same
+    !! shape: it differs in the friction coefficient only, or in scale by powers of 2.
+    type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
+    type(mslip_contact), intent(in) :: like  !! A prepared contact.
+    type(mslip_contact), intent(inout) :: contact  !! The prepared contact.
+    integer(mslip_int), intent(out) :: status  !! As from `mslip_contact_init`, or `MSLIP_BAD_CONTACT`.
+
+    status = c_contact_init_like(parameters, like, contact)
+  end subroutine mslip_contact_init_like
 
   subroutine mslip_contact_init_elliptic(parameters, contact, status)
     !! Prepare an elliptical Hertzian contact (section 3.3), a sphere where both axes are equal.

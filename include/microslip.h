@@ -208,6 +208,16 @@ void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 int32_t mslip_contact_init(const struct mslip_parameters *p,
                            struct mslip_contact *contact);
 
+// Prepares a contact as mslip_contact_init does, with the same numbers in it, but faster where `like` has the same shape: it
+// differs in the friction coefficient only, or in scale by powers of 2. Otherwise it takes as long. contact may be like.
+//
+// Returns what mslip_contact_init returns, or MSLIP_BAD_CONTACT; then the contact is unchanged.
+//
+// Memory: All pointers are NULL or point to what their types say.
+int32_t mslip_contact_init_like(const struct mslip_parameters *p,
+                                const struct mslip_contact *like,
+                                struct mslip_contact *contact);
+
 // Prepares an elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
 //
 // Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; then the contact

@@ -88,6 +88,20 @@ impl Contact {
     /// The error of the first parameter that is not allowed; `LengthTooShort` where 2L <= b or the initial stiffness would
     /// not be positive; `OutOfRange` where results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
+        Contact::rounded_flat_with_tables(parameters, None)
+    }
+
+    /// Prepares a contact as [`Contact::rounded_flat`] does, with the same numbers, but takes the tables of another of the same
+    /// shape, where a/b and Λ are the same to the last digit: another friction coefficient, or all lengths and forces scaled by
+    /// powers of 2.
+    ///
+    /// # Errors
+    /// Those of [`Contact::rounded_flat`].
+    pub fn rounded_flat_like(parameters: &Parameters, like: &Contact) -> Result<Contact, Error> {
+        Contact::rounded_flat_with_tables(parameters, Some(like))
+    }
+
+    fn rounded_flat_with_tables(parameters: &Parameters, like: Option<&Contact>) -> Result<Contact, Error> {
         parameters.check()?;
         let Parameters { flat_half_width, length, normal_force, friction_coefficient, .. } = *parameters;
         check_moduli(&parameters.material)?;
@@ -100,15 +114,18 @@ impl Contact {
         let (half_width, shape) = size_of_contact(parameters, pair.composite_modulus)?;
         in_range(&[normal_force], &[length, half_width])?;
         let compliance = full_stick_compliance(parameters, &pair, half_width)?;
+        let like = like.filter(|like| {
+            like.law == LAW_ROUNDED_FLAT && !like.is_frictionless() && like.rounded_flat.is_of(&shape, compliance)
+        });
         let geometry = Contact {
             half_width,
             flat_half_width,
             pressure_unit: normal_force / length / half_width,
             stiffness_unit: 0.5 * PI * pair.composite_modulus * length,
-            rounded_flat: RoundedFlat::new(&shape, compliance),
+            rounded_flat: like.map_or_else(|| RoundedFlat::new(&shape, compliance), |like| like.rounded_flat),
             ..open
         };
-        geometry.with_friction(normal_force)
+        geometry.with_friction(normal_force, like)
     }
 
     /// Prepares an elliptical Hertz contact; a sphere when both semi-axes are equal.
@@ -138,11 +155,11 @@ impl Contact {
             stiffness_unit: 1.0 / compliance,
             ..open
         };
-        geometry.with_friction(normal_force)
+        geometry.with_friction(normal_force, None)
     }
 
-    /// The tangential side, once geometry and stiffness are known.
-    fn with_friction(self, normal_force: f64) -> Result<Contact, Error> {
+    /// The tangential side, once geometry and stiffness are known; with the tables of a contact of the same shape.
+    fn with_friction(self, normal_force: f64, like: Option<&Contact>) -> Result<Contact, Error> {
         if self.friction_coefficient == 0.0 {
             return Ok(self);
         }
@@ -169,10 +186,14 @@ impl Contact {
             slip_displacement,
             origin_scale: 1.0 / (from_origin * slip_displacement),
             rest_scale: 1.0 / (rest * slip_displacement),
-            inverse: if self.is_elliptic() { Inverse::NONE } else { self.rounded_flat.inverse() },
+            inverse: match like {
+                Some(like) => like.inverse,
+                None if self.is_elliptic() => Inverse::NONE,
+                None => self.rounded_flat.inverse(),
+            },
             initial_stiffness: self.stiffness_unit / family.origin().compliance,
             slip_energy,
-            slip_nodes: slip_nodes(family),
+            slip_nodes: like.map_or_else(|| slip_nodes(family), |like| like.slip_nodes),
             ..self
         })
     }
@@ -506,6 +527,24 @@ pub(crate) mod tests {
                 assert_eq!((complex.real_slope(), complex.imaginary_slope()), (0.0, 0.0));
             }
         }
+    }
+
+    #[test]
+    fn a_contact_like_another_is_the_one_prepared_by_itself() {
+        let bytes = |contact: Contact| std::format!("{contact:?}");
+        for flat in FLATS {
+            let like = contact(flat);
+            let other = Parameters { friction_coefficient: 0.7, ..parameters(flat) };
+            let heavier = Parameters { normal_force: 160.0, ..parameters(flat) };
+            for p in [other, heavier, parameters(flat)] {
+                let alone = Contact::rounded_flat(&p).unwrap();
+                for like in [like, contact(0.5 * flat), ellipse(1e-4, 2e-4), EMPTY] {
+                    assert_eq!(bytes(Contact::rounded_flat_like(&p, &like).unwrap()), bytes(alone));
+                }
+            }
+        }
+        let refused = Parameters { normal_force: -1.0, ..parameters(0.0) };
+        assert_eq!(Contact::rounded_flat_like(&refused, &contact(0.0)).map(|_| ()), Err(Error::BadNormalForce));
     }
 
     #[test]

@@ -63,6 +63,11 @@ impl RoundedFlat {
         }
     }
 
+    /// Whether it is the family of that contact and that compliance, to the last digit.
+    pub(crate) fn is_of(&self, contact: &Indentation, compliance: f64) -> bool {
+        [self.flat, self.w, self.psi, self.origin.compliance] == [contact.flat, contact.w, contact.psi, compliance]
+    }
+
     /// The inverse of its curve as polynomials. The points follow each other: near one lies the next.
     pub(crate) fn inverse(&self) -> Inverse {
         let mut last: Option<(f64, f64, f64)> = None;
