@@ -115,3 +115,62 @@ impl Inverse {
         (self.resolved > 0.0).then_some((rest, 2.0 * scale * slope / v))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::contact::tests::{FLATS, contact};
+
+    /// The ends of the pieces: where the polynomial in the approach ends, and every octave of v.
+    fn borders() -> impl Iterator<Item = f64> {
+        (0..=super::OCTAVES as i32).map(|octave| 1.0 - (1.0 - super::FROM_ORIGIN) * 0.25f64.powi(octave))
+    }
+
+    #[test]
+    fn force_and_stiffness_are_those_of_the_stick_zone() {
+        for contact in FLATS.map(contact) {
+            let shares = (1..400).map(|k| f64::from(k) / 400.0).chain([1e-12, 1e-3, 0.9999]).chain(borders());
+            for share in shares.filter(|share| *share < 1.0) {
+                let displacement = share * contact.slip_displacement;
+                let (found, stick) = (contact.response(displacement), contact.stick_at_displacement(displacement));
+                // Three polynomials' roundings of a unit each; near gross slip the stiffness has those of what is left.
+                assert!((found.force / contact.force_of(&stick) - 1.0).abs() < 1.5e-15, "{share}");
+                let bound = 2e-15 / (1.0 - share).min(1.0);
+                assert!((found.stiffness / contact.stiffness_of(&stick) - 1.0).abs() < bound, "{share}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_meet_and_the_curve_ends() {
+        for contact in FLATS.map(contact) {
+            for border in borders() {
+                let below = (border * contact.slip_displacement).next_down().next_down();
+                let steps = std::iter::successors(Some(below), |x| Some(x.next_up())).take(5);
+                let forces: std::vec::Vec<f64> = steps.map(|x| contact.response(x).force).collect();
+                for pair in forces.windows(2) {
+                    assert!((pair[1] / pair[0] - 1.0).abs() < 1.5e-15, "{border}");
+                }
+            }
+            let end = contact.response(contact.slip_displacement);
+            assert_eq!(end.force, contact.slip_force);
+            let beyond = contact.response(contact.slip_displacement.next_up());
+            assert_eq!((beyond.force, beyond.stiffness), (contact.slip_force, 0.0));
+            assert_eq!(contact.response(0.0).stiffness, contact.initial_stiffness);
+        }
+    }
+
+    /// Where the curve bends too sharply for polynomials it is solved, and as accurate.
+    #[test]
+    fn a_length_just_allowed_has_no_polynomials() {
+        use crate::contact::tests::cylinder;
+        use crate::parameters::CENTRE_POINT;
+        let contact = cylinder(1.02, 0.0, CENTRE_POINT).unwrap();
+        assert_eq!(contact.inverse().resolved, 0.0);
+        for share in [1e-9, 0.01, 0.5, 0.99] {
+            let displacement = share * contact.slip_displacement;
+            let back = contact.curve_at_force(contact.response(displacement).force).unwrap().displacement();
+            // Near gross slip a unit of the force is worth as much of the displacement.
+            assert!((back / displacement - 1.0).abs() < 1e-14, "{share}");
+        }
+    }
+}
