@@ -5,6 +5,7 @@ use microslip::masing;
 use microslip::memory::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 /// Contacts from the cylinder to the nearly flat, from short to long, of unlike bodies, and elliptical ones.
 fn contact() -> impl Strategy<Value = Contact> {
@@ -267,6 +268,52 @@ proptest! {
         prop_assert!((here.real_slope() - real).abs() < 1e-6 * scale, "{} {real}", here.real_slope());
         prop_assert!((here.imaginary_slope() - imaginary).abs() < 1e-6 * scale, "{} {imaginary}", here.imaginary_slope());
         prop_assert!(here.real_slope() <= 0.0);
+    }
+
+    /// The definition, as it stands: the second of two periods from the virgin state, step by step.
+    #[test]
+    fn the_harmonic_force_is_that_of_the_second_period(
+        contact in contact(),
+        shape in prop::collection::vec(-1.0..1.0f64, 9),
+        size in 0.05..3.0f64,
+        samples in 9..70usize,
+        odd in any::<bool>(),
+    ) {
+        let wanted = |k: usize| !odd || k.div_ceil(2) % 2 == 1;
+        let displacement: Vec<f64> = (0..9)
+            .map(|k| if wanted(k) { size * shape[k] / 3.0 * contact.slip_displacement } else { 0.0 })
+            .collect();
+        let mut memory = vec![0.0; workspace_length(4, samples)];
+        workspace_init(4, samples, &mut memory).unwrap();
+        let (mut force, mut energy) = ([0.0; 9], 0.0);
+        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
+        harmonic_force(&contact, &mut Workspace::new(&mut memory).unwrap(), &displacement, output).unwrap();
+
+        let row = |sample: usize| -> Vec<f64> {
+            (0..9usize)
+                .map(|k| {
+                    let turn = (k.div_ceil(2) * (sample % samples) % samples) as f64 / samples as f64;
+                    let (sine, cosine) = (2.0 * PI * turn).sin_cos();
+                    if k == 0 || k % 2 == 1 { cosine } else { sine }
+                })
+                .collect()
+        };
+        let mut walker = Walker::new(&contact);
+        let (mut sums, mut dissipated) = ([0.0; 9], 0.0);
+        for sample in 0..2 * samples {
+            let row = row(sample);
+            let (now, _, loss) = walker.step(row.iter().zip(&displacement).map(|(table, c)| table * c).sum::<f64>() / contact.slip_displacement);
+            if sample >= samples {
+                sums.iter_mut().zip(&row).for_each(|(sum, table)| *sum += now * table);
+                dissipated += loss;
+            }
+        }
+        for (k, (sum, force)) in sums.iter().zip(force).enumerate() {
+            let mean = if k == 0 { 1.0 } else { 2.0 } / samples as f64;
+            // Displacements are summed in another order; near gross slip that is worth more than a unit of the force.
+            prop_assert!((sum * mean - force).abs() < 1e-11 * contact.slip_force, "{k}: {} {force}", sum * mean);
+        }
+        prop_assert!((dissipated - energy).abs() < 1e-9 * (energy + 1e-3 * contact.slip_energy), "{dissipated} {energy}");
     }
 
     /// The Jacobian of a history that nests and slips, against central differences.
