@@ -14,6 +14,8 @@ build/time_march cases/newmark_optimum.nml results
 for script in plots/response.gp plots/optimum.gp plots/loops.gp plots/newmark.gp; do
   "$gnuplot" "$script"
 done
+echo
+build/law_wall_time cases/cylinder.nml results
 
 echo
 echo "Written to $(pwd)/results:"

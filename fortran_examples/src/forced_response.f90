@@ -13,16 +13,14 @@ program forced_response
   use, intrinsic :: iso_fortran_env, only: int64
   use case_input, only: case_data, read_case
   use case_problem, only: prepare_problem
-  use continuation, only: follow_response, response_path, step_control
   use csv_output, only: csv_file
-  use fourier_series, only: harmonic_amplitude, series_peak
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
+  use fourier_series, only: series_peak
+  use harmonic_balance, only: balance_point, balance_problem, solve_from_rest, structure_response
   use kinds, only: path_length, pi, wp
+  use load_response, only: contact_loop, load_result, loop_points, respond, response_row
   use messages, only: fail, progress, text
-  use resonance, only: refine_peak
   implicit none
 
-  integer, parameter :: loop_points = 256
   character(len=path_length) :: case_file, directory
   type(case_data) :: data
 
@@ -81,12 +79,8 @@ contains
 
   subroutine solve_sweeps()
     type(balance_problem) :: problem
-    type(balance_point) :: point
-    type(response_path) :: path
-    type(step_control) :: control
+    type(load_result) :: response
     type(csv_file) :: responses, peaks, loops
-    real(wp), allocatable :: amplitude(:), displacement(:,:)
-    real(wp) :: omega
     integer(int64) :: clock_start, clock_end, clock_rate
     integer :: load, i
     character(len=:), allocatable :: prefix
@@ -105,26 +99,22 @@ contains
     call loops%add('slip_part_m')
     call loops%end_row()
 
-    allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
     do load = 1, size(data%load_factors)
       call system_clock(clock_start, clock_rate)
-      call prepare_problem(data, data%load_factors(load), data%harmonics, data%samples, problem)
-      call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, control, path)
-      allocate (amplitude(path%points))
-      do i = 1, path%points
-        call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
-        call response_row(responses, problem, point, load, path%omega(i), path%displacement(:, :, i), amplitude(i))
+      call respond(data, data%load_factors(load), problem, response)
+      do i = 1, size(response%row)
+        call write_row(responses, load, response%row(i))
       end do
-      call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
-      call evaluate(problem, omega, displacement, point)
-      call response_row(peaks, problem, point, load, omega, displacement, amplitude(1))
-      call write_loops(loops, problem, load, displacement)
+      call write_row(peaks, load, response%peak)
+      do i = 1, size(response%loop)
+        call write_loop(loops, load, i, response%loop(i))
+      end do
       call system_clock(clock_end)
       call progress(trim(data%name)//' '//text(load)//'/'//text(size(data%load_factors))//': load factor '// &
-                    text(data%load_factors(load), '(f10.2)')//', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')// &
-                    ' um at '//text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points, '// &
-                    text(real(clock_end - clock_start, wp) / real(clock_rate, wp), '(f8.2)')//' s')
-      deallocate (amplitude)
+                    text(data%load_factors(load), '(f10.2)')//', peak '// &
+                    text(1.0e6_wp * response%peak%amplitude, '(f10.2)')//' um at '// &
+                    text(response%peak%omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(response%path%points)// &
+                    ' points, '//text(real(clock_end - clock_start, wp) / real(clock_rate, wp), '(f8.2)')//' s')
     end do
     call responses%close()
     call peaks%close()
@@ -150,57 +140,44 @@ contains
     call table%end_row()
   end subroutine response_header
 
-  !> One row for a balance that holds; `amplitude` is the peak over the period of the response.
-  subroutine response_row(table, problem, point, load, omega, displacement, amplitude)
+  subroutine write_row(table, load, row)
     type(csv_file), intent(inout) :: table
-    type(balance_problem), intent(in) :: problem
-    type(balance_point), intent(in) :: point
     integer, intent(in) :: load
-    real(wp), intent(in) :: omega, displacement(:,:)
-    real(wp), intent(out) :: amplitude
-    real(wp) :: response(size(displacement, 1), size(data%model%dof_name)), normal_force
+    type(response_row), intent(in) :: row
+    real(wp) :: normal_force
     integer :: i
 
-    response = structure_response(problem, point)
-    amplitude = series_peak(response(:, data%response_dof))
     call table%add(load)
     call table%add(data%load_factors(load))
-    call table%add(omega / (2.0_wp * pi))
-    call table%add(amplitude)
-    call table%add(harmonic_amplitude(response(:, data%response_dof)))
+    call table%add(row%omega / (2.0_wp * pi))
+    call table%add(row%amplitude)
+    call table%add(row%harmonic)
     do i = 1, size(data%contacts)
       normal_force = data%contacts(i)%parameters%normal_force
       if (data%contacts(i)%load_varied) normal_force = data%load_factors(load) * normal_force
       call table%add(normal_force)
-      call table%add(point%dissipated(i))
-      call table%add(problem%contacts%smallest_stick(i, displacement(:, i)))
+      call table%add(row%dissipated(i))
+      call table%add(row%smallest_stick(i))
     end do
     call table%end_row()
-  end subroutine response_row
+  end subroutine write_row
 
-  !> Beside displacement and force: the displacement less that of a contact that sticks everywhere.
-  subroutine write_loops(table, problem, load, displacement)
+  subroutine write_loop(table, load, contact, loop)
     type(csv_file), intent(inout) :: table
-    type(balance_problem), intent(in) :: problem
-    integer, intent(in) :: load
-    real(wp), intent(in) :: displacement(:,:)
-    real(wp) :: u(loop_points), force(loop_points), slip_part(loop_points)
+    integer, intent(in) :: load, contact
+    type(contact_loop), intent(in) :: loop
     integer :: i, j
 
-    do i = 1, size(data%contacts)
-      call problem%contacts%steady_loop(i, displacement(:, i), u, force)
-      slip_part = 0.0_wp
-      if (problem%contacts%initial_stiffness(i) > 0.0_wp) slip_part = u - force / problem%contacts%initial_stiffness(i)
-      ! The first point again at the end closes the loop.
-      do j = 0, loop_points
-        call table%add(load)
-        call table%add(data%contacts(i)%name)
-        call table%add(2.0_wp * pi * real(j, wp) / real(loop_points, wp))
-        call table%add(u(modulo(j, loop_points) + 1))
-        call table%add(force(modulo(j, loop_points) + 1))
-        call table%add(slip_part(modulo(j, loop_points) + 1))
-        call table%end_row()
-      end do
+    ! The first point again at the end closes the loop.
+    do i = 0, loop_points
+      j = modulo(i, loop_points) + 1
+      call table%add(load)
+      call table%add(data%contacts(contact)%name)
+      call table%add(2.0_wp * pi * real(i, wp) / real(loop_points, wp))
+      call table%add(loop%displacement(j))
+      call table%add(loop%force(j))
+      call table%add(loop%slip_part(j))
+      call table%end_row()
     end do
-  end subroutine write_loops
+  end subroutine write_loop
 end program forced_response

@@ -1,11 +1,11 @@
 !> All friction contacts of a model, each with the microslip law or as a spring-slider.
 module friction_contacts
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use fourier_series, only: series_basis, series_projection
+  use fourier_series, only: series_basis
   use kinds, only: name_length, wp
   use messages, only: fail, text
   use microslip
-  use spring_slider, only: slider, slider_harmonic_force, slider_step
+  use spring_slider, only: make_slider_tables, slider, slider_harmonic_force, slider_step, slider_tables
   implicit none
   private
 
@@ -28,7 +28,9 @@ module friction_contacts
     integer(mslip_int), allocatable :: has_microslip(:)     !! 1 or 0, as the interface functions want it
     type(mslip_contact), allocatable :: prepared(:)
     type(slider), allocatable :: sliders(:)
-    real(wp), allocatable :: basis(:,:), projection(:,:), workspace(:)
+    type(slider_tables) :: tables                           !! of the spring-sliders
+    real(wp), allocatable :: workspace(:)                   !! of the microslip law
+    real(wp), allocatable :: extremes_basis(:,:)            !! series where the extremes of a displacement are looked for
   contains
     procedure :: prepare
     procedure :: prepare_harmonics
@@ -48,6 +50,7 @@ module friction_contacts
 
   ! Nested reversals a history can hold; a steady state with some harmonics needs a few.
   integer(mslip_size), parameter :: reversals_kept = 64
+  integer, parameter :: extremes_points = 256
 
 contains
 
@@ -88,8 +91,8 @@ contains
     integer, intent(in) :: harmonics, samples
     integer(mslip_int) :: status
 
-    self%basis = series_basis(harmonics, samples)
-    self%projection = series_projection(harmonics, samples)
+    call make_slider_tables(harmonics, samples, self%tables)
+    self%extremes_basis = series_basis(harmonics, extremes_points)
     if (allocated(self%workspace)) deallocate (self%workspace)
     allocate (self%workspace(mslip_harmonic_workspace_length(int(harmonics, mslip_size), int(samples, mslip_size))))
     call mslip_harmonic_workspace_init(int(harmonics, mslip_size), int(samples, mslip_size), self%workspace, status)
@@ -112,8 +115,8 @@ contains
     end if
     do i = 1, size(self%count)
       if (self%has_microslip(i) == 0) then
-        call slider_harmonic_force(self%sliders(i), self%basis, self%projection, displacement(:, i), &
-                                   force(:, i), jacobian(:, :, i), dissipated(i))
+        call slider_harmonic_force(self%sliders(i), self%tables, displacement(:, i), force(:, i), jacobian(:, :, i), &
+                                   dissipated(i))
       end if
       if (self%count(i) > 1) then
         force(:, i) = self%count(i) * force(:, i)
@@ -173,15 +176,16 @@ contains
     integer, intent(in) :: i
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: half_width
-    integer, parameter :: points = 256
-    real(wp) :: displacement(points), force(points), half_range
+    real(wp) :: displacement(extremes_points), half_range
     integer(mslip_int) :: status
 
     half_width = ieee_value(half_width, ieee_quiet_nan)
     if (self%has_microslip(i) == 0) return
-    ! A branch between the extremes of the force shrinks the stick zone like a first loading by half their distance.
-    call self%steady_loop(i, coefficients, displacement, force)
-    half_range = min(0.5_wp * (maxval(force) - minval(force)), self%prepared(i)%slip_force)
+    ! A branch between the extremes of a period is a first loading by half their distance, for the force as for the zone.
+    displacement = matmul(self%extremes_basis, coefficients)
+    call mslip_monotonic_force(self%prepared(i), 0.5_wp * (maxval(displacement) - minval(displacement)), status, &
+                               force=half_range)
+    call require(status, self%name(i))
     call mslip_monotonic_displacement(self%prepared(i), half_range, status, stick_half_width=half_width)
     call require(status, self%name(i))
   end function smallest_stick

@@ -24,6 +24,7 @@ module harmonic_balance
     complex(wp), allocatable :: excitation(:)     !! F in Re(F exp(i omega t)), for each degree of freedom
     integer :: harmonics = 0
     real(wp) :: tolerance = 0.0_wp                !! of R, relative to the displacement of each contact
+    integer :: evaluations = 0                    !! of R and its derivatives until now
   end type balance_problem
 
   !> The balance at one frequency and one set of displacements.
@@ -76,6 +77,7 @@ contains
       allocate (point%jacobian(m * contacts, m * contacts), point%dissipated(contacts))
       allocate (point%by_force(n, contacts, 0:problem%harmonics), point%by_excitation(n))
     end if
+    problem%evaluations = problem%evaluations + 1
     call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated)
 
     do k = 0, problem%harmonics
