@@ -136,6 +136,84 @@ static void test_force(void)
     free(w);
 }
 
+/* Nodes between the instants at which the force has kinks. */
+static void test_between_reversals(void)
+{
+    enum { NODES = 64 };
+    static const size_t lengths[3] = { N, N * N, 1 };
+    const mslip_contact contacts[] = { flat_contact(), cylinder_contact(), elliptic_contact(), open_contact() };
+    const int rule = MSLIP_BETWEEN_REVERSALS;
+    const size_t needed = mslip_harmonic_workspace_length_rule(HARMONICS, NODES, rule);
+    double *w = malloc((needed + 8) * sizeof *w);
+
+    CHECK(needed > 0 && mslip_harmonic_workspace_length_rule(HARMONICS, SAMPLES, MSLIP_EQUIDISTANT) == length);
+    CHECK(mslip_harmonic_workspace_length_rule(HARMONICS, NODES, 2) == 0);
+    CHECK(mslip_harmonic_workspace_length_rule(HARMONICS, NODES, -1) == 0);
+    CHECK(mslip_harmonic_workspace_length_rule(0, NODES, rule) == 0);
+    CHECK(mslip_harmonic_workspace_length_rule(SIZE_MAX, SIZE_MAX, rule) == 0);
+    memset(w, 0x5a, (needed + 8) * sizeof *w);
+    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, 2, needed, w) == MSLIP_BAD_RULE);
+    CHECK(mslip_harmonic_workspace_init_rule(0, NODES, rule, needed, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, 2 * HARMONICS, rule, needed, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed, NULL) == MSLIP_NULL_POINTER);
+    CHECK(is_poison(w, needed + 8));
+    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed, w) == MSLIP_OK);
+    CHECK(is_poison(w + needed, 8));
+
+    EVERY_SUBSET(3, lengths, mslip_harmonic_force(&contacts[0], w, displacement, OUT(0), OUT(1), OUT(2)));
+    for (int i = 0; i < N; ++i) {
+        /* The table is of 128 equidistant samples, and errs by these. */
+        CHECK_NEAR(reference[0][i], force_of_table[i], 1e-2 * 76.4);
+    }
+    EVERY_SUBSET(3, lengths, mslip_interface_harmonic_force(1, contacts, NULL, w, displacement, OUT(0), OUT(1), OUT(2)));
+
+    for (int i = 0; i < 4; ++i) {
+        /* Motions of every kind and size: none has turning points that are not found, or divides by what is not there. */
+        static const double shapes[][N] = {
+            { 0.0 },
+            { 1.0 },
+            { 0.0, 1.0 },
+            { 0.5, 0.0, 1.0 },
+            { 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 / 3.0 }, /* sin t - sin(3t)/3: flat where it turns */
+            { 0.0, 1.0, 0.0, -0.25 },                     /* cos t - cos(2t)/4: flat where it turns */
+            { 0.1, 0.3, -0.2, 0.2, 0.3, -0.4, 0.5 },
+            { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0 },
+        };
+        static const double sizes[] = { 1e-310, 1e-200, 1e-12, 0.3, 0.999999999999, 1.0, 1.5, 1e3, 1e17, 1e100 };
+        const double slip = contacts[i].slip_displacement > 0.0 ? contacts[i].slip_displacement : 1e-7;
+        for (size_t shape = 0; shape < sizeof shapes / sizeof shapes[0]; ++shape) {
+            for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; ++size) {
+                double u[N];
+                for (int k = 0; k < N; ++k) {
+                    u[k] = shapes[shape][k] * sizes[size] * slip;
+                }
+                CHECK(mslip_harmonic_force(&contacts[i], w, u, out[0], out[1], out[2]) == MSLIP_OK);
+                for (int k = 0; k < N; ++k) {
+                    CHECK(isfinite(out[0][k]) && fabs(out[0][k]) <= 1.3 * contacts[i].slip_force);
+                }
+                for (int k = 0; k < N * N; ++k) {
+                    CHECK(isfinite(out[1][k]));
+                }
+                CHECK(isfinite(out[2][0]) && out[2][0] >= 0.0);
+            }
+        }
+    }
+
+    /* One harmonic: the complex stiffness, and the energy of its loop. */
+    for (int i = 0; i < 3; ++i) {
+        const double amplitude = 0.8 * contacts[i].slip_displacement;
+        double k_real, k_imag, single[N] = { 0.0 };
+        single[1] = amplitude;
+        CHECK(mslip_harmonic_force(&contacts[i], w, single, out[0], NULL, out[2]) == MSLIP_OK);
+        CHECK(mslip_complex_stiffness(&contacts[i], 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
+        CHECK_RELATIVE(out[0][1], k_real * amplitude, 1e-12);
+        CHECK_NEAR(out[0][2], -k_imag * amplitude, 1e-12 * k_real * amplitude);
+        CHECK_RELATIVE(out[2][0], PI * k_imag * amplitude * amplitude, 1e-12);
+    }
+    free(w);
+}
+
 /* Many contacts at once are as many single calls, to the last bit. */
 enum { ITEMS = 3 };
 static const int32_t active[ITEMS] = { 1, 0, -1 };
@@ -228,6 +306,7 @@ int main(int argc, char **argv)
     check_arguments(argc, argv);
     test_workspace();
     test_force();
+    test_between_reversals();
     test_interface_force();
     test_interface_stiffness();
     return check_report();

@@ -96,6 +96,7 @@ program test_microslip
   call test_masing_tractions()
   call test_cycles()
   call test_harmonic_force()
+  call test_between_reversals()
   call test_jacobian()
   call test_workspace()
   call test_interface()
@@ -173,8 +174,8 @@ contains
       MSLIP_BAD_SEMI_AXIS_Y, MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, MSLIP_BAD_CONTACT, MSLIP_BAD_STATE, &
       MSLIP_BAD_WORKSPACE, MSLIP_STATE_TOO_SHORT, MSLIP_STATE_FULL, MSLIP_WORKSPACE_TOO_SHORT, MSLIP_BAD_FORCE, &
       MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_POSITION, MSLIP_BAD_AMPLITUDE, &
-      MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_COUNT, MSLIP_NOT_AVAILABLE, &
-      MSLIP_BAD_ARRAY_SIZE]
+      MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_COUNT, MSLIP_BAD_RULE, &
+      MSLIP_NOT_AVAILABLE, MSLIP_BAD_ARRAY_SIZE]
     character(len=:), allocatable :: version
     integer :: i, j
     logical :: distinct
@@ -640,6 +641,35 @@ contains
     call check_status('harmonic force of no number', status, MSLIP_BAD_DISPLACEMENT)
     call check_same('refused harmonic force: nothing written', force, spread(untouched, 1, 7))
   end subroutine test_harmonic_force
+
+  subroutine test_between_reversals()
+    integer(mslip_size), parameter :: harmonics = 3, samples = 64
+    integer(mslip_int), parameter :: rule = MSLIP_BETWEEN_REVERSALS
+    real(wp), parameter :: amplitude = 6.0e-7_wp, cosine(*) = [0.0_wp, amplitude, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples, rule)), force(7), jacobian(7, 7)
+    real(wp) :: lost, k_real, k_imag
+    integer(mslip_int) :: status
+
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
+    call check_status('workspace between reversals', status, MSLIP_OK)
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, lost)
+    call check_status('harmonic force between reversals', status, MSLIP_OK)
+    ! Under one cosine the first harmonic is the complex stiffness, to rounding.
+    call mslip_complex_stiffness(flat, amplitude, status, k_real, k_imag)
+    call check_close('between reversals: first cosine', force(2), k_real*amplitude, tight)
+    call check_close('between reversals: first sine', -force(3), k_imag*amplitude, tight)
+    call check_close('between reversals: energy of a cycle', lost, pi*k_imag*amplitude**2, tight)
+    call check('between reversals: no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
+    ! A change of phase turns the force.
+    call check_close('between reversals: turned, real', jacobian(3, 3), k_real, tight)
+    call check_close('between reversals: turned, imaginary', jacobian(2, 3), k_imag, tight)
+
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, 2_mslip_int)
+    call check_status('rule that is none', status, MSLIP_BAD_RULE)
+    call check('no length for a rule that is none', mslip_harmonic_workspace_length(harmonics, samples, 2_mslip_int) == 0)
+    call check('the default is equidistant', mslip_harmonic_workspace_length(harmonics, samples) &
+      == mslip_harmonic_workspace_length(harmonics, samples, MSLIP_EQUIDISTANT))
+  end subroutine test_between_reversals
 
   subroutine test_jacobian()
     integer(mslip_size), parameter :: harmonics = 2, samples = 64

@@ -48,6 +48,10 @@ module microslip
     !! The displacement is that of the centre of the contact, as in the paper.
   integer(mslip_int), parameter, public :: MSLIP_RIGID_STRIP = 1
     !! The displacement is that of a rigid strip: Eq. 10 corrected to three-dimensional contact mechanics.
+  integer(mslip_int), parameter, public :: MSLIP_EQUIDISTANT = 0
+    !! `rule`: samples at equal distances.
+  integer(mslip_int), parameter, public :: MSLIP_BETWEEN_REVERSALS = 1
+    !! `rule`: Gauss-Legendre nodes between the instants at which the displacement turns, a loop closes or gross slip starts.
 
   ! Status codes: the numbers of the C header, fixed for good.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Done.
@@ -79,6 +83,7 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! At least one harmonic, and an addressable workspace.
   integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37  !! More than twice as many samples as harmonics.
   integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! At least one slider.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! `rule` is none of those.
   integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Not for this kind of contact, or no equivalent exists.
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90  !! Sizes of arrays disagree.
 
@@ -366,17 +371,19 @@ module microslip
       integer(mslip_int) :: status
     end function c_complex_stiffness
 
-    pure function c_harmonic_workspace_length(harmonics, samples) &
-      bind(c, name='mslip_harmonic_workspace_length') result(length)
-      import :: mslip_size
+    pure function c_harmonic_workspace_length(harmonics, samples, rule) &
+      bind(c, name='mslip_harmonic_workspace_length_rule') result(length)
+      import :: mslip_int, mslip_size
       integer(mslip_size), value, intent(in) :: harmonics, samples
+      integer(mslip_int), value, intent(in) :: rule
       integer(mslip_size) :: length
     end function c_harmonic_workspace_length
 
-    function c_harmonic_workspace_init(harmonics, samples, workspace_length, workspace) &
-      bind(c, name='mslip_harmonic_workspace_init') result(status)
+    function c_harmonic_workspace_init(harmonics, samples, rule, workspace_length, workspace) &
+      bind(c, name='mslip_harmonic_workspace_init_rule') result(status)
       import :: c_ptr, mslip_int, mslip_size
       integer(mslip_size), value, intent(in) :: harmonics, samples, workspace_length
+      integer(mslip_int), value, intent(in) :: rule
       type(c_ptr), value, intent(in) :: workspace
       integer(mslip_int) :: status
     end function c_harmonic_workspace_init
@@ -839,14 +846,18 @@ contains
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Several harmonics: alternating frequency/time
 
-  pure function mslip_harmonic_workspace_length(harmonics, samples) result(needed)
+  pure function mslip_harmonic_workspace_length(harmonics, samples, rule) result(needed)
     !! Length of the workspace of `mslip_harmonic_force`; 0 where the arguments are out of range. May dimension an array.
     !! It is larger than that of the C function of this name, and a workspace serves this module only.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_EQUIDISTANT` (the default) or `MSLIP_BETWEEN_REVERSALS`.
     integer(mslip_size) :: needed  !! Numbers that the workspace has to have.
+    integer(mslip_int) :: chosen
 
-    needed = c_harmonic_workspace_length(harmonics, samples)
+    chosen = MSLIP_EQUIDISTANT
+    if (present(rule)) chosen = rule
+    needed = c_harmonic_workspace_length(harmonics, samples, chosen)
     ! A C length beyond the largest integer of this kind arrives negative.
     if (needed > 0 .and. needed <= huge(needed) - workspace_header) then
       needed = needed + workspace_header
@@ -855,30 +866,37 @@ contains
     end if
   end function mslip_harmonic_workspace_length
 
-  subroutine mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+  subroutine mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
     !! Fill a workspace: tables of the cosines and sines, and room. Done once; each thread needs a workspace of its own.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
-      !! The workspace; at least `mslip_harmonic_workspace_length(harmonics, samples)` numbers.
+      !! The workspace; at least `mslip_harmonic_workspace_length(harmonics, samples, rule)` numbers.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES` or `MSLIP_WORKSPACE_TOO_SHORT`.
+      !! `MSLIP_OK`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES`, `MSLIP_BAD_RULE` or `MSLIP_WORKSPACE_TOO_SHORT`.
+    integer(mslip_int), intent(in), optional :: rule
+      !! `MSLIP_EQUIDISTANT`: samples at equal distances from t = 0 (the default). `MSLIP_BETWEEN_REVERSALS`: about as many
+      !! nodes between the instants at which the displacement turns, a loop closes or gross slip starts; far more accurate.
 
+    integer(mslip_int) :: chosen
+
+    chosen = MSLIP_EQUIDISTANT
+    if (present(rule)) chosen = rule
     if (size(workspace) > workspace_header) then
-      status = c_harmonic_workspace_init(harmonics, samples, size(workspace, kind=mslip_size) - workspace_header, &
-        c_loc(workspace(workspace_header + 1)))
+      status = c_harmonic_workspace_init(harmonics, samples, chosen, &
+        size(workspace, kind=mslip_size) - workspace_header, c_loc(workspace(workspace_header + 1)))
     else
-      status = c_harmonic_workspace_init(harmonics, samples, 0_mslip_size, c_loc(no_elements))
+      status = c_harmonic_workspace_init(harmonics, samples, chosen, 0_mslip_size, c_loc(no_elements))
     end if
     if (status /= MSLIP_OK) return
     workspace(1) = workspace_mark
-    workspace(2) = real(mslip_harmonic_workspace_length(harmonics, samples), mslip_real)
+    workspace(2) = real(mslip_harmonic_workspace_length(harmonics, samples, chosen), mslip_real)
     workspace(3) = real(2*harmonics + 1, mslip_real)
   end subroutine mslip_harmonic_workspace_init
 
   subroutine mslip_harmonic_force(contact, workspace, displacement, status, force, jacobian, dissipated)
     !! Fourier coefficients of the force under a periodic displacement, in the steady state: of the second of two periods
-    !! from the virgin state, sampled at equal distances from t = 0. All coefficients are in the order
+    !! from the virgin state, by the rule of the workspace. All coefficients are in the order
     !! [c0, cos 1, sin 1, cos 2, sin 2, ...].
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
@@ -888,7 +906,7 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force, N.
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
       !! (2H+1, 2H+1): derivative of force coefficient i by displacement coefficient j in element (i, j), N/m; exact for
-      !! the sampled problem.
+      !! the sampled problem, and between reversals as good as the force.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period, J.
 
     integer(mslip_size) :: m

@@ -20,6 +20,13 @@
 // Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
 #define MSLIP_RIGID_STRIP 1
 
+// Harmonic force from equidistant samples of a period.
+#define MSLIP_EQUIDISTANT 0
+
+// Harmonic force from Gauss-Legendre nodes between the instants at which the displacement turns, a loop closes or gross slip
+// starts.
+#define MSLIP_BETWEEN_REVERSALS 1
+
 // All went well.
 #define MSLIP_OK 0
 
@@ -106,6 +113,9 @@
 
 // The number of sliders is 0, or beyond 65536.
 #define MSLIP_BAD_COUNT 38
+
+// rule is neither MSLIP_EQUIDISTANT nor MSLIP_BETWEEN_REVERSALS.
+#define MSLIP_BAD_RULE 39
 
 // Not available for this kind of contact, or no equivalent exists.
 #define MSLIP_NOT_AVAILABLE 40
@@ -374,11 +384,13 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *dk_real,
                                 double *dk_imag);
 
-// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed.
+// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed. The rule
+// is MSLIP_EQUIDISTANT.
 size_t mslip_harmonic_workspace_length(size_t harmonics,
                                        size_t samples);
 
-// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread.
+// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread. The rule is
+// MSLIP_EQUIDISTANT.
 //
 // Returns MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
@@ -388,10 +400,30 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t workspace_length,
                                       double *workspace);
 
+// mslip_harmonic_workspace_length for a rule, MSLIP_EQUIDISTANT or MSLIP_BETWEEN_REVERSALS; 0 for another.
+size_t mslip_harmonic_workspace_length_rule(size_t harmonics,
+                                            size_t samples,
+                                            int32_t rule);
+
+// mslip_harmonic_workspace_init for a rule. MSLIP_EQUIDISTANT samples a period at equal distances: its error falls with the
+// square of their number. MSLIP_BETWEEN_REVERSALS finds the instants at which the displacement turns, a loop closes or gross
+// slip starts, and puts about as many Gauss-Legendre nodes as there are samples between them, 8 at least between two: its
+// error falls exponentially, and the energy is exact. It looks for the instants on a grid of `samples`, at least 16 H.
+//
+// Returns MSLIP_BAD_RULE or the codes of mslip_harmonic_workspace_init.
+//
+// Memory: `workspace` is NULL or points to workspace_length numbers.
+int32_t mslip_harmonic_workspace_init_rule(size_t harmonics,
+                                           size_t samples,
+                                           int32_t rule,
+                                           size_t workspace_length,
+                                           double *workspace);
+
 // Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
-// state). Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m], force [N]; jacobian [N/m] is
+// state), by the rule of the workspace. Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m], force [N]; jacobian [N/m] is
 // d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
-// at a turning point, or one is just at gross slip, it is that of one side. dissipated [J] is per period.
+// at a turning point, or one is just at gross slip, it is that of one side. With MSLIP_BETWEEN_REVERSALS it is the rule applied
+// to the exact derivative of the integrals, and as good as the force. dissipated [J] is per period.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //

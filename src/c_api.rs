@@ -31,6 +31,12 @@ pub const MSLIP_CENTRE_POINT: i32 = 0;
 /// Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
 pub const MSLIP_RIGID_STRIP: i32 = 1;
 
+/// Harmonic force from equidistant samples of a period.
+pub const MSLIP_EQUIDISTANT: i32 = 0;
+/// Harmonic force from Gauss-Legendre nodes between the instants at which the displacement turns, a loop closes or gross slip
+/// starts.
+pub const MSLIP_BETWEEN_REVERSALS: i32 = 1;
+
 /// All went well.
 pub const MSLIP_OK: i32 = 0;
 /// A required pointer is NULL.
@@ -89,6 +95,8 @@ pub const MSLIP_BAD_HARMONICS: i32 = 36;
 pub const MSLIP_BAD_SAMPLES: i32 = 37;
 /// The number of sliders is 0, or beyond 65536.
 pub const MSLIP_BAD_COUNT: i32 = 38;
+/// rule is neither MSLIP_EQUIDISTANT nor MSLIP_BETWEEN_REVERSALS.
+pub const MSLIP_BAD_RULE: i32 = 39;
 /// Not available for this kind of contact, or no equivalent exists.
 pub const MSLIP_NOT_AVAILABLE: i32 = 40;
 /// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
@@ -189,6 +197,7 @@ mod tests {
             MSLIP_BAD_HARMONICS,
             MSLIP_BAD_SAMPLES,
             MSLIP_BAD_COUNT,
+            MSLIP_BAD_RULE,
             MSLIP_NOT_AVAILABLE,
             MSLIP_BAD_ARRAY_SIZE,
         ];

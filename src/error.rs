@@ -33,13 +33,14 @@ pub enum Error {
     BadHarmonics = 36,
     BadSamples = 37,
     BadCount = 38,
+    BadRule = 39,
     NotAvailable = 40,
     BadArraySize = 90,
 }
 
 impl Error {
     /// Every error, in the order of the status codes.
-    pub const ALL: [Error; 30] = [
+    pub const ALL: [Error; 31] = [
         Error::NullPointer,
         Error::BadFlatHalfWidth,
         Error::BadEdgeRadius,
@@ -68,6 +69,7 @@ impl Error {
         Error::BadHarmonics,
         Error::BadSamples,
         Error::BadCount,
+        Error::BadRule,
         Error::NotAvailable,
         Error::BadArraySize,
     ];
@@ -122,6 +124,7 @@ impl Error {
             Error::BadHarmonics => c"the number of harmonics must be >= 1, and small enough for its workspace to be addressed",
             Error::BadSamples => c"the number of samples must exceed twice the number of harmonics",
             Error::BadCount => c"the number of sliders must lie in 1 to 65536",
+            Error::BadRule => c"rule must be MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)",
             Error::NotAvailable => c"this quantity is not available for this kind of contact, or no equivalent exists",
             Error::BadArraySize => c"an array is longer than memory, too short, or of a size that does not agree with the others",
         }

@@ -94,28 +94,17 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
     memory.fill(0.0);
     let half = layout.half();
-    // cos and sin of an order at a sample; the turn is reduced before it meets π.
-    let wave = |order: usize, sample: usize| {
-        let turn = (order * sample % samples) as f64 / samples as f64;
-        ((2.0 * PI * turn).cos(), (2.0 * PI * turn).sin())
-    };
     let [mark, h, n, rest @ ..] = memory else { return Err(Error::WorkspaceTooShort) };
     (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
     let mut parts = Parts(rest);
-    let columns = parts.take(half * layout.coefficients())?;
-    for (column, values) in columns.chunks_exact_mut(half.max(1)).enumerate() {
-        for (sample, value) in values.iter_mut().enumerate() {
-            let (cosine, sine) = wave(column.div_ceil(2), sample);
-            *value = if column % 2 == 1 || column == 0 { cosine } else { sine };
-        }
-    }
+    fill_columns(parts.take(half * layout.coefficients())?, samples, half);
     for parity in [0, 1] {
         let blocks = parts.take_blocks(half * Layout::blocks(2 * harmonics))?;
         for (first, block) in (0..).step_by(4).zip(blocks.chunks_exact_mut(half.max(1))) {
             for (sample, row) in block.iter_mut().enumerate() {
                 *row = [first, first + 1, first + 2, first + 3].map(|place| {
                     let order = order_at(place, parity);
-                    let (cosine, sine) = wave(order, sample);
+                    let (cosine, sine) = wave(order, sample, samples);
                     if order > 2 * harmonics {
                         0.0
                     } else if place == order && order > 0 {
@@ -133,6 +122,22 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
         *cotangent = 0.5 * cosine / sine;
     }
     Ok(())
+}
+
+/// cos and sin of an order at a sample; the turn is reduced before it meets π.
+fn wave(order: usize, sample: usize, samples: usize) -> (f64, f64) {
+    let turn = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;
+    ((2.0 * PI * turn).cos(), (2.0 * PI * turn).sin())
+}
+
+/// Columns over half a period of samples, or over all of it where it has no middle: 1, cos t, sin t, cos 2t, ...
+pub(crate) fn fill_columns(columns: &mut [f64], samples: usize, half: usize) {
+    for (column, values) in columns.chunks_exact_mut(half.max(1)).enumerate() {
+        for (sample, value) in values.iter_mut().enumerate() {
+            let (cosine, sine) = wave(column.div_ceil(2), sample, samples);
+            *value = if column % 2 == 1 || column == 0 { cosine } else { sine };
+        }
+    }
 }
 
 /// The orders of one parity stand side by side, cosines before sines: 1, cos 2t, sin 2t, cos 4t, ... and cos t, sin t, cos 3t,
@@ -200,6 +205,7 @@ impl<'a> Workspace<'a> {
     ///
     /// # Errors
     /// `BadWorkspace` for memory that was not initialised, or was changed.
+    #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
         let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
@@ -237,10 +243,10 @@ impl<'a> Workspace<'a> {
 }
 
 /// Divides a slice from its front.
-struct Parts<'a>(&'a mut [f64]);
+pub(crate) struct Parts<'a>(pub &'a mut [f64]);
 
 impl<'a> Parts<'a> {
-    fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
+    pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
         let (front, back) = core::mem::take(&mut self.0).split_at_mut_checked(length).ok_or(Error::BadWorkspace)?;
         self.0 = back;
         Ok(front)
@@ -336,6 +342,36 @@ fn add_wave(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[f64]
     }
 }
 
+/// A sum of waves at the samples, from the columns of half a period; whether it has odd harmonics only, on an even number of
+/// samples.
+#[inline(always)]
+pub(crate) fn sample(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
+    let half = half.max(1);
+    let folds = half < values.len();
+    let Some((constant, pairs)) = coefficients.split_first() else { return false };
+    // Even and odd orders in the halves of the same memory, or all in one.
+    let (even, odd) = values.split_at_mut_checked(half).unwrap_or((&mut [], &mut []));
+    even.fill(*constant);
+    odd.fill(0.0);
+    let mut only_odd = *constant == 0.0;
+    let waves = columns.get(half..).unwrap_or(&[]).chunks_exact((2 * half).max(1));
+    for (order, (columns, &[a, b])) in (1..).zip(waves.zip(pairs.as_chunks::<2>().0)) {
+        if a == 0.0 && b == 0.0 {
+            continue;
+        }
+        let is_odd = order % 2 == 1;
+        only_odd &= is_odd;
+        let (cosines, sines) = columns.split_at_checked(half).unwrap_or((&[], &[]));
+        add_wave(if is_odd && folds { odd } else { even }, [a, b], cosines, sines);
+    }
+    if folds {
+        for (even, odd) in even.iter_mut().zip(odd.iter_mut()) {
+            (*even, *odd) = (*even + *odd, *even - *odd);
+        }
+    }
+    folds && only_odd
+}
+
 /// The sum of rows, each times its weight: two sums, so that one need not wait for the other.
 #[inline(always)]
 fn weighted_sum(rows: &Blocks, weights: &[f64]) -> [f64; 4] {
@@ -371,6 +407,35 @@ pub struct HarmonicOutput<'a> {
     pub dissipated: Option<&'a mut f64>,
 }
 
+impl HarmonicOutput<'_> {
+    /// Checks all lengths and coefficients, and clears the Jacobian; whether nothing is wanted, or all of it is zero and done.
+    ///
+    /// # Errors
+    /// `BadDisplacement`, `BadArraySize`.
+    #[inline(always)]
+    pub(crate) fn is_trivial(&mut self, contact: &Contact, n: usize, displacement: &[f64]) -> Result<bool, Error> {
+        let HarmonicOutput { force, jacobian, dissipated } = self;
+        let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+        if displacement.len() != n || !fits(force, n) || !fits(jacobian, n * n) {
+            return Err(Error::BadArraySize);
+        }
+        check_coefficients(displacement)?;
+        if let Some(jacobian) = jacobian {
+            jacobian.fill(0.0);
+        }
+        if contact.is_frictionless() {
+            if let Some(force) = force {
+                force.fill(0.0);
+            }
+            if let Some(dissipated) = dissipated {
+                **dissipated = 0.0;
+            }
+            return Ok(true);
+        }
+        Ok(force.is_none() && jacobian.is_none() && dissipated.is_none())
+    }
+}
+
 /// Refuses a coefficient that is no number, or too large.
 ///
 /// # Errors
@@ -391,28 +456,12 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let n = workspace.coefficients();
+    let mut output = output;
+    if output.is_trivial(contact, n, displacement)? {
+        return Ok(());
+    }
     let HarmonicOutput { force, mut jacobian, dissipated } = output;
-    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|output| output.len() == length);
-    if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
-        return Err(Error::BadArraySize);
-    }
-    check_coefficients(displacement)?;
-    if let Some(jacobian) = &mut jacobian {
-        jacobian.fill(0.0);
-    }
-    if contact.is_frictionless() {
-        if let Some(force) = force {
-            force.fill(0.0);
-        }
-        if let Some(dissipated) = dissipated {
-            *dissipated = 0.0;
-        }
-        return Ok(());
-    }
-    if force.is_none() && jacobian.is_none() && dissipated.is_none() {
-        return Ok(());
-    }
-    let mirrored = workspace.sample(displacement);
+    let mirrored = sample(workspace.columns, workspace.half, workspace.displacement, displacement);
     let mut walk = Walk {
         contact,
         wanted: Wanted { force: force.is_some(), stiffness: jacobian.is_some(), mirrored },
@@ -432,7 +481,7 @@ pub fn harmonic_force(
         scale(force, mean);
     }
     if let Some(jacobian) = jacobian {
-        workspace.add_stiffness_sums(jacobian);
+        add_products(jacobian, workspace.harmonics, |order| workspace.stiffness_sums.of_order(order));
         for (c, column) in jacobian.chunks_exact_mut(n.max(1)).enumerate() {
             scale(column, mean);
             if mirrored {
@@ -445,7 +494,7 @@ pub fn harmonic_force(
 
 /// From sums to coefficients: the mean, and twice the mean for waves.
 #[inline(always)]
-fn scale(sums: &mut [f64], mean: f64) {
+pub(crate) fn scale(sums: &mut [f64], mean: f64) {
     sums.iter_mut().for_each(|sum| *sum *= 2.0 * mean);
     if let Some(constant) = sums.first_mut() {
         *constant *= 0.5;
@@ -454,7 +503,7 @@ fn scale(sums: &mut [f64], mean: f64) {
 
 /// In the sum of half a period and its mirror image, what couples even with odd orders cancels.
 #[inline(always)]
-fn clear_other_parity(c: usize, column: &mut [f64]) {
+pub(crate) fn clear_other_parity(c: usize, column: &mut [f64]) {
     for (i, value) in column.iter_mut().enumerate() {
         if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 1 {
             *value = 0.0;
@@ -490,21 +539,21 @@ fn run(parts: [&[f64]; 2], left: usize, first: f64, ends: impl Fn(f64, f64) -> b
 
 /// A branch of the walk: the virgin curve, one from a reversal, or gross slip.
 #[derive(Debug, Clone, Copy)]
-struct Branch {
+pub(crate) struct Branch {
     /// Where it starts.
-    from: Reversal,
+    pub from: Reversal,
     /// Direction +1 or -1, and the displacement at which it ends.
-    direction: f64,
-    end: f64,
-    slides: bool,
+    pub direction: f64,
+    pub end: f64,
+    pub slides: bool,
     /// Two half-curves make a branch, one the virgin curve.
-    halves: f64,
+    pub halves: f64,
     /// Whether it starts at a reversal.
-    reversed: bool,
+    pub reversed: bool,
 }
 
 impl Branch {
-    const VIRGIN: Branch = Branch {
+    pub const VIRGIN: Branch = Branch {
         // No force; with this sign a vector of both is no extension by zero, for which compilers have an instruction that
         // valgrind does not know.
         from: Reversal { displacement: 0.0, force: -0.0 },
@@ -515,16 +564,36 @@ impl Branch {
         reversed: false,
     };
 
+    /// The branch from the newest of so many reversals, or the virgin curve.
+    #[inline(always)]
+    pub fn newest(reversals: &[f64], depth: usize, origin: f64, direction: f64, slip_displacement: f64) -> Branch {
+        let reversal = |depth: usize| reversals.as_chunks::<2>().0.get(depth.wrapping_sub(1));
+        match reversal(depth) {
+            Some(&[displacement, force]) => {
+                let older = reversal(depth.wrapping_sub(1));
+                let end = older.map_or(2.0 * origin - displacement, |[older, _]| *older);
+                let from = Reversal { displacement, force };
+                Branch { from, direction, end, slides: false, halves: 2.0, reversed: true }
+            }
+            None => Branch {
+                from: Reversal { displacement: origin, ..Branch::VIRGIN.from },
+                direction,
+                end: origin + direction * slip_displacement,
+                ..Branch::VIRGIN
+            },
+        }
+    }
+
     /// Where a displacement lies on the monotonic curve.
     #[inline(always)]
-    fn way(&self, slip_displacement: f64, displacement: f64) -> f64 {
+    pub fn way(&self, slip_displacement: f64, displacement: f64) -> f64 {
         let way = (displacement - self.from.displacement).abs() / self.halves;
         // One that reaches gross slip only by rounding ends where that begins.
         if way > slip_displacement { slip_displacement } else { way }
     }
 
     #[inline(always)]
-    fn responder<'c>(&self, contact: &'c Contact) -> BranchResponder<'c> {
+    pub fn responder<'c>(&self, contact: &'c Contact) -> BranchResponder<'c> {
         let towards = self.direction * self.halves;
         BranchResponder { branch: *self, towards, limit: contact.slip_force, curve: contact.responder() }
     }
@@ -532,7 +601,7 @@ impl Branch {
 
 /// Finds force and stiffness at displacements on a branch that does not slide.
 #[derive(Debug, Clone, Copy)]
-struct BranchResponder<'c> {
+pub(crate) struct BranchResponder<'c> {
     branch: Branch,
     /// Its direction, and twice that for a whole branch.
     towards: f64,
@@ -542,7 +611,7 @@ struct BranchResponder<'c> {
 
 impl BranchResponder<'_> {
     #[inline(always)]
-    fn at(&self, displacement: f64) -> Response {
+    pub fn at(&self, displacement: f64) -> Response {
         let BranchResponder { branch, towards, limit, curve } = self;
         let Response { force, stiffness } = curve.at(branch.way(curve.slip_displacement, displacement));
         let force = branch.from.force + towards * force;
@@ -640,23 +709,8 @@ impl Walk<'_> {
         }
         self.depth = course.depth;
         self.virgin = self.virgin.after(self.contact, &course, target);
-        let reversal = |depth: usize| workspace.reversals.as_chunks::<2>().0.get(depth.wrapping_sub(1));
-        let (origin, direction, slides) = (self.virgin.origin, course.direction, course.slides);
-        self.branch = match reversal(course.depth) {
-            Some(&[displacement, force]) => {
-                let older = reversal(course.depth.wrapping_sub(1));
-                let end = older.map_or(2.0 * origin - displacement, |[older, _]| *older);
-                let from = Reversal { displacement, force };
-                Branch { from, direction, end, slides, halves: 2.0, reversed: true }
-            }
-            None => Branch {
-                from: Reversal { displacement: origin, ..Branch::VIRGIN.from },
-                direction,
-                end: origin + direction * slip,
-                slides,
-                ..Branch::VIRGIN
-            },
-        };
+        let newest = Branch::newest(workspace.reversals, course.depth, self.virgin.origin, course.direction, slip);
+        self.branch = Branch { slides: course.slides, ..newest };
     }
 
     /// Keeps the point at a sample as the newest reversal.
@@ -763,35 +817,6 @@ impl Walk<'_> {
 }
 
 impl Workspace<'_> {
-    /// The displacement at the samples; whether it has odd harmonics only, on an even number of samples.
-    #[inline(always)]
-    fn sample(&mut self, coefficients: &[f64]) -> bool {
-        let half = self.half.max(1);
-        let folds = half < self.samples;
-        let Some((constant, pairs)) = coefficients.split_first() else { return false };
-        // Even and odd orders in the halves of the same memory, or all in one.
-        let (even, odd) = self.displacement.split_at_mut_checked(half).unwrap_or((&mut [], &mut []));
-        even.fill(*constant);
-        odd.fill(0.0);
-        let mut only_odd = *constant == 0.0;
-        let waves = self.columns.get(half..).unwrap_or(&[]).chunks_exact(2 * half);
-        for (order, (columns, &[a, b])) in (1..).zip(waves.zip(pairs.as_chunks::<2>().0)) {
-            if a == 0.0 && b == 0.0 {
-                continue;
-            }
-            let is_odd = order % 2 == 1;
-            only_odd &= is_odd;
-            let (cosines, sines) = columns.split_at_checked(half).unwrap_or((&[], &[]));
-            add_wave(if is_odd && folds { odd } else { even }, [a, b], cosines, sines);
-        }
-        if folds {
-            for (even, odd) in even.iter_mut().zip(odd.iter_mut()) {
-                (*even, *odd) = (*even + *odd, *even - *odd);
-            }
-        }
-        folds && only_odd
-    }
-
     /// The first of the samples farthest from 0, among so many.
     #[inline(always)]
     fn farthest(&self, among: usize) -> usize {
@@ -820,7 +845,7 @@ impl Workspace<'_> {
         let Some((constant, pairs)) = row.split_first_mut() else { return };
         *constant = 1.0;
         let mut odd = true;
-        let waves = columns.get(half..).unwrap_or(&[]).chunks_exact(2 * half);
+        let waves = columns.get(half..).unwrap_or(&[]).chunks_exact((2 * half).max(1));
         for ([cosine, sine], columns) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(waves) {
             let at = |place: usize| columns.get(place).copied().unwrap_or(0.0);
             let sign = if odd { sign } else { 1.0 };
@@ -881,33 +906,33 @@ impl Workspace<'_> {
             }
         }
     }
+}
 
-    /// Adds `Σ k φ ⊗ φ`: products of waves are waves of the sum and of the difference of their orders.
-    #[inline(always)]
-    fn add_stiffness_sums(&self, jacobian: &mut [f64]) {
-        let n = self.coefficients().max(1);
-        let mut columns = jacobian.chunks_exact_mut(n);
-        for q in 0..=self.harmonics {
-            let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
-                return;
-            };
-            let by_sine = by_sine.unwrap_or(&mut []);
-            for p in 0..=self.harmonics {
-                let (c_sum, s_sum) = self.stiffness_sums.of_order(p + q);
-                let (c_difference, s_difference) = self.stiffness_sums.of_order(p.abs_diff(q));
-                let s_difference = if p < q { -s_difference } else { s_difference };
-                let add = |column: &mut [f64], row: usize, value: f64| {
-                    if let Some(j) = column.get_mut(row) {
-                        *j += 0.5 * value;
-                    }
-                };
-                let cosine_row = (2 * p).saturating_sub(1);
-                add(by_cosine, cosine_row, c_difference + c_sum);
-                add(by_sine, cosine_row, s_sum - s_difference);
-                if p > 0 {
-                    add(by_cosine, 2 * p, s_sum + s_difference);
-                    add(by_sine, 2 * p, c_difference - c_sum);
+/// Adds `Σ k φ ⊗ φ`, from the sums of k with cos and sin of every order up to 2H: products of waves are waves of the sum and
+/// of the difference of their orders.
+#[inline(always)]
+pub(crate) fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> (f64, f64)) {
+    let mut columns = jacobian.chunks_exact_mut((2 * harmonics + 1).max(1));
+    for q in 0..=harmonics {
+        let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
+            return;
+        };
+        let by_sine = by_sine.unwrap_or(&mut []);
+        for p in 0..=harmonics {
+            let (c_sum, s_sum) = sums(p + q);
+            let (c_difference, s_difference) = sums(p.abs_diff(q));
+            let s_difference = if p < q { -s_difference } else { s_difference };
+            let add = |column: &mut [f64], row: usize, value: f64| {
+                if let Some(j) = column.get_mut(row) {
+                    *j += 0.5 * value;
                 }
+            };
+            let cosine_row = (2 * p).saturating_sub(1);
+            add(by_cosine, cosine_row, c_difference + c_sum);
+            add(by_sine, cosine_row, s_sum - s_difference);
+            if p > 0 {
+                add(by_cosine, 2 * p, s_sum + s_difference);
+                add(by_sine, 2 * p, c_difference - c_sum);
             }
         }
     }

@@ -33,6 +33,8 @@ mod cycle_rules;
 pub mod harmonic;
 pub mod harmonic_force;
 
+pub mod between_reversals;
+
 pub mod equivalent;
 
 mod elliptic;

@@ -1,4 +1,4 @@
-//! Two fixed rules on the unit interval: Gauss-Legendre for integrands that are smooth, tanh-sinh for those that are not at
+//! Fixed rules on the unit interval: Gauss-Legendre for integrands that are smooth, tanh-sinh for those that are not at
 //! the ends. Both have positive weights, so that a positive integrand is summed without cancellation.
 
 /// Nodes and weights of 16-point Gauss-Legendre on (0, 1).
@@ -20,6 +20,60 @@ pub(crate) const GAUSS: [(f64, f64); 16] = [
     (0.9722875115366163, 0.031126761969323947),
     (0.994700467495825, 0.013576229705877046),
 ];
+
+/// The largest of the [`gauss_rule`]s has four times as many nodes.
+pub(crate) const GAUSS_FOURS: usize = 8;
+
+/// Nodes and weights of Gauss-Legendre on (0, 1) with 4, 8, 12, ... nodes, one rule after the other.
+const GAUSS_RULES: [[[f64; 4]; 2]; GAUSS_FOURS * (GAUSS_FOURS + 1) / 2] = {
+    let mut table = [[[0.0; 4]; 2]; _];
+    let (mut fours, mut start) = (1, 0);
+    while fours <= GAUSS_FOURS {
+        let n = 4 * fours;
+        let mut i = 0;
+        while i < n {
+            // Newton's method for a root of P_n, from Tricomi's estimate; P_n and P_(n-1) by their recurrence.
+            let mut x = -cos(core::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5));
+            let (mut rounds, mut weight) = (0, 0.0);
+            while rounds < 6 {
+                let (mut before, mut p, mut k) = (1.0, x, 2);
+                while k <= n {
+                    let next = ((2 * k - 1) as f64 * x * p - (k - 1) as f64 * before) / k as f64;
+                    (before, p) = (p, next);
+                    k += 1;
+                }
+                let slope = n as f64 * (before - x * p) / (1.0 - x * x);
+                x -= p / slope;
+                weight = 1.0 / ((1.0 - x * x) * slope * slope);
+                rounds += 1;
+            }
+            table[start + i / 4][0][i % 4] = 0.5 * (1.0 + x);
+            table[start + i / 4][1][i % 4] = weight;
+            i += 1;
+        }
+        start += fours;
+        fours += 1;
+    }
+    table
+};
+
+/// cos for the compiler, of an angle from 0 to π.
+const fn cos(x: f64) -> f64 {
+    let square = x * x;
+    let (mut sum, mut n) = (1.0, 28);
+    while n > 0 {
+        sum = 1.0 - sum * square / (n * (n - 1)) as f64;
+        n -= 2;
+    }
+    sum
+}
+
+/// Nodes and weights of Gauss-Legendre on (0, 1) in fours: [nodes, weights]. From 1 to [`GAUSS_FOURS`] of them.
+#[inline(always)]
+pub(crate) fn gauss_rule(fours: usize) -> &'static [[[f64; 4]; 2]] {
+    let start = fours * fours.saturating_sub(1) / 2;
+    GAUSS_RULES.get(start..start + fours).unwrap_or(&[])
+}
 
 /// A node of the tanh-sinh rule, its distance from the end at 0 (accurate where it is small), and its weight.
 #[derive(Debug, Clone, Copy)]
@@ -85,6 +139,13 @@ mod tests {
     fn both_rules_integrate_what_they_are_for() {
         // Degree 31 exactly; 4e-16 is two units of rounding.
         assert!((gauss(1.0, |x| x.powi(31)) * 32.0 - 1.0).abs() < 4e-16);
+        for fours in 1..=GAUSS_FOURS {
+            for degree in [0, 1, 2, 8 * fours as i32 - 1] {
+                let nodes = gauss_rule(fours).iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights));
+                let sum: f64 = nodes.map(|(node, weight)| weight * node.powi(degree)).sum();
+                assert!((sum * f64::from(degree + 1) - 1.0).abs() < 4e-15, "{fours} {degree} {sum}");
+            }
+        }
         let root: f64 = TANH_SINH.iter().map(|n| n.weight * (n.from_0 * (1.0 - n.from_0)).sqrt()).sum();
         assert!((root * 8.0 / core::f64::consts::PI - 1.0).abs() < 2e-15, "{root}");
         let log: f64 = TANH_SINH.iter().map(|n| n.weight * n.from_0 * n.from_0.ln()).sum();

@@ -1,5 +1,6 @@
 //! What holds for every contact and every history: Coulomb's bound, dissipation, memory, symmetry, tangents.
 
+use microslip::between_reversals;
 use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
 use microslip::masing;
 use microslip::memory::{state_init, state_length};
@@ -252,6 +253,31 @@ proptest! {
         // The samples' error falls as their number squared.
         prop_assert!((force[1] / amplitude - stiffness.real()).abs() < 2e-4 * size);
         prop_assert!((-force[2] / amplitude - stiffness.imaginary()).abs() < 2e-4 * size);
+        prop_assert!((energy / stiffness.dissipated() - 1.0).abs() < 1e-9);
+    }
+
+    /// One wave of any amplitude and phase between reversals: the complex stiffness, and the energy.
+    #[test]
+    fn between_reversals_the_first_harmonic_is_exact(
+        contact in contact(), amplitude in 0.02..2.5f64, phase in 0.0..6.3f64, harmonics in 1..6usize,
+    ) {
+        let amplitude = amplitude * contact.slip_displacement;
+        let n = 2 * harmonics + 1;
+        let mut memory = vec![0.0; between_reversals::workspace_length(harmonics, 64)];
+        between_reversals::workspace_init(harmonics, 64, &mut memory).unwrap();
+        let mut workspace = between_reversals::Workspace::new(&mut memory).unwrap();
+        let (mut force, mut displacement, mut energy) = (vec![0.0; n], vec![0.0; n], 0.0);
+        let (sine, cosine) = phase.sin_cos();
+        (displacement[1], displacement[2]) = (amplitude * cosine, amplitude * sine);
+        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
+        between_reversals::harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
+        let stiffness = contact.complex_stiffness(amplitude).unwrap();
+        let real = (cosine * force[1] + sine * force[2]) / amplitude;
+        let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
+        // The worst is a turn just before gross slip: nodes of an analytic function, but a nearly singular one.
+        let size = contact.initial_stiffness;
+        prop_assert!((real - stiffness.real()).abs() < 1e-8 * size, "{} {}", real / size, stiffness.real() / size);
+        prop_assert!((imaginary - stiffness.imaginary()).abs() < 1e-8 * size);
         prop_assert!((energy / stiffness.dissipated() - 1.0).abs() < 1e-9);
     }
 

@@ -1,13 +1,15 @@
 //! One contact in cycles: loops, energy, complex stiffness, harmonic force, and the spring-sliders that stand in for it.
 
 use super::mslip_contact;
-use super::pointer::{self, check_length, input, output, set, status};
+use super::pointer::{self, HarmonicWorkspace, check_length, input, output, set, status};
 use super::widest::on_widest;
+use super::{MSLIP_BETWEEN_REVERSALS, MSLIP_EQUIDISTANT};
+use crate::between_reversals;
 use crate::contact::Contact;
 use crate::equivalent;
 use crate::error::Error;
 use crate::harmonic::{ComplexStiffness, check_amplitude};
-use crate::harmonic_force::{self, HarmonicOutput, Workspace};
+use crate::harmonic_force::{self, HarmonicOutput};
 use libc::size_t;
 
 /// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n equidistant instants of one
@@ -135,13 +137,15 @@ fn imaginary_and_slope(stiffness: &ComplexStiffness) -> (f64, f64) {
     on_widest!(ComplexStiffness::imaginary_and_slope, stiffness: &ComplexStiffness => (f64, f64))
 }
 
-/// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed.
+/// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed. The rule
+/// is MSLIP_EQUIDISTANT.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: size_t) -> size_t {
     harmonic_force::workspace_length(harmonics, samples)
 }
 
-/// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread.
+/// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread. The rule is
+/// MSLIP_EQUIDISTANT.
 ///
 /// Returns MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
@@ -165,25 +169,99 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     status(init())
 }
 
-pub(super) fn widest_harmonic_force(
+/// mslip_harmonic_workspace_length for a rule, MSLIP_EQUIDISTANT or MSLIP_BETWEEN_REVERSALS; 0 for another.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_harmonic_workspace_length_rule(harmonics: size_t, samples: size_t, rule: i32) -> size_t {
+    match rule {
+        MSLIP_EQUIDISTANT => harmonic_force::workspace_length(harmonics, samples),
+        MSLIP_BETWEEN_REVERSALS => between_reversals::workspace_length(harmonics, samples),
+        _ => 0,
+    }
+}
+
+/// mslip_harmonic_workspace_init for a rule. MSLIP_EQUIDISTANT samples a period at equal distances: its error falls with the
+/// square of their number. MSLIP_BETWEEN_REVERSALS finds the instants at which the displacement turns, a loop closes or gross
+/// slip starts, and puts about as many Gauss-Legendre nodes as there are samples between them, 8 at least between two: its
+/// error falls exponentially, and the energy is exact. It looks for the instants on a grid of `samples`, at least 16 H.
+///
+/// Returns MSLIP_BAD_RULE or the codes of mslip_harmonic_workspace_init.
+///
+/// # Safety
+/// `workspace` is NULL or points to workspace_length numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_harmonic_workspace_init_rule(
+    harmonics: size_t,
+    samples: size_t,
+    rule: i32,
+    workspace_length: size_t,
+    workspace: *mut f64,
+) -> i32 {
+    let init = || {
+        let workspace_init = match rule {
+            MSLIP_EQUIDISTANT => harmonic_force::workspace_init,
+            MSLIP_BETWEEN_REVERSALS => between_reversals::workspace_init,
+            _ => return Err(Error::BadRule),
+        };
+        check_length::<f64>(workspace_length)?;
+        if workspace.is_null() {
+            return Err(Error::NullPointer);
+        }
+        workspace_init(harmonics, samples, unsafe { output(workspace, workspace_length) }.unwrap_or(&mut []))
+    };
+    status(init())
+}
+
+fn widest_equidistant(
     contact: &Contact,
-    workspace: &mut Workspace,
+    workspace: &mut harmonic_force::Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     on_widest!(
         harmonic_force::harmonic_force,
         contact: &Contact,
-        workspace: &mut Workspace,
+        workspace: &mut harmonic_force::Workspace,
         displacement: &[f64],
         output: HarmonicOutput => Result<(), Error>
     )
 }
 
+fn widest_between_reversals(
+    contact: &Contact,
+    workspace: &mut between_reversals::Workspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    on_widest!(
+        between_reversals::harmonic_force,
+        contact: &Contact,
+        workspace: &mut between_reversals::Workspace,
+        displacement: &[f64],
+        output: HarmonicOutput => Result<(), Error>
+    )
+}
+
+/// The harmonic force by the workspace's rule.
+#[inline(always)]
+pub(super) fn widest_harmonic_force(
+    contact: &Contact,
+    workspace: &mut HarmonicWorkspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    match workspace {
+        HarmonicWorkspace::Equidistant(workspace) => widest_equidistant(contact, workspace, displacement, output),
+        HarmonicWorkspace::BetweenReversals(workspace) => {
+            widest_between_reversals(contact, workspace, displacement, output)
+        }
+    }
+}
+
 /// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
-/// state). Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\], force \[N\]; jacobian \[N/m\] is
+/// state), by the rule of the workspace. Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\], force \[N\]; jacobian \[N/m\] is
 /// d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
-/// at a turning point, or one is just at gross slip, it is that of one side. dissipated \[J\] is per period.
+/// at a turning point, or one is just at gross slip, it is that of one side. With MSLIP_BETWEEN_REVERSALS it is the rule applied
+/// to the exact derivative of the integrals, and as good as the force. dissipated \[J\] is per period.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///

@@ -3,7 +3,7 @@
 use super::{MSLIP_OK, mslip_contact};
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::harmonic_force::{self, Workspace};
+use crate::{between_reversals, harmonic_force};
 use core::slice;
 
 pub fn status(result: Result<(), Error>) -> i32 {
@@ -61,15 +61,39 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
     }
 }
 
+/// A workspace of either rule.
+pub enum HarmonicWorkspace<'a> {
+    Equidistant(harmonic_force::Workspace<'a>),
+    BetweenReversals(between_reversals::Workspace<'a>),
+}
+
+impl HarmonicWorkspace<'_> {
+    /// 2H + 1.
+    #[inline(always)]
+    pub fn coefficients(&self) -> usize {
+        match self {
+            HarmonicWorkspace::Equidistant(workspace) => workspace.coefficients(),
+            HarmonicWorkspace::BetweenReversals(workspace) => workspace.coefficients(),
+        }
+    }
+}
+
 /// A workspace that was initialised.
 ///
 /// # Safety
 /// `pointer` is NULL or points to three numbers at least, and to a whole workspace where these begin one.
-pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
+#[inline(always)]
+pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<HarmonicWorkspace<'a>, Error> {
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
     let header = unsafe { pointer.cast::<[f64; 3]>().read() };
-    let extent = harmonic_force::workspace_extent(&header)?;
-    Workspace::new(unsafe { output(pointer, extent) }.ok_or(Error::BadWorkspace)?)
+    let whole = |extent: usize| unsafe { output(pointer, extent) }.ok_or(Error::BadWorkspace);
+    Ok(match between_reversals::workspace_extent(&header) {
+        Some(extent) => HarmonicWorkspace::BetweenReversals(between_reversals::Workspace::new(whole(extent?)?)?),
+        None => {
+            let extent = harmonic_force::workspace_extent(&header)?;
+            HarmonicWorkspace::Equidistant(harmonic_force::Workspace::new(whole(extent)?)?)
+        }
+    })
 }
