@@ -248,10 +248,10 @@ impl Responder<'_> {
     fn elliptic_at(&self, displacement: f64, left: f64) -> Response {
         let size = (left * self.rest_scale).max(0.0).sqrt();
         let lost = displacement * self.rest_scale / (1.0 + size);
-        Response {
-            force: self.slip_force * (lost * (1.0 + size * (1.0 + size))),
-            stiffness: self.initial_stiffness * size,
-        }
+        // Near gross slip rounding must not come out above mu N.
+        let load = lost * (1.0 + size * (1.0 + size));
+        let force = self.slip_force * if load > 1.0 { 1.0 } else { load };
+        Response { force, stiffness: self.initial_stiffness * size }
     }
 }
 
