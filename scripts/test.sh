@@ -181,6 +181,7 @@ for kinds in '' "$wide"; do
     step "Fortran: $kinds" fortran_tests "$kinds"
     step "Fortran: floating-point traps $kinds" fortran_tests "$traps $kinds"
 done
+step 'benchmark: its own check' bench/check.sh "$prefix"
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
 
 fortran_against_rust() {
