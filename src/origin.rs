@@ -85,7 +85,6 @@ const fn factors(numerator: f64, added: &[usize]) -> Terms {
     rows(&terms)
 }
 
-const CURVATURE: Terms = factors(1.0, &[]);
 const COMPLIANCE: Terms = factors(1.0, &[1]);
 const APPROACH: Terms = factors(1.0, &[1, 2]);
 const DISSIPATION: Terms = factors(4.0, &[2, 3]);
@@ -140,12 +139,26 @@ impl Origin {
         series::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
     }
 
+    #[inline(always)]
     pub fn sums(&self, tau: f64) -> NearOrigin {
+        // λ/τ and its derivative give λ and h''.
+        let (compliance, slope) = series::value_and_slope(&self.terms(&COMPLIANCE), tau);
+        let (approach, _) = series::value_and_slope(&self.terms(&APPROACH), tau);
         NearOrigin {
-            approach: self.sum(&APPROACH, tau) * tau * tau,
-            compliance: self.sum(&COMPLIANCE, tau) * tau,
-            curvature: self.sum(&CURVATURE, tau),
+            approach: approach * tau * tau,
+            compliance: compliance * tau,
+            curvature: compliance + slope * tau,
         }
+    }
+
+    /// The coefficients c_m f_m.
+    #[inline(always)]
+    fn terms(&self, factors: &Terms) -> Terms {
+        let mut terms = self.curvature;
+        for (row, factors) in terms.iter_mut().zip(factors) {
+            row.iter_mut().zip(factors).for_each(|(term, factor)| *term *= factor);
+        }
+        terms
     }
 
     /// e at τ.
@@ -161,11 +174,7 @@ impl Origin {
     /// Both at once.
     #[inline(always)]
     pub fn dissipation_and_slope(&self, tau: f64) -> (f64, f64) {
-        let mut terms = self.curvature;
-        for (row, factors) in terms.iter_mut().zip(&DISSIPATION) {
-            row.iter_mut().zip(factors).for_each(|(term, factor)| *term *= factor);
-        }
-        let (sum, slope) = series::value_and_slope(&terms, tau);
+        let (sum, slope) = series::value_and_slope(&self.terms(&DISSIPATION), tau);
         let square = tau * tau;
         (sum * tau * square, (3.0 * sum + slope * tau) * square)
     }

@@ -21,13 +21,13 @@ pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Ro
 #[inline]
 pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f64) -> f64 {
     let square = x * x;
-    let step = square * square;
-    let [zero, one, two, three] = rows.rev().fold([0.0; 4], |sums, row| {
-        let mut next = row;
-        next.iter_mut().zip(sums).for_each(|(next, sum)| *next += sum * step);
-        next
+    let step = f64x2::splat(square * square);
+    let zero = f64x2::splat(0.0);
+    let (low, high) = rows.rev().fold((zero, zero), |(low, high), [zero, one, two, three]| {
+        (low * step + f64x2::new([zero, one]), high * step + f64x2::new([two, three]))
     });
-    (zero + one * x) + (two + three * x) * square
+    let [even, odd] = (low + high * f64x2::splat(square)).to_array();
+    even + odd * x
 }
 
 /// A polynomial and its derivative at x: in every row the even and the odd power are one pair.
