@@ -2,24 +2,23 @@
 
 use crate::series::{Rows, rows};
 
-/// Points, and coefficients.
-pub(crate) const POINTS: usize = 20;
+/// Coefficients that a polynomial has, and points of interpolation at most.
+pub(crate) const TERMS: usize = 20;
 
 /// A polynomial in rows of four coefficients.
-pub(crate) type Polynomial = Rows<{ POINTS / 4 }>;
+pub(crate) type Polynomial = Rows<{ TERMS / 4 }>;
 
-/// cos(π m/40) for whole m: by series on the first eighth of the circle, by symmetry elsewhere.
-const fn cosine(m: usize) -> f64 {
-    const QUARTER: usize = POINTS;
-    let m = m % (4 * QUARTER);
-    if m > 2 * QUARTER {
-        return cosine(4 * QUARTER - m);
+/// cos(m π/2/quarter) for whole m: by series on the first eighth of the circle, by symmetry elsewhere.
+const fn cosine(m: usize, quarter: usize) -> f64 {
+    let m = m % (4 * quarter);
+    if m > 2 * quarter {
+        return cosine(4 * quarter - m, quarter);
     }
-    if m > QUARTER {
-        return -cosine(2 * QUARTER - m);
+    if m > quarter {
+        return -cosine(2 * quarter - m, quarter);
     }
-    let (from_axis, first) = if 2 * m <= QUARTER { (m, 0) } else { (QUARTER - m, 1) };
-    let angle = core::f64::consts::FRAC_PI_2 * from_axis as f64 / QUARTER as f64;
+    let (from_axis, first) = if 2 * m <= quarter { (m, 0) } else { (quarter - m, 1) };
+    let angle = core::f64::consts::FRAC_PI_2 * from_axis as f64 / quarter as f64;
     // Σ (-1)ⁿ x²ⁿ⁺ᶠ/(2n+f)!, f = 0 the cosine, f = 1 the sine.
     let mut sum = 0.0;
     let mut n = 10;
@@ -31,40 +30,14 @@ const fn cosine(m: usize) -> f64 {
     if first == 0 { sum } else { angle * sum }
 }
 
-/// The points on (-1, 1), falling.
-pub(crate) static POINT: [f64; POINTS] = {
-    let mut table = [0.0; POINTS];
-    let mut j = 0;
-    while j < POINTS {
-        table[j] = cosine(2 * j + 1);
-        j += 1;
-    }
-    table
-};
-
-/// T_n at point j, at `[j][n]`.
-static AT_POINTS: [[f64; POINTS]; POINTS] = {
-    let mut table = [[0.0; POINTS]; POINTS];
-    let mut j = 0;
-    while j < POINTS {
-        let mut n = 0;
-        while n < POINTS {
-            table[j][n] = cosine(n * (2 * j + 1));
-            n += 1;
-        }
-        j += 1;
-    }
-    table
-};
-
 /// Powers of z in T_n(shift + scale z), at `[n][power]`: whole numbers below 2⁵³.
-const fn powers_in(shift: f64, scale: f64) -> [[f64; POINTS]; POINTS] {
-    let mut table = [[0.0; POINTS]; POINTS];
+const fn powers_in(shift: f64, scale: f64) -> [[f64; TERMS]; TERMS] {
+    let mut table = [[0.0; TERMS]; TERMS];
     table[0][0] = 1.0;
     table[1][0] = shift;
     table[1][1] = scale;
     let mut n = 2;
-    while n < POINTS {
+    while n < TERMS {
         let mut k = 0;
         while k <= n {
             let below = if k > 0 { table[n - 1][k - 1] } else { 0.0 };
@@ -77,48 +50,74 @@ const fn powers_in(shift: f64, scale: f64) -> [[f64; POINTS]; POINTS] {
 }
 
 /// Powers of z on (-1, 1).
-static AROUND_MIDDLE: [[f64; POINTS]; POINTS] = powers_in(0.0, 1.0);
+static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
 /// Powers of (1+z)/2, from 0 to 1.
-static FROM_END: [[f64; POINTS]; POINTS] = powers_in(-1.0, 2.0);
+static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
 
 /// A function by its coefficients of T_0, T_1, ...
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Interpolant([f64; POINTS]);
+pub(crate) struct Interpolant<const N: usize>([f64; N]);
 
-impl Interpolant {
+impl<const N: usize> Interpolant<N> {
+    /// The points on (-1, 1), falling.
+    pub const POINTS: [f64; N] = {
+        let mut table = [0.0; N];
+        let mut j = 0;
+        while j < N {
+            table[j] = cosine(2 * j + 1, N);
+            j += 1;
+        }
+        table
+    };
+
+    /// T_n at point j, at `[j][n]`.
+    const AT_POINTS: [[f64; N]; N] = {
+        let mut table = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            let mut n = 0;
+            while n < N {
+                table[j][n] = cosine(n * (2 * j + 1), N);
+                n += 1;
+            }
+            j += 1;
+        }
+        table
+    };
+
     /// Through a function's values at the points.
-    pub fn through(value: impl FnMut(f64) -> f64) -> Interpolant {
-        let mut coefficients = [0.0; POINTS];
-        for (value, at_point) in POINT.map(value).iter().zip(&AT_POINTS) {
+    pub fn through(value: impl FnMut(f64) -> f64) -> Interpolant<N> {
+        let mut coefficients = [0.0; N];
+        for (value, at_point) in Self::POINTS.map(value).iter().zip(const { &Self::AT_POINTS }) {
             coefficients.iter_mut().zip(at_point).for_each(|(sum, t)| *sum += value * t);
         }
-        coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / POINTS as f64);
+        coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
         if let Some(first) = coefficients.first_mut() {
             *first *= 0.5;
         }
         Interpolant(coefficients)
     }
 
-    /// Whether the last two coefficients are rounding.
-    pub fn is_resolved(&self) -> bool {
-        let &[first, .., last_but_one, last] = &self.0;
-        last_but_one.abs().max(last.abs()) <= 1e-15 * first.abs()
+    /// Whether the last two coefficients are rounding, or as small as is asked for.
+    pub fn is_resolved(&self, tolerance: f64) -> bool {
+        let &[first, .., last_but_one, last] = self.0.as_slice() else { return false };
+        last_but_one.abs().max(last.abs()) <= tolerance * first.abs()
     }
 
     /// Coefficients of the powers of z from those of the first `used` Chebyshev polynomials.
-    fn powers(&self, table: &[[f64; POINTS]; POINTS], used: usize) -> [f64; POINTS] {
-        let mut powers = [0.0; POINTS];
+    fn powers(&self, table: &[[f64; TERMS]; TERMS], used: usize) -> [f64; TERMS] {
+        let mut powers = [0.0; TERMS];
         for (coefficient, row) in self.0.iter().zip(table).take(used) {
             powers.iter_mut().zip(row).for_each(|(sum, power)| *sum += coefficient * power);
         }
         powers
     }
 
-    /// The integral over z from the middle of (-1, 1), as a polynomial in z. There is no room for what the last coefficient
-    /// would add.
+    /// The integral over z from the middle of (-1, 1), as a polynomial in z. There is no room for what the twentieth
+    /// coefficient would add.
     pub fn integral(&self) -> Polynomial {
-        let powers = self.powers(&AROUND_MIDDLE, POINTS - 1);
-        let mut integral = [0.0; POINTS];
+        let powers = self.powers(&AROUND_MIDDLE, TERMS - 1);
+        let mut integral = [0.0; TERMS];
         for ((place, power), n) in integral.iter_mut().skip(1).zip(powers).zip(1..) {
             *place = power / n as f64;
         }
@@ -126,8 +125,8 @@ impl Interpolant {
     }
 
     /// As a polynomial in y = (1+z)/2.
-    pub fn powers_from_end(&self) -> [f64; POINTS] {
-        self.powers(&FROM_END, POINTS)
+    pub fn powers_from_end(&self) -> [f64; TERMS] {
+        self.powers(&FROM_END, TERMS)
     }
 
     /// The mean over (0, y), as a polynomial in y = (1+z)/2.
@@ -145,11 +144,10 @@ mod tests {
     use super::*;
     use crate::series::{sum, value_and_slope};
 
-    #[test]
-    fn points_and_values_are_cosines() {
-        for (j, row) in AT_POINTS.iter().enumerate() {
+    fn values_are_cosines<const N: usize>() {
+        for (j, row) in Interpolant::<N>::AT_POINTS.iter().enumerate() {
             for (n, value) in row.iter().enumerate() {
-                let exact = (core::f64::consts::PI * (n * (2 * j + 1)) as f64 / (2 * POINTS) as f64).cos();
+                let exact = (core::f64::consts::PI * (n * (2 * j + 1)) as f64 / (2 * N) as f64).cos();
                 // The argument here is rounded, by up to 60 times a unit of rounding.
                 assert!((value - exact).abs() < 2e-14);
             }
@@ -159,9 +157,15 @@ mod tests {
     }
 
     #[test]
+    fn points_and_values_are_cosines() {
+        values_are_cosines::<16>();
+        values_are_cosines::<20>();
+    }
+
+    #[test]
     fn an_exponential_is_resolved_integrated_and_averaged() {
-        let interpolant = Interpolant::through(f64::exp);
-        assert!(interpolant.is_resolved());
+        let interpolant = Interpolant::<20>::through(f64::exp);
+        assert!(interpolant.is_resolved(1e-15));
         for z in [-1.0, -0.3, 0.0, 0.77, 1.0_f64] {
             let (integral, slope) = value_and_slope(&interpolant.integral(), z);
             // A few units of rounding of e; the derivative weighs twenty terms by up to nineteen.
@@ -172,6 +176,6 @@ mod tests {
             let exact = if y > 0.0 { 0.5 * (z.exp() - (-1f64).exp()) / y } else { (-1f64).exp() };
             assert!((mean / exact - 1.0).abs() < 2e-15, "{z}");
         }
-        assert!(!Interpolant::through(f64::abs).is_resolved());
+        assert!(!Interpolant::<20>::through(f64::abs).is_resolved(1e-15));
     }
 }

@@ -7,7 +7,7 @@
 //! the same few terms. What is interpolated is the tangent stiffness, of which the force is the integral: both keep their
 //! digits. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
 
-use crate::chebyshev::{Interpolant, POINT, POINTS, Polynomial};
+use crate::chebyshev::{Interpolant, Polynomial, TERMS};
 use crate::family::{Member, Split};
 use crate::indentation::TINY;
 use crate::series::{rows, value_and_slope};
@@ -20,10 +20,10 @@ const OCTAVES: usize = 5;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: what K' makes of the power n of the secant stiffness.
 static CYCLE_WEIGHTS: Polynomial = {
-    let mut weights = [1.0; POINTS];
+    let mut weights = [1.0; TERMS];
     let mut integral = 1.0;
     let mut n = 1;
-    while n < POINTS {
+    while n < TERMS {
         integral *= (n as f64 + 0.5) / (n as f64 + 2.0);
         weights[n] = (n as f64 + 1.0) * integral;
         n += 1;
@@ -50,33 +50,29 @@ impl Inverse {
     pub fn new(slip_approach: f64, compliance: f64, mut at_approach: impl FnMut(Split) -> Member) -> Inverse {
         let (first, rest) = (FROM_ORIGIN * slip_approach, (1.0 - FROM_ORIGIN) * slip_approach);
         let stiffness = |member: &Member| 1.0 / (compliance + member.excess);
-        let from_origin = Interpolant::through(|z| {
+        let from_origin = Interpolant::<TERMS>::through(|z| {
             let lost = 0.5 * (1.0 + z) * first;
             compliance * stiffness(&at_approach(Split { lost, rest: slip_approach - lost }))
         });
-        let mut resolved = from_origin.is_resolved();
+        let mut resolved = from_origin.is_resolved(1e-15);
         let mut octaves = [[[0.0; 4]; _]; OCTAVES];
         let mut scale = 0.25;
-        for octave in &mut octaves {
-            // The load at each point besides its rate: their mean places the integral.
-            let mut loads = [0.0; POINTS];
-            let mut places = loads.iter_mut();
-            let rate = Interpolant::through(|z| {
+        for (j, octave) in octaves.iter_mut().enumerate() {
+            let mut at_rate = |z: f64| {
                 let v = scale * (3.0 + z);
                 let left = rest * v * v;
                 let member = at_approach(Split { lost: slip_approach - left, rest: left });
-                if let Some(place) = places.next() {
-                    *place = member.load.rest;
-                }
-                2.0 * rest * scale * v * stiffness(&member)
-            });
-            resolved &= rate.is_resolved();
-            *octave = rate.integral();
-            let off = POINT.iter().zip(loads).map(|(&z, load)| load - value_and_slope(octave, z).0);
-            let constant = off.sum::<f64>() / POINTS as f64;
-            if let Some([first, ..]) = octave.first_mut() {
-                *first = constant;
-            }
+                (member.load.rest, 2.0 * rest * scale * v * stiffness(&member))
+            };
+            // What the stiffness can be known to grows by four from octave to octave: the later ones need fewer points.
+            let tolerance = 1e-15 * (1.0 / (16.0 * scale * scale));
+            let (polynomial, fine) = if j < 2 {
+                interpolate::<TERMS>(&mut at_rate, tolerance)
+            } else {
+                interpolate::<16>(&mut at_rate, tolerance)
+            };
+            *octave = polynomial;
+            resolved &= fine;
             scale *= 0.5;
         }
         let mut origin = from_origin.mean_from_end();
@@ -114,6 +110,27 @@ impl Inverse {
         let (rest, slope) = value_and_slope(octave, 4.0 * (scale * v) - 3.0);
         (self.resolved > 0.0).then_some((rest, 2.0 * scale * slope / v))
     }
+}
+
+/// The integral of a rate, placed by its own values, which come with it; and whether the rate is resolved.
+fn interpolate<const N: usize>(mut at: impl FnMut(f64) -> (f64, f64), tolerance: f64) -> (Polynomial, bool) {
+    let mut values = [0.0; N];
+    let mut places = values.iter_mut();
+    let rate = Interpolant::<N>::through(|z| {
+        let (value, rate) = at(z);
+        if let Some(place) = places.next() {
+            *place = value;
+        }
+        rate
+    });
+    let mut integral = rate.integral();
+    let points = const { &Interpolant::<N>::POINTS };
+    let off = points.iter().zip(values).map(|(&z, value)| value - value_and_slope(&integral, z).0);
+    let constant = off.sum::<f64>() / N as f64;
+    if let Some([first, ..]) = integral.first_mut() {
+        *first = constant;
+    }
+    (integral, rate.is_resolved(tolerance))
 }
 
 #[cfg(test)]

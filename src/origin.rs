@@ -144,11 +144,7 @@ impl Origin {
         // λ/τ and its derivative give λ and h''.
         let (compliance, slope) = series::value_and_slope(&self.terms(&COMPLIANCE), tau);
         let (approach, _) = series::value_and_slope(&self.terms(&APPROACH), tau);
-        NearOrigin {
-            approach: approach * tau * tau,
-            compliance: compliance * tau,
-            curvature: compliance + slope * tau,
-        }
+        NearOrigin { approach: approach * tau * tau, compliance: compliance * tau, curvature: compliance + slope * tau }
     }
 
     /// The coefficients c_m f_m.

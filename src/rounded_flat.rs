@@ -259,7 +259,7 @@ impl ContactFamily for RoundedFlat {
 fn curvature(contact: &Indentation, load: f64) -> [f64; KEPT] {
     let mut inner = *contact;
     let mut scale = 1.0;
-    let interpolant = Interpolant::through(|z| {
+    let interpolant = Interpolant::<KEPT>::through(|z| {
         inner = Indentation::near_load(inner, (0.75 - 0.25 * z) * load);
         load / (4.0 * inner.half_width * inner.half_width * inner.psi)
     });
