@@ -8,8 +8,8 @@ shape = 0.9
 amplitude = 0.95
 
 set xlabel 'error of the first harmonic, relative'
-set xrange [1e-11:1]
-set xtics 1e-10, 1e2, 1
+set xrange [1e-17:1]
+set xtics 1e-16, 1e4, 1
 set yrange [30:1e8]
 
 has_rule = int(system(sprintf("grep -c 'between reversals' %s/bench.csv || true", results))) > 0
