@@ -12,7 +12,7 @@
 
 static_assert(std::is_trivially_copyable<mslip_contact>::value, "contacts may be stored and sent");
 static_assert(std::is_standard_layout<mslip_contact>::value, "contacts are plain data");
-static_assert(sizeof(mslip_contact) == 1024 && sizeof(mslip_parameters) == 80, "the layout is fixed");
+static_assert(sizeof(mslip_contact) == 1992 && sizeof(mslip_parameters) == 80, "the layout is fixed");
 
 namespace {
 

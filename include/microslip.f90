@@ -40,7 +40,7 @@ module microslip
   integer, parameter, public :: mslip_int = c_int32_t  !! Kind of status codes, flags and choices.
   integer, parameter, public :: mslip_size = c_size_t  !! Kind of counts and lengths.
 
-  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 1
+  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 2
     !! Version of the C interface that this module was written for (`MSLIP_ABI_VERSION` of the C header; Fortran does not
     !! tell that name from the function `mslip_abi_version`, with which it is to be compared).
 

@@ -12,7 +12,7 @@
 #define MSLIP_VERSION_PATCH 0
 
 // Raised whenever a name, a meaning or a size of this interface changes.
-#define MSLIP_ABI_VERSION 1
+#define MSLIP_ABI_VERSION 2
 
 // Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
 #define MSLIP_CENTRE_POINT 0

@@ -24,7 +24,7 @@ use crate::parameters::{EllipticParameters, Parameters};
 use libc::c_char;
 
 /// Raised whenever a name, a meaning or a size of this interface changes.
-pub const MSLIP_ABI_VERSION: i32 = 1;
+pub const MSLIP_ABI_VERSION: i32 = 2;
 
 /// Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
 pub const MSLIP_CENTRE_POINT: i32 = 0;
