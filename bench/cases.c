@@ -49,6 +49,30 @@ static sliders bank_fitted(const mslip_contact *contact, size_t n)
     return bank;
 }
 
+/* As banks are made by hand: corners at equal steps of the displacement, on the curve. */
+static sliders bank_even(const mslip_contact *contact, size_t n)
+{
+    double *corner = malloc((n + 1) * sizeof *corner), *force = malloc((n + 1) * sizeof *force);
+    double *stiffness = malloc(n * sizeof *stiffness), *slip = malloc(n * sizeof *slip);
+    for (size_t k = 0; k <= n; ++k) {
+        corner[k] = contact->slip_displacement * (double)k / (double)n;
+    }
+    succeed(mslip_monotonic_force(contact, n + 1, corner, force, NULL, NULL));
+    for (size_t k = 0; k < n; ++k) {
+        /* Slopes of the sides before and after a corner. */
+        const double before = (force[k + 1] - force[k]) / (corner[k + 1] - corner[k]);
+        const double after = k + 1 < n ? (force[k + 2] - force[k + 1]) / (corner[k + 2] - corner[k + 1]) : 0.0;
+        stiffness[k] = before - after;
+        slip[k] = stiffness[k] * corner[k + 1];
+    }
+    const sliders bank = sliders_of(n, stiffness, slip);
+    free(corner);
+    free(force);
+    free(stiffness);
+    free(slip);
+    return bank;
+}
+
 subject subject_of(double shape, int most_sliders)
 {
     subject s = { .shape = shape, .parameters = parameters_of(shape) };
@@ -57,6 +81,7 @@ subject subject_of(double shape, int most_sliders)
     s.truth = reference_of(&s.parameters);
     for (int k = 0, n = 1; k < BANKS && n <= most_sliders; ++k, n *= 4) {
         s.bank[k] = bank_fitted(&s.contact, (size_t)n);
+        s.even[k] = bank_even(&s.contact, (size_t)n);
     }
     return s;
 }
@@ -66,16 +91,27 @@ void subject_free(subject *s)
     free(s->truth);
     for (int k = 0; k < BANKS; ++k) {
         sliders_free(&s->bank[k]);
+        sliders_free(&s->even[k]);
     }
+}
+
+static const sliders *of_number(const sliders *banks, int n)
+{
+    int k = 0;
+    while (k < BANKS - 1 && banks[k].n < (size_t)n) {
+        ++k;
+    }
+    return &banks[k];
 }
 
 const sliders *bank_of(const subject *s, int n)
 {
-    int k = 0;
-    while (k < BANKS - 1 && s->bank[k].n < (size_t)n) {
-        ++k;
-    }
-    return &s->bank[k];
+    return of_number(s->bank, n);
+}
+
+const sliders *even_bank_of(const subject *s, int n)
+{
+    return of_number(s->even, n);
 }
 
 sliders jenkins_of(const subject *s, double amplitude)

@@ -19,6 +19,7 @@ typedef struct subject {
     law law;
     reference *truth;
     sliders bank[BANKS]; /* of 1, 4, 16, ... sliders: the best there are for the contact */
+    sliders even[BANKS]; /* as many, at equal steps of the displacement, as banks are made by hand */
 } subject;
 
 mslip_parameters parameters_of(double shape);
@@ -27,6 +28,7 @@ void subject_free(subject *s);
 
 /* Its bank of n = 1, 4, 16, ... sliders; one slider: initial stiffness and slip force. */
 const sliders *bank_of(const subject *s, int n);
+const sliders *even_bank_of(const subject *s, int n);
 /* The slider with the contact's K' and K'' at an amplitude. */
 sliders jenkins_of(const subject *s, double amplitude);
 

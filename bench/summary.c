@@ -133,9 +133,9 @@ void summary_write(FILE *file)
     static const struct { double level, target; const char *text, *moonshot; } equal[] = {
         { 1e-4, 3.0, ">= 3", "10" }, { 1e-8, 100.0, ">= 100", "300" },
     };
-    static const char *const methods[] = { "sliders", "sliders by reversals" };
+    static const char *const methods[] = { "sliders evenly spaced", "sliders", "sliders by reversals" };
     for (int k = 0; k < 2; ++k) {
-        for (int m = 0; m < 2; ++m) {
+        for (int m = 0; m < 3; ++m) {
             for (int jacobian = 0; jacobian <= 1; ++jacobian) {
                 sample s = { .n = 0 };
                 for (const entry *e = entries; e < entries + entry_count; ++e) {

@@ -138,6 +138,9 @@ void task_harmonic(const subject *s, const extent *x, int harmonics)
                     add(&c, "sliders", j, n);
                     j.method = sliders_by_reversals;
                     add(&c, "sliders by reversals", j, n);
+                    j.sliders = even_bank_of(s, n);
+                    j.method = sliders_stepped;
+                    add(&c, "sliders evenly spaced", j, n);
                 }
             }
         }
