@@ -253,6 +253,11 @@ static void count_harmonic_force(void)
     COUNT("harmonic_force.5x128.odd_all", mslip_harmonic_force(&flat, w5, odd, out[0], out[1], out[2]));
     COUNT("harmonic_force.5x128.slip", mslip_harmonic_force(&flat, w5, far, out[0], out[1], out[2]));
     COUNT("harmonic_force.5x128.open", mslip_harmonic_force(&open_contact, w5, even, out[0], out[1], out[2]));
+
+    const size_t length = mslip_harmonic_workspace_length_rule(5, 128, MSLIP_BETWEEN_REVERSALS);
+    double *between = malloc(length * sizeof *between);
+    check("workspace", mslip_harmonic_workspace_init_rule(5, 128, MSLIP_BETWEEN_REVERSALS, length, between));
+    COUNT_HARMONIC("harmonic_force.5x128.between", between, even);
     COUNT("harmonic_workspace_init.5x128",
           mslip_harmonic_workspace_init(5, 128, mslip_harmonic_workspace_length(5, 128), w5));
 
@@ -264,7 +269,7 @@ static void count_harmonic_force(void)
     COUNT("samples.1x64.points", mslip_monotonic_force(&flat, 64, half_way, out[0], NULL, NULL));
     COUNT("samples.5x128.points", mslip_monotonic_force(&flat, 128, half_way, out[0], NULL, NULL));
     COUNT("samples.9x256.points", mslip_monotonic_force(&flat, 256, half_way, out[0], NULL, NULL));
-    free(w1), free(w5), free(w9);
+    free(w1), free(w5), free(w9), free(between);
 }
 
 static void count_interfaces(void)
