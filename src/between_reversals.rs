@@ -356,6 +356,15 @@ impl Workspace<'_> {
         let half = self.rate.len() / 2;
         let mirrored = sample(self.columns, half, self.rate, self.row) && motion.constant == 0.0;
         let points = if mirrored { half } else { 2 * half };
+        // A rate of 0 counts as positive. At the seam of a mirrored half it is minus itself on the other side: with a rate of
+        // exactly 0 there, the other half's has to count as negative where this half ends positive.
+        if mirrored
+            && self.rate.first() == Some(&0.0)
+            && half.checked_sub(1).and_then(|last| self.rate.get(last)).is_some_and(|rate| *rate > 0.0)
+            && let Some(opposite) = self.rate.get_mut(half)
+        {
+            *opposite = -f64::MIN_POSITIVE;
+        }
         let step = PI / half.max(1) as f64;
         let mut turns = Turns { places: self.turns, count: 0, motion };
         let (Some(&last), Some(&first)) = (self.rate.last(), self.rate.first()) else { return (0, false) };
@@ -1002,6 +1011,30 @@ mod tests {
                 let turned = all(&contact, 128, &turn(&motion, 0.77));
                 // Instants known to the cube root of rounding.
                 assert!(off(&turned.0, &turn(&one.0, 0.77)) < 1e-9 * contact.slip_force);
+            }
+        }
+    }
+
+    /// A cosine that starts upwards turns exactly at the seam of the half that is looked at.
+    #[test]
+    fn cosines_turn_where_the_period_begins() {
+        for contact in contacts() {
+            for size in [0.3, 2.0].map(|part| part * contact.slip_displacement) {
+                let shapes = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.05], [0.0, 0.0, 1.0], [1.0, 0.0, -0.3]];
+                for shape in shapes {
+                    let motion = |sign: f64| {
+                        let [one, two, three] = shape.map(|part| sign * size * part);
+                        [0.0, one, 0.0, two, 0.0, three, 0.0]
+                    };
+                    let (up, down) = (all(&contact, 64, &motion(-1.0)), all(&contact, 64, &motion(1.0)));
+                    for (one, two) in up.0.iter().zip(&down.0) {
+                        assert!((one + two).abs() < 1e-12 * contact.slip_force, "{shape:?} {one} {two}");
+                    }
+                    for (one, two) in up.1.iter().zip(&down.1) {
+                        assert!((one - two).abs() < 1e-9 * contact.initial_stiffness, "{shape:?}");
+                    }
+                    assert!(down.2 > 0.0 && (up.2 / down.2 - 1.0).abs() < 1e-12, "{shape:?}");
+                }
             }
         }
     }

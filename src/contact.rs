@@ -202,12 +202,13 @@ impl Contact {
         &self.slip_nodes
     }
 
-    /// Whether the curve, followed back beyond its origin, comes to the point where its compliance vanishes within 3/4 of the
-    /// displacement of gross slip: to first order at `-Λ²/(2 h'')`.
+    /// Whether the curve, followed back beyond its origin, comes to the point where its compliance vanishes within that share
+    /// of the displacement of gross slip: to first order at `-Λ²/(2 h'')`.
     #[inline(always)]
-    pub(crate) fn bends_sharply(&self) -> bool {
+    pub(crate) fn bends_within(&self, share: f64) -> bool {
         let origin = self.family().origin();
-        origin.compliance * origin.compliance < 1.5 * origin.first_curvature() * self.family().slip_approach()
+        let bend = 2.0 * share * origin.first_curvature() * self.family().slip_approach();
+        origin.compliance * origin.compliance < bend
     }
 
     /// 1 over the displacement of gross slip; 0 without friction.

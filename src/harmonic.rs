@@ -18,8 +18,8 @@
 //! - Up to near gross slip few nodes do, in a variable that knows where k is singular (`cycle_rules`).
 //! - In gross slip the nodes are the same for all amplitudes, and kept with the contact.
 //! - Between, within a few per cent of gross slip, and for a curve that bends sharply at its origin, the stick zone's size is
-//!   the variable and the tanh-sinh rule takes the roots at both ends; up to τ = 1/2 the series at the origin gives the
-//!   integrand, and with `τ = τ0 sin²(φ/2)` the midpoint rule integrates it.
+//!   the variable and the tanh-sinh rule takes the roots at both ends, and what else is singular near them; up to τ = 1/2 the
+//!   variable is τ.
 //!
 //! For these in microslip k falls from stick zone to stick zone,
 //!
@@ -34,6 +34,7 @@ use crate::curve::check_displacement;
 use crate::cycle_rules::{GAUSS, RULES};
 use crate::error::Error;
 use crate::family::{ContactFamily, Member, Station, integrate};
+use crate::quadrature::TANH_SINH;
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude; what is asked for is computed.
@@ -52,30 +53,6 @@ pub struct HysteresisLoop<'a> {
     /// Force at the reversal \[N\].
     top: f64,
 }
-
-/// Nodes of the midpoint rule over half a period: exact for trigonometric polynomials of degree below 2 x 16, and the
-/// integrand's coefficients fall as 0.17ⁿ or faster.
-const MIDPOINTS: usize = 16;
-
-/// sin²(φ/2) at those nodes, φ = (j - 1/2) π/16; backwards they are cos²(φ/2).
-const SINE_SQUARED: [f64; MIDPOINTS] = [
-    0.002407636663901557,
-    0.021529832133895567,
-    0.05903936782582248,
-    0.11349477331863152,
-    0.18280335791817726,
-    0.2643016315870012,
-    0.3548576613727688,
-    0.4509914298352197,
-    0.5490085701647803,
-    0.6451423386272311,
-    0.7356983684129988,
-    0.8171966420818227,
-    0.8865052266813684,
-    0.9409606321741775,
-    0.9784701678661044,
-    0.9975923633360985,
-];
 
 /// Share of the displacement of gross slip from which the contact's own nodes are enough.
 const SLIP_NODES_FROM: f64 = 1.05;
@@ -250,9 +227,11 @@ impl ComplexStiffness<'_> {
             return (initial * real, (initial * contact.origin_scale * slope).min(0.0));
         }
         let share = amplitude * contact.per_slip_displacement();
-        if contact.bends_sharply() {
+        if contact.bends_within(0.75) {
             // Singular near the origin too.
-        } else if let Some(rule) = RULES.iter().find(|rule| share <= rule.largest) {
+        } else if let Some(rule) =
+            RULES.iter().skip(usize::from(contact.bends_within(1.5))).find(|rule| share <= rule.largest)
+        {
             let responder = contact.responder();
             let (mut real, mut slope) = (0.0, 0.0);
             for (t, weight, slope_weight) in rule.nodes {
@@ -344,17 +323,17 @@ impl ComplexStiffness<'_> {
     fn over_the_origin(&self, stick: &Member, f: impl Fn(f64, f64, &NearPoint) -> f64) -> f64 {
         let origin = self.family().origin();
         let (approach, top) = (self.approach(), stick.load.lost);
-        let sum: f64 = SINE_SQUARED
+        let sum: f64 = TANH_SINH
             .iter()
-            .zip(SINE_SQUARED.iter().rev())
-            .map(|(sine, cosine)| {
-                let sums = origin.sums(top * sine);
-                let x = ((origin.compliance * top * sine + sums.approach) / approach).min(1.0);
+            .map(|node| {
+                let tau = top * node.from_0;
+                let sums = origin.sums(tau);
+                let x = ((origin.compliance * tau + sums.approach) / approach).min(1.0);
                 let near = NearPoint { compliance: origin.compliance + sums.compliance, curvature: sums.curvature };
-                (sine * cosine).sqrt() * f(x, 1.0 - x, &near)
+                node.weight * f(x, 1.0 - x, &near)
             })
             .sum();
-        sum * top * PI / MIDPOINTS as f64
+        sum * top
     }
 
     /// `∫ f(X, 1-X, station) dσ` from the stick zone, or from the smallest member in gross slip, to the contact.
