@@ -420,10 +420,11 @@ int32_t mslip_harmonic_workspace_init_rule(size_t harmonics,
                                            double *workspace);
 
 // Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
-// state), by the rule of the workspace. Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m], force [N]; jacobian [N/m] is
-// d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition; where two samples are equally far
-// at a turning point, or one is just at gross slip, it is that of one side. With MSLIP_BETWEEN_REVERSALS it is the rule applied
-// to the exact derivative of the integrals, and as good as the force. dissipated [J] is per period.
+// state), by the rule of the workspace. Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m],
+// force [N]; jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition;
+// where two samples are equally far at a turning point, or one is just at gross slip, it is that of one side. With
+// MSLIP_BETWEEN_REVERSALS it is the rule applied to the exact derivative of the integrals, and as good as the force.
+// dissipated [J] is per period.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //

@@ -1,13 +1,13 @@
-//! The curve near its origin, up to τ = 1/2, as one power series: `x = Λ τ + Σ h_n τⁿ`, n from 2.
+//! The curve near its origin, up to τ = 1/2, as one polynomial: `x = Λ τ + Σ h_n τⁿ`, n from 2.
 //!
-//! Near the origin everything of interest is a small difference of two nearly equal members. The series has positive
-//! terms only and loses nothing. One set of coefficients, those of the curvature h'', serves all:
+//! Near the origin everything of interest is a small difference of two nearly equal members. The curvature h'' is positive;
+//! its integrals lose nothing. One set of coefficients, `h'' = Σ c_m τᵐ`, serves all:
 //!
 //! ```text
-//! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ.
+//! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ,
 //! ```
 //!
-//! Up to τ = 1/2 a polynomial of fewer terms is as good. With `h'' = Σ c_m τᵐ` the four are `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
+//! each of them `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
 
 use crate::family::{Member, Split};
 use crate::series::{self, Rows, rows};
