@@ -24,18 +24,16 @@
 use crate::contact::Contact;
 use crate::curve::Response;
 use crate::error::Error;
-use crate::harmonic_force::{
-    Branch, HarmonicOutput, Parts, add_products, clear_other_parity, fill_columns, sample, scale,
-};
+use crate::harmonic_force::{Branch, HarmonicOutput};
 use crate::masing::Dissipation;
 use crate::memory::{Stretch, Virgin};
 use crate::quadrature::{GAUSS_FOURS, gauss_rule};
+use crate::waves::{add_products, clear_other_parity, fill_columns, sample, scale};
+use crate::workspace::{HEADER, Parts, Size, read_header};
 use core::f64::consts::PI;
 
 /// Tells a workspace from other memory.
 const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_4731);
-
-const HEADER: usize = 3;
 
 /// Fewest nodes of a piece, in fours.
 const LEAST_FOURS: usize = 2;
@@ -48,48 +46,31 @@ const PANEL: usize = 4 * GAUSS_FOURS;
 type Nodes = [[f64; 4]; GAUSS_FOURS];
 
 /// Numbers of doubles in the parts of a workspace.
-struct Layout {
-    harmonics: usize,
-    samples: usize,
-}
+struct Layout(Size);
 
 impl Layout {
     fn new(harmonics: usize, samples: usize) -> Result<Layout, Error> {
-        // Far beyond any use.
-        const LARGEST: usize = 1 << 24;
-        if !(1..=LARGEST).contains(&harmonics) {
-            return Err(Error::BadHarmonics);
-        }
-        if samples <= 2 * harmonics || samples > LARGEST {
-            return Err(Error::BadSamples);
-        }
-        let layout = Layout { harmonics, samples };
-        // More than a workspace holds: where addresses have 32 bits even that may be too much.
-        let rows = (layout.grid() + layout.reversals() + PANEL).checked_mul(8 * (2 * harmonics + 8));
-        if rows.is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
-            return Err(Error::BadSamples);
-        }
-        Ok(layout)
-    }
-
-    fn coefficients(&self) -> usize {
-        2 * self.harmonics + 1
+        let rows = |size| {
+            let layout = Layout(size);
+            layout.grid() + layout.reversals() + PANEL
+        };
+        Size::new(harmonics, samples, rows).map(Layout)
     }
 
     /// Instants at which the rate is looked at: an even number, sixteen for the shortest wave at least. Three turning points
     /// within two steps could be taken for one; their loops are so small that their squares count for nothing.
     fn grid(&self) -> usize {
-        (self.samples.max(16 * self.harmonics) + 1) & !1
+        (self.0.samples.max(16 * self.0.harmonics) + 1) & !1
     }
 
     /// A displacement turns 2H times a period at most; what exceeds that is rounding.
     fn reversals(&self) -> usize {
-        4 * self.harmonics + 8
+        4 * self.0.harmonics + 8
     }
 
     fn length(&self) -> usize {
-        let (n, grid) = (self.coefficients(), self.grid());
-        HEADER + grid / 2 * n + 3 * grid + self.reversals() * (2 + 2 * n) + 4 * self.harmonics * PANEL + 8 * n
+        let (n, grid) = (self.0.coefficients(), self.grid());
+        HEADER + grid / 2 * n + 3 * grid + self.reversals() * (2 + 2 * n) + 4 * self.0.harmonics * PANEL + 8 * n
     }
 }
 
@@ -106,11 +87,9 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     let layout = Layout::new(harmonics, samples)?;
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
-    memory.fill(0.0);
-    let [mark, h, n, rest @ ..] = memory else { return Err(Error::WorkspaceTooShort) };
-    (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
     let half = layout.grid() / 2;
-    fill_columns(Parts(rest).take(half * layout.coefficients())?, layout.grid(), half);
+    let mut parts = layout.0.begin(MARK, memory)?;
+    fill_columns(parts.take(half * layout.0.coefficients())?, layout.grid(), half);
     Ok(())
 }
 
@@ -124,13 +103,8 @@ pub fn workspace_extent(header: &[f64; HEADER]) -> Option<Result<usize, Error>> 
 }
 
 fn layout_of(header: &[f64; HEADER]) -> Result<Layout, Error> {
-    let &[mark, harmonics, samples] = header;
-    // Compared as doubles: a conversion of what is no number would trap.
-    let whole = |value: f64| (1.0..=16_777_216.0).contains(&value) && value.floor() == value;
-    if mark.to_bits() != MARK.to_bits() || !whole(harmonics) || !whole(samples) {
-        return Err(Error::BadWorkspace);
-    }
-    Layout::new(harmonics as usize, samples as usize).map_err(|_| Error::BadWorkspace)
+    let (harmonics, samples) = read_header(MARK, header)?;
+    Layout::new(harmonics, samples).map_err(|_| Error::BadWorkspace)
 }
 
 /// A workspace as it is used.
@@ -167,17 +141,17 @@ impl<'a> Workspace<'a> {
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
         let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
-        let (grid, n) = (layout.grid(), layout.coefficients());
+        let (grid, n) = (layout.grid(), layout.0.coefficients());
         let mut parts = Parts(rest);
         Ok(Workspace {
-            harmonics: layout.harmonics,
-            samples: layout.samples,
+            harmonics: layout.0.harmonics,
+            samples: layout.0.samples,
             columns: parts.take(grid / 2 * n)?,
             rate: parts.take(grid)?,
             turns: parts.take(2 * grid)?,
             reversals: parts.take(2 * layout.reversals())?,
             gradients: parts.take(2 * n * layout.reversals())?,
-            waves: parts.take(4 * layout.harmonics * PANEL)?,
+            waves: parts.take(4 * layout.0.harmonics * PANEL)?,
             force_sums: parts.take(n)?,
             piece_sums: parts.take(2 * n - 1)?,
             stiffness_sums: parts.take(2 * n - 1)?,

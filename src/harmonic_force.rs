@@ -21,49 +21,29 @@ use crate::curve::{Responder, Response, check_displacement};
 use crate::error::Error;
 use crate::masing::Dissipation;
 use crate::memory::{self, Reversal, State, Stretch, Virgin};
+use crate::waves::{add_products, clear_other_parity, fill_columns, sample, scale, wave};
+use crate::workspace::{Blocks, HEADER, Parts, Size, read_header};
 use core::f64::consts::PI;
 
 /// Tells a workspace from other memory.
 const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_5332);
 
-const HEADER: usize = 3;
-
 /// Numbers of doubles in the parts of a workspace.
-struct Layout {
-    harmonics: usize,
-    samples: usize,
-}
+struct Layout(Size);
 
 impl Layout {
     fn new(harmonics: usize, samples: usize) -> Result<Layout, Error> {
-        // Far beyond any use.
-        const LARGEST: usize = 1 << 24;
-        if !(1..=LARGEST).contains(&harmonics) {
-            return Err(Error::BadHarmonics);
-        }
-        if samples <= 2 * harmonics || samples > LARGEST {
-            return Err(Error::BadSamples);
-        }
-        // Eight tables are more than a workspace holds: where addresses have 32 bits even that may be too much.
-        if (samples + 8).checked_mul(8 * (2 * harmonics + 8)).is_none_or(|bytes| bytes > isize::MAX as usize / 8) {
-            return Err(Error::BadSamples);
-        }
-        Ok(Layout { harmonics, samples })
-    }
-
-    /// 2H + 1.
-    fn coefficients(&self) -> usize {
-        2 * self.harmonics + 1
+        Size::new(harmonics, samples, |size| size.samples + 8).map(Layout)
     }
 
     /// Samples after which the tables repeat, but for the sign of odd orders: half a period if it has a middle.
     fn half(&self) -> usize {
-        if self.samples.is_multiple_of(2) { self.samples / 2 } else { self.samples }
+        if self.0.samples.is_multiple_of(2) { self.0.samples / 2 } else { self.0.samples }
     }
 
     /// A period nests at most as many reversals as it has samples.
     fn reversals(&self) -> usize {
-        self.samples + 1
+        self.0.samples + 1
     }
 
     /// Blocks of four numbers for the orders of one parity up to `largest`.
@@ -72,10 +52,10 @@ impl Layout {
     }
 
     fn length(&self) -> usize {
-        let (up_to_h, up_to_2h) = (4 * Layout::blocks(self.harmonics), 4 * Layout::blocks(2 * self.harmonics));
-        let tables = self.half() * (self.coefficients() + 2 * up_to_2h) + self.harmonics;
-        let walk = 3 * self.samples + self.reversals() * (3 + self.coefficients());
-        HEADER + tables + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.coefficients()
+        let (up_to_h, up_to_2h) = (4 * Layout::blocks(self.0.harmonics), 4 * Layout::blocks(2 * self.0.harmonics));
+        let tables = self.half() * (self.0.coefficients() + 2 * up_to_2h) + self.0.harmonics;
+        let walk = 3 * self.0.samples + self.reversals() * (3 + self.0.coefficients());
+        HEADER + tables + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.0.coefficients()
     }
 }
 
@@ -92,12 +72,9 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     let layout = Layout::new(harmonics, samples)?;
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
-    memory.fill(0.0);
     let half = layout.half();
-    let [mark, h, n, rest @ ..] = memory else { return Err(Error::WorkspaceTooShort) };
-    (*mark, *h, *n) = (MARK, harmonics as f64, samples as f64);
-    let mut parts = Parts(rest);
-    fill_columns(parts.take(half * layout.coefficients())?, samples, half);
+    let mut parts = layout.0.begin(MARK, memory)?;
+    fill_columns(parts.take(half * layout.0.coefficients())?, samples, half);
     for parity in [0, 1] {
         let blocks = parts.take_blocks(half * Layout::blocks(2 * harmonics))?;
         for (first, block) in (0..).step_by(4).zip(blocks.chunks_exact_mut(half.max(1))) {
@@ -124,31 +101,12 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     Ok(())
 }
 
-/// cos and sin of an order at a sample; the turn is reduced before it meets π.
-fn wave(order: usize, sample: usize, samples: usize) -> (f64, f64) {
-    let turn = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;
-    ((2.0 * PI * turn).cos(), (2.0 * PI * turn).sin())
-}
-
-/// Columns over half a period of samples, or over all of it where it has no middle: 1, cos t, sin t, cos 2t, ...
-pub(crate) fn fill_columns(columns: &mut [f64], samples: usize, half: usize) {
-    for (column, values) in columns.chunks_exact_mut(half.max(1)).enumerate() {
-        for (sample, value) in values.iter_mut().enumerate() {
-            let (cosine, sine) = wave(column.div_ceil(2), sample, samples);
-            *value = if column % 2 == 1 || column == 0 { cosine } else { sine };
-        }
-    }
-}
-
 /// The orders of one parity stand side by side, cosines before sines: 1, cos 2t, sin 2t, cos 4t, ... and cos t, sin t, cos 3t,
 /// ... The sine of an order has the order's own number, the cosine the one before; the order 0 has no sine.
 #[inline(always)]
 fn order_at(place: usize, parity: usize) -> usize {
     place + (place + parity) % 2
 }
-
-/// Numbers in fours.
-type Blocks = [[f64; 4]];
 
 /// A workspace as it is used.
 #[derive(Debug)]
@@ -191,13 +149,8 @@ pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
 }
 
 fn layout_of(header: &[f64; HEADER]) -> Result<Layout, Error> {
-    let &[mark, harmonics, samples] = header;
-    // Compared as doubles: a conversion of what is no number would trap.
-    let whole = |value: f64| (1.0..=16_777_216.0).contains(&value) && value.floor() == value;
-    if mark.to_bits() != MARK.to_bits() || !whole(harmonics) || !whole(samples) {
-        return Err(Error::BadWorkspace);
-    }
-    Layout::new(harmonics as usize, samples as usize).map_err(|_| Error::BadWorkspace)
+    let (harmonics, samples) = read_header(MARK, header)?;
+    Layout::new(harmonics, samples).map_err(|_| Error::BadWorkspace)
 }
 
 impl<'a> Workspace<'a> {
@@ -209,19 +162,19 @@ impl<'a> Workspace<'a> {
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
         let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
-        let (half, coefficients) = (layout.half(), layout.coefficients());
-        let (up_to_h, up_to_2h) = (Layout::blocks(layout.harmonics), Layout::blocks(2 * layout.harmonics));
+        let (half, coefficients) = (layout.half(), layout.0.coefficients());
+        let (up_to_h, up_to_2h) = (Layout::blocks(layout.0.harmonics), Layout::blocks(2 * layout.0.harmonics));
         let mut parts = Parts(rest);
         Ok(Workspace {
-            harmonics: layout.harmonics,
-            samples: layout.samples,
+            harmonics: layout.0.harmonics,
+            samples: layout.0.samples,
             half,
             columns: parts.take(half * coefficients)?,
             tables: [parts.take_blocks(half * up_to_2h)?, parts.take_blocks(half * up_to_2h)?],
-            cotangents: parts.take(layout.harmonics)?,
-            displacement: parts.take(layout.samples)?,
-            force: parts.take(layout.samples)?,
-            stiffness: parts.take(layout.samples)?,
+            cotangents: parts.take(layout.0.harmonics)?,
+            displacement: parts.take(layout.0.samples)?,
+            force: parts.take(layout.0.samples)?,
+            stiffness: parts.take(layout.0.samples)?,
             reversals: parts.take(2 * layout.reversals())?,
             turned_at: parts.take(layout.reversals())?,
             gradients: parts.take(layout.reversals() * coefficients)?,
@@ -239,21 +192,6 @@ impl<'a> Workspace<'a> {
     #[must_use]
     pub fn coefficients(&self) -> usize {
         2 * self.harmonics + 1
-    }
-}
-
-/// Divides a slice from its front.
-pub(crate) struct Parts<'a>(pub &'a mut [f64]);
-
-impl<'a> Parts<'a> {
-    pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
-        let (front, back) = core::mem::take(&mut self.0).split_at_mut_checked(length).ok_or(Error::BadWorkspace)?;
-        self.0 = back;
-        Ok(front)
-    }
-
-    fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
-        Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }
 }
 
@@ -325,51 +263,6 @@ impl Rows {
             Rows { half, first: sample - half, sign: -1.0 }
         }
     }
-}
-
-/// Adds `a cos + b sin`.
-#[inline(always)]
-fn add_wave(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[f64]) {
-    let (targets, last) = target.as_chunks_mut::<4>();
-    let ((cosines, last_cosines), (sines, last_sines)) = (cosines.as_chunks::<4>(), sines.as_chunks::<4>());
-    for ((target, cosine), sine) in targets.iter_mut().zip(cosines).zip(sines) {
-        for k in 0..4 {
-            target[k] += a * cosine[k] + b * sine[k];
-        }
-    }
-    for ((target, cosine), sine) in last.iter_mut().zip(last_cosines).zip(last_sines) {
-        *target += a * cosine + b * sine;
-    }
-}
-
-/// A sum of waves at the samples, from the columns of half a period; whether it has odd harmonics only, on an even number of
-/// samples.
-#[inline(always)]
-pub(crate) fn sample(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
-    let half = half.max(1);
-    let folds = half < values.len();
-    let Some((constant, pairs)) = coefficients.split_first() else { return false };
-    // Even and odd orders in the halves of the same memory, or all in one.
-    let (even, odd) = values.split_at_mut_checked(half).unwrap_or((&mut [], &mut []));
-    even.fill(*constant);
-    odd.fill(0.0);
-    let mut only_odd = *constant == 0.0;
-    let waves = columns.get(half..).unwrap_or(&[]).chunks_exact((2 * half).max(1));
-    for (order, (columns, &[a, b])) in (1..).zip(waves.zip(pairs.as_chunks::<2>().0)) {
-        if a == 0.0 && b == 0.0 {
-            continue;
-        }
-        let is_odd = order % 2 == 1;
-        only_odd &= is_odd;
-        let (cosines, sines) = columns.split_at_checked(half).unwrap_or((&[], &[]));
-        add_wave(if is_odd && folds { odd } else { even }, [a, b], cosines, sines);
-    }
-    if folds {
-        for (even, odd) in even.iter_mut().zip(odd.iter_mut()) {
-            (*even, *odd) = (*even + *odd, *even - *odd);
-        }
-    }
-    folds && only_odd
 }
 
 /// The sum of rows, each times its weight: two sums, so that one need not wait for the other.
@@ -490,25 +383,6 @@ pub fn harmonic_force(
         }
     }
     Ok(())
-}
-
-/// From sums to coefficients: the mean, and twice the mean for waves.
-#[inline(always)]
-pub(crate) fn scale(sums: &mut [f64], mean: f64) {
-    sums.iter_mut().for_each(|sum| *sum *= 2.0 * mean);
-    if let Some(constant) = sums.first_mut() {
-        *constant *= 0.5;
-    }
-}
-
-/// In the sum of half a period and its mirror image, what couples even with odd orders cancels.
-#[inline(always)]
-pub(crate) fn clear_other_parity(c: usize, column: &mut [f64]) {
-    for (i, value) in column.iter_mut().enumerate() {
-        if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 1 {
-            *value = 0.0;
-        }
-    }
 }
 
 /// What of each sample is needed.
@@ -903,36 +777,6 @@ impl Workspace<'_> {
         for ((column, start), gradient) in jacobian.chunks_exact_mut(n).zip(self.start.iter()).zip(gradient) {
             for ((j, wave), weighted) in column.iter_mut().zip(self.waves.iter()).zip(self.weighted.iter()) {
                 *j += gradient * wave - start * weighted;
-            }
-        }
-    }
-}
-
-/// Adds `Σ k φ ⊗ φ`, from the sums of k with cos and sin of every order up to 2H: products of waves are waves of the sum and
-/// of the difference of their orders.
-#[inline(always)]
-pub(crate) fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> (f64, f64)) {
-    let mut columns = jacobian.chunks_exact_mut((2 * harmonics + 1).max(1));
-    for q in 0..=harmonics {
-        let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
-            return;
-        };
-        let by_sine = by_sine.unwrap_or(&mut []);
-        for p in 0..=harmonics {
-            let (c_sum, s_sum) = sums(p + q);
-            let (c_difference, s_difference) = sums(p.abs_diff(q));
-            let s_difference = if p < q { -s_difference } else { s_difference };
-            let add = |column: &mut [f64], row: usize, value: f64| {
-                if let Some(j) = column.get_mut(row) {
-                    *j += 0.5 * value;
-                }
-            };
-            let cosine_row = (2 * p).saturating_sub(1);
-            add(by_cosine, cosine_row, c_difference + c_sum);
-            add(by_sine, cosine_row, s_sum - s_difference);
-            if p > 0 {
-                add(by_cosine, 2 * p, s_sum + s_difference);
-                add(by_sine, 2 * p, c_difference - c_sum);
             }
         }
     }

@@ -31,6 +31,9 @@ pub mod masing;
 
 mod cycle_rules;
 pub mod harmonic;
+mod waves;
+mod workspace;
+
 pub mod harmonic_force;
 
 pub mod between_reversals;
