@@ -28,12 +28,10 @@ use crate::harmonic_force::{Branch, HarmonicOutput};
 use crate::masing::Dissipation;
 use crate::memory::{Stretch, Virgin};
 use crate::quadrature::{GAUSS_FOURS, gauss_rule};
+use crate::seal::Kind;
 use crate::waves::{add_products, clear_other_parity, fill_columns, sample, scale};
-use crate::workspace::{HEADER, Parts, Size, read_header};
+use crate::workspace::{HEADER, Size, read_header, says, sealed_parts};
 use core::f64::consts::PI;
-
-/// Tells a workspace from other memory.
-const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_4731);
 
 /// Fewest nodes of a piece, in fours.
 const LEAST_FOURS: usize = 2;
@@ -68,9 +66,13 @@ impl Layout {
         4 * self.0.harmonics + 8
     }
 
+    fn tables(&self) -> usize {
+        self.grid() / 2 * self.0.coefficients()
+    }
+
     fn length(&self) -> usize {
         let (n, grid) = (self.0.coefficients(), self.grid());
-        HEADER + grid / 2 * n + 3 * grid + self.reversals() * (2 + 2 * n) + 4 * self.0.harmonics * PANEL + 8 * n
+        HEADER + self.tables() + 3 * grid + self.reversals() * (2 + 2 * n) + 4 * self.0.harmonics * PANEL + 8 * n
     }
 }
 
@@ -87,23 +89,22 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     let layout = Layout::new(harmonics, samples)?;
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
-    let half = layout.grid() / 2;
-    let mut parts = layout.0.begin(MARK, memory)?;
-    fill_columns(parts.take(half * layout.0.coefficients())?, layout.grid(), half);
-    Ok(())
+    layout.0.begin(Kind::BetweenReversals, memory, layout.tables(), |columns| {
+        fill_columns(columns.take(layout.tables())?, layout.grid(), layout.grid() / 2);
+        Ok(())
+    })
 }
 
-/// Doubles that a prepared workspace occupies, from its first three; none for memory that is no workspace of this rule.
+/// Doubles that a prepared workspace occupies, from what it begins with; none for memory that is no workspace of this rule.
 ///
 /// # Errors
 /// `BadWorkspace` for one that was changed.
 pub fn workspace_extent(header: &[f64; HEADER]) -> Option<Result<usize, Error>> {
-    let &[mark, ..] = header;
-    (mark.to_bits() == MARK.to_bits()).then(|| layout_of(header).map(|layout| layout.length()))
+    says(Kind::BetweenReversals, header).then(|| layout_of(header).map(|layout| layout.length()))
 }
 
 fn layout_of(header: &[f64; HEADER]) -> Result<Layout, Error> {
-    let (harmonics, samples) = read_header(MARK, header)?;
+    let (harmonics, samples) = read_header(Kind::BetweenReversals, header)?;
     Layout::new(harmonics, samples).map_err(|_| Error::BadWorkspace)
 }
 
@@ -138,15 +139,15 @@ impl<'a> Workspace<'a> {
     ///
     /// # Errors
     /// `BadWorkspace` for memory that was not initialised, or was changed.
+    #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
-        let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
         let (grid, n) = (layout.grid(), layout.0.coefficients());
-        let mut parts = Parts(rest);
+        let mut parts = sealed_parts(workspace, layout.length(), layout.tables())?;
         Ok(Workspace {
             harmonics: layout.0.harmonics,
             samples: layout.0.samples,
-            columns: parts.take(grid / 2 * n)?,
+            columns: parts.take(layout.tables())?,
             rate: parts.take(grid)?,
             turns: parts.take(2 * grid)?,
             reversals: parts.take(2 * layout.reversals())?,
@@ -822,6 +823,12 @@ mod tests {
             let mut bad = good.clone();
             bad[place] = value;
             assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");
+        }
+        let tables = Layout::new(3, 16).unwrap().tables();
+        for (place, bit) in (0..HEADER + tables).flat_map(|place| (0..64).map(move |bit| (place, bit))) {
+            let mut bad = good.clone();
+            bad[place] = f64::from_bits(bad[place].to_bits() ^ (1 << bit));
+            assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {bit}");
         }
         assert_eq!(workspace_extent(good.first_chunk().unwrap()), Some(Ok(good.len())));
         good.pop();

@@ -53,7 +53,8 @@ pub struct Contact {
     inverse: Inverse,
     /// x and dτ at the nodes of the complex stiffness in gross slip.
     slip_nodes: SlipNodes,
-    spare: [f64; 1],
+    /// What makes the sum of all words 0, in memory that went through the C interface.
+    pub(crate) seal: u64,
     end_mark: u64,
 }
 
@@ -293,7 +294,7 @@ const EMPTY: Contact = Contact {
     rounded_flat: RoundedFlat::EMPTY,
     inverse: Inverse::NONE,
     slip_nodes: [[0.0; GAUSS.len()]; 2],
-    spare: [0.0; 1],
+    seal: 0,
     end_mark: MARK,
 };
 

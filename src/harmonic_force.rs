@@ -21,12 +21,10 @@ use crate::curve::{Responder, Response, check_displacement};
 use crate::error::Error;
 use crate::masing::Dissipation;
 use crate::memory::{self, Reversal, State, Stretch, Virgin};
+use crate::seal::Kind;
 use crate::waves::{add_products, clear_other_parity, fill_columns, sample, scale, wave};
-use crate::workspace::{Blocks, HEADER, Parts, Size, read_header};
+use crate::workspace::{Blocks, HEADER, Parts, Size, read_header, sealed_parts};
 use core::f64::consts::PI;
-
-/// Tells a workspace from other memory.
-const MARK: f64 = f64::from_bits(0x4d53_4c49_5057_5332);
 
 /// Numbers of doubles in the parts of a workspace.
 struct Layout(Size);
@@ -51,11 +49,15 @@ impl Layout {
         (largest + 1).div_ceil(4)
     }
 
+    fn tables(&self) -> usize {
+        let up_to_2h = 4 * Layout::blocks(2 * self.0.harmonics);
+        self.half() * (self.0.coefficients() + 2 * up_to_2h) + self.0.harmonics
+    }
+
     fn length(&self) -> usize {
         let (up_to_h, up_to_2h) = (4 * Layout::blocks(self.0.harmonics), 4 * Layout::blocks(2 * self.0.harmonics));
-        let tables = self.half() * (self.0.coefficients() + 2 * up_to_2h) + self.0.harmonics;
         let walk = 3 * self.0.samples + self.reversals() * (3 + self.0.coefficients());
-        HEADER + tables + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.0.coefficients()
+        HEADER + self.tables() + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.0.coefficients()
     }
 }
 
@@ -72,8 +74,11 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     let layout = Layout::new(harmonics, samples)?;
     let Some(memory) = workspace.get_mut(..layout.length()) else { return Err(Error::WorkspaceTooShort) };
-    let half = layout.half();
-    let mut parts = layout.0.begin(MARK, memory)?;
+    layout.0.begin(Kind::Equidistant, memory, layout.tables(), |parts| fill_tables(parts, &layout))
+}
+
+fn fill_tables(parts: &mut Parts, layout: &Layout) -> Result<(), Error> {
+    let (Size { harmonics, samples }, half) = (layout.0, layout.half());
     fill_columns(parts.take(half * layout.0.coefficients())?, samples, half);
     for parity in [0, 1] {
         let blocks = parts.take_blocks(half * Layout::blocks(2 * harmonics))?;
@@ -140,7 +145,7 @@ pub struct Workspace<'a> {
     row: &'a mut [f64],
 }
 
-/// Doubles that a prepared workspace occupies, from its first three.
+/// Doubles that a prepared workspace occupies, from what it begins with.
 ///
 /// # Errors
 /// `BadWorkspace` for memory that was not initialised, or was changed.
@@ -149,7 +154,7 @@ pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
 }
 
 fn layout_of(header: &[f64; HEADER]) -> Result<Layout, Error> {
-    let (harmonics, samples) = read_header(MARK, header)?;
+    let (harmonics, samples) = read_header(Kind::Equidistant, header)?;
     Layout::new(harmonics, samples).map_err(|_| Error::BadWorkspace)
 }
 
@@ -161,10 +166,9 @@ impl<'a> Workspace<'a> {
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let layout = layout_of(workspace.first_chunk::<HEADER>().ok_or(Error::BadWorkspace)?)?;
-        let rest = workspace.get_mut(HEADER..layout.length()).ok_or(Error::BadWorkspace)?;
         let (half, coefficients) = (layout.half(), layout.0.coefficients());
         let (up_to_h, up_to_2h) = (Layout::blocks(layout.0.harmonics), Layout::blocks(2 * layout.0.harmonics));
-        let mut parts = Parts(rest);
+        let mut parts = sealed_parts(workspace, layout.length(), layout.tables())?;
         Ok(Workspace {
             harmonics: layout.0.harmonics,
             samples: layout.0.samples,
@@ -821,6 +825,12 @@ mod tests {
             let mut bad = good.clone();
             bad[place] = value;
             assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");
+        }
+        let tables = Layout::new(3, 16).unwrap().tables();
+        for (place, bit) in (0..HEADER + tables).flat_map(|place| (0..64).map(move |bit| (place, bit))) {
+            let mut bad = good.clone();
+            bad[place] = f64::from_bits(bad[place].to_bits() ^ (1 << bit));
+            assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {bit}");
         }
         let mut short = good.clone();
         short.pop();

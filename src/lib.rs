@@ -13,6 +13,7 @@ pub mod parameters;
 
 mod chebyshev;
 mod quadrature;
+mod seal;
 mod series;
 
 mod family;

@@ -9,7 +9,9 @@
 use crate::contact::Contact;
 use crate::curve::{Response, check_displacement};
 use crate::error::Error;
-use crate::memory::{Course, PER_REVERSAL, Reversal, State, Stretch, Track, Virgin, course, follow, state_length};
+use crate::memory::{
+    Course, PER_REVERSAL, Reversal, State, Stretch, Track, Virgin, course, follow, seal_of, state_length,
+};
 
 /// Force and stiffness at the end of a course.
 #[inline(always)]
@@ -153,7 +155,7 @@ impl<'a> Step<'a> {
     #[inline(always)]
     pub fn write(&self, state: &mut [f64]) {
         let &mut [
-            _,
+            ref mut seal,
             ref mut count,
             ref mut displacement,
             ref mut slid,
@@ -164,17 +166,18 @@ impl<'a> Step<'a> {
         else {
             return;
         };
-        *count = self.course.depth as f64;
-        *origin = self.virgin.origin;
-        *slid = self.virgin.slid;
-        *displacement = self.end.displacement;
-        *force = self.end.force;
-        if self.course.turned {
-            let newest = reversals.chunks_exact_mut(PER_REVERSAL).nth(self.course.depth.wrapping_sub(1));
-            if let Some([displacement, force]) = newest {
-                *displacement = self.start.displacement;
-                *force = self.start.force;
-            }
+        // Before the newest reversal is written: reading at once what was just written makes the processor wait.
+        let newest = self.course.turned.then_some([self.start.displacement, self.start.force]);
+        let kept = PER_REVERSAL * self.course.depth.saturating_sub(usize::from(self.course.turned));
+        let used = reversals.iter().copied().take(kept).chain(newest.into_iter().flatten());
+        let header =
+            [self.course.depth as f64, self.end.displacement, self.virgin.slid, self.end.force, self.virgin.origin];
+        *seal = seal_of(header, used);
+        [*count, *displacement, *slid, *force, *origin] = header;
+        if let Some(newest) = newest
+            && let Some(place) = reversals.as_chunks_mut().0.get_mut(self.course.depth.wrapping_sub(1))
+        {
+            *place = newest;
         }
     }
 }
@@ -314,8 +317,9 @@ pub fn shear_after(contact: &Contact, state: &[f64], x: &[f64], shear: &mut [f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::tests::{FLATS, contact, ellipse};
+    use crate::contact::tests::{FLATS, contact, ellipse, parameters};
     use crate::memory::{HEADER, state_init};
+    use crate::parameters::Parameters;
     use std::vec;
     use std::vec::Vec;
 
@@ -378,6 +382,11 @@ mod tests {
         ] {
             let mut bad = good.clone();
             bad[place] = value;
+            refuses(&bad, Error::BadState);
+        }
+        for (place, bit) in (0..HEADER + 4).flat_map(|place| (0..64).map(move |bit| (place, bit))) {
+            let mut bad = good.clone();
+            bad[place] = f64::from_bits(bad[place].to_bits() ^ (1 << bit));
             refuses(&bad, Error::BadState);
         }
         refuses(good.get(..HEADER - 1).unwrap(), Error::StateTooShort);
@@ -568,8 +577,8 @@ mod tests {
         // The rule's nodes next to an edge are rounded to it.
         assert!((sum / force - 1.0).abs() < 1e-7, "{sum} {force}");
         // The force of a stronger contact.
-        state_init(&mut state).unwrap();
-        state[4] = 1.5 * contact.slip_force;
+        let stronger = Contact::rounded_flat(&Parameters { normal_force: 225.0, ..parameters(50e-6) }).unwrap();
+        lead(&stronger, &mut state, &[-3.0]);
         assert_eq!(shear_after(&contact, &state, &[0.0], &mut [0.0]), Err(Error::ForceExceedsSlip));
     }
 

@@ -8,7 +8,7 @@
 //! caller:
 //!
 //! ```text
-//! [mark, number of reversals, displacement, slid, force, origin,   displacement and force of each reversal, oldest first]
+//! [seal, number of reversals, displacement, slid, force, origin,   displacement and force of each reversal, oldest first]
 //! ```
 //!
 //! What is written by itself does not stand beside what it would be read with as one vector: a processor waits long for such
@@ -16,9 +16,7 @@
 
 use crate::contact::Contact;
 use crate::error::Error;
-
-/// Tells a state from other memory.
-const MARK: f64 = f64::from_bits(0x4d53_4c49_5053_5431);
+use crate::seal::{Kind, of_places, seal, whole};
 
 pub(crate) const HEADER: usize = 6;
 pub(crate) const PER_REVERSAL: usize = 2;
@@ -38,10 +36,17 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
         return Err(Error::StateTooShort);
     }
     state.fill(0.0);
-    if let Some(mark) = state.first_mut() {
-        *mark = MARK;
+    if let Some(seal) = state.first_mut() {
+        *seal = seal_of([0.0; 5], core::iter::empty());
     }
     Ok(())
+}
+
+/// The seal of what a state begins with, from the number of reversals on, and of the reversals that it uses. What lies beyond
+/// them may be anything.
+#[inline(always)]
+pub(crate) fn seal_of(header: [f64; HEADER - 1], reversals: impl Iterator<Item = f64>) -> f64 {
+    seal(Kind::State, of_places(header.into_iter().chain(reversals)))
 }
 
 /// A turning point of the displacement.
@@ -99,29 +104,17 @@ impl<'a> State<'a> {
     /// `StateTooShort` for an array that is no state, `BadState` for one that was not initialised or was changed.
     #[inline(always)]
     pub fn read(state: &'a [f64]) -> Result<State<'a>, Error> {
-        let &[mark, count, displacement, slid, force, origin, ref reversals @ ..] = state else {
+        let &[seal, count, displacement, slid, force, origin, ref reversals @ ..] = state else {
             return Err(Error::StateTooShort);
         };
-        let numbers =
-            [origin, displacement, force].iter().all(|value| value.is_finite()) && [-1.0, 0.0, 1.0].contains(&slid);
-        if mark.to_bits() != MARK.to_bits() || !numbers {
-            return Err(Error::BadState);
-        }
         let capacity = reversals.len() / PER_REVERSAL;
-        // Compared as doubles, then read off the last bits of a sum: a conversion of what is no number would trap.
-        const WHOLE: f64 = 4503599627370496.0;
-        let shifted = count + WHOLE;
-        if !(0.0..=capacity as f64).contains(&count) || shifted - WHOLE != count {
+        let depth = whole(count).filter(|depth| *depth <= capacity).ok_or(Error::BadState)?;
+        let used = reversals.get(..PER_REVERSAL * depth).ok_or(Error::BadState)?;
+        let expected = seal_of([count, displacement, slid, force, origin], used.iter().copied());
+        if seal.to_bits() != expected.to_bits() {
             return Err(Error::BadState);
         }
-        let depth = (shifted.to_bits() - WHOLE.to_bits()) as usize;
-        let used = reversals.get(..PER_REVERSAL * depth).ok_or(Error::BadState)?;
-        if used.iter().all(|value| value.is_finite()) {
-            let virgin = Virgin { origin, slid };
-            Ok(State { virgin, now: Reversal { displacement, force }, reversals: used, capacity })
-        } else {
-            Err(Error::BadState)
-        }
+        Ok(State { virgin: Virgin { origin, slid }, now: Reversal { displacement, force }, reversals: used, capacity })
     }
 
     #[inline(always)]
@@ -189,8 +182,9 @@ impl<'s> Track<'s> {
     /// Writes where it came to.
     pub fn finish(self) {
         let Reversal { displacement, force } = self.now;
-        let values = [self.depth as f64, displacement, self.virgin.slid, force, self.virgin.origin];
-        self.header.iter_mut().skip(1).zip(values).for_each(|(place, value)| *place = value);
+        let header = [self.depth as f64, displacement, self.virgin.slid, force, self.virgin.origin];
+        let seal = seal_of(header, self.reversals.iter().copied().take(PER_REVERSAL * self.depth));
+        self.header.iter_mut().zip([seal].into_iter().chain(header)).for_each(|(place, value)| *place = value);
     }
 }
 

@@ -2,9 +2,10 @@
 //! are divided.
 
 use crate::error::Error;
+use crate::seal::{Kind, is_of, of_places, of_table, seal, whole};
 
-/// Mark, harmonics and samples.
-pub(crate) const HEADER: usize = 3;
+/// Seal of the size, harmonics, samples, and seal of the tables.
+pub(crate) const HEADER: usize = 4;
 
 /// Numbers in fours.
 pub(crate) type Blocks = [[f64; 4]];
@@ -44,27 +45,67 @@ impl Size {
         2 * self.harmonics + 1
     }
 
-    /// Clears memory, writes what a workspace begins with, and gives the rest.
-    pub fn begin<'m>(&self, mark: f64, memory: &'m mut [f64]) -> Result<Parts<'m>, Error> {
+    /// Clears memory, has its tables filled, which stand first in it, and writes what a workspace begins with.
+    ///
+    /// # Errors
+    /// `WorkspaceTooShort`, and those of `fill`.
+    pub fn begin(
+        &self,
+        kind: Kind,
+        memory: &mut [f64],
+        tables: usize,
+        fill: impl FnOnce(&mut Parts) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         memory.fill(0.0);
-        let [first, harmonics, samples, rest @ ..] = memory else { return Err(Error::WorkspaceTooShort) };
-        (*first, *harmonics, *samples) = (mark, self.harmonics as f64, self.samples as f64);
-        Ok(Parts(rest))
+        let (header, rest) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
+        let tables = rest.get_mut(..tables).ok_or(Error::WorkspaceTooShort)?;
+        fill(&mut Parts(tables))?;
+        let [harmonics, samples] = [self.harmonics as f64, self.samples as f64];
+        *header = [seal_of_size(kind, harmonics, samples), harmonics, samples, seal_of_tables(tables)];
+        Ok(())
     }
+}
+
+fn seal_of_size(kind: Kind, harmonics: f64, samples: f64) -> f64 {
+    seal(kind, of_places([harmonics, samples].into_iter()))
+}
+
+#[inline(always)]
+fn seal_of_tables(tables: &[f64]) -> f64 {
+    seal(Kind::Table, of_table(tables))
+}
+
+/// Whether what a workspace begins with says that it is of that kind.
+pub(crate) fn says(kind: Kind, header: &[f64; HEADER]) -> bool {
+    let &[first, ..] = header;
+    is_of(kind, first)
+}
+
+/// A prepared workspace behind its header, once the tables with which that begins are found to be as they were made.
+///
+/// # Errors
+/// `BadWorkspace` for memory that was changed.
+#[inline(always)]
+pub(crate) fn sealed_parts(workspace: &mut [f64], length: usize, tables: usize) -> Result<Parts<'_>, Error> {
+    let (header, rest) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
+    let rest = rest.get_mut(..length.saturating_sub(HEADER)).ok_or(Error::BadWorkspace)?;
+    let &mut [.., expected] = header;
+    if seal_of_tables(rest.get(..tables).ok_or(Error::BadWorkspace)?).to_bits() != expected.to_bits() {
+        return Err(Error::BadWorkspace);
+    }
+    Ok(Parts(rest))
 }
 
 /// Harmonics and samples of a prepared workspace, from what it begins with.
 ///
 /// # Errors
 /// `BadWorkspace` for memory that was not initialised, or was changed.
-pub(crate) fn read_header(mark: f64, header: &[f64; HEADER]) -> Result<(usize, usize), Error> {
-    let &[first, harmonics, samples] = header;
-    // Compared as doubles: a conversion of what is no number would trap.
-    let whole = |value: f64| (1.0..=16_777_216.0).contains(&value) && value.floor() == value;
-    if first.to_bits() != mark.to_bits() || !whole(harmonics) || !whole(samples) {
-        return Err(Error::BadWorkspace);
+pub(crate) fn read_header(kind: Kind, header: &[f64; HEADER]) -> Result<(usize, usize), Error> {
+    let &[first, harmonics, samples, _] = header;
+    match (whole(harmonics), whole(samples)) {
+        (Some(h), Some(s)) if first.to_bits() == seal_of_size(kind, harmonics, samples).to_bits() => Ok((h, s)),
+        _ => Err(Error::BadWorkspace),
     }
-    Ok((harmonics as usize, samples as usize))
 }
 
 /// Divides a slice from its front.

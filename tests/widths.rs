@@ -9,7 +9,7 @@ use microslip::harmonic_force::{self, HarmonicOutput, Workspace, workspace_lengt
 use microslip::masing::{self, PathOutput};
 use microslip::memory::state_length;
 use microslip::{Contact, Material, Parameters};
-use std::ptr::{from_ref, null_mut};
+use std::ptr::null_mut;
 
 fn contacts() -> Vec<Contact> {
     let body = Material { young_modulus: 2.1e11, poisson_ratio: 0.3 };
@@ -45,8 +45,8 @@ fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
 }
 
-fn as_c(contact: &Contact) -> *const mslip_contact {
-    from_ref(contact).cast()
+fn as_c(contact: &Contact) -> mslip_contact {
+    (*contact).into()
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn the_curve_has_the_same_bits() {
         let displacement: Vec<f64> = scattered(1000, 1).iter().map(|x| 1.1 * x * contact.slip_displacement).collect();
         let (mut force, mut stiffness) = (vec![0.0; 1000], vec![0.0; 1000]);
         let (f, k) = (force.as_mut_ptr(), stiffness.as_mut_ptr());
-        assert_eq!(unsafe { mslip_monotonic_force(as_c(&contact), 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
+        assert_eq!(unsafe { mslip_monotonic_force(&as_c(&contact), 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
         for ((&x, force), stiffness) in displacement.iter().zip(force).zip(stiffness) {
             let point = contact.curve_at_displacement(x).unwrap();
             assert_eq!(bits(&[point.force(), point.stiffness()]), bits(&[force, stiffness]));
@@ -70,7 +70,7 @@ fn the_complex_stiffness_has_the_same_bits() {
             let amplitude = part * contact.slip_displacement;
             let mut outputs = [0.0; 4];
             let [a, b, c, d] = &mut outputs;
-            assert_eq!(unsafe { mslip_complex_stiffness(as_c(&contact), 1, &amplitude, a, b, c, d) }, 0);
+            assert_eq!(unsafe { mslip_complex_stiffness(&as_c(&contact), 1, &amplitude, a, b, c, d) }, 0);
             let k = contact.complex_stiffness(amplitude).unwrap();
             assert_eq!(bits(&[k.real(), k.imaginary(), k.real_slope(), k.imaginary_slope()]), bits(&outputs), "{part}");
         }
@@ -90,7 +90,7 @@ fn a_path_has_the_same_bits() {
                 let (state, length) = (state.as_mut_ptr(), state.len());
                 let [f, k, e] = [force.as_mut_ptr(), stiffness.as_mut_ptr(), energy.as_mut_ptr()];
                 let status =
-                    unsafe { mslip_masing_path(as_c(&contact), length, state, n, path.as_ptr(), state, f, k, e) };
+                    unsafe { mslip_masing_path(&as_c(&contact), length, state, n, path.as_ptr(), state, f, k, e) };
                 assert_eq!(status, 0);
             } else {
                 let (force, stiffness) = (Some(force.as_mut_slice()), Some(stiffness.as_mut_slice()));
@@ -124,7 +124,7 @@ fn the_harmonic_force_has_the_same_bits() {
                         let (f, j) = (force.as_mut_ptr(), jacobian.as_mut_ptr());
                         let u = displacement.as_ptr();
                         let status =
-                            unsafe { mslip_harmonic_force(as_c(&contact), workspace, u, f, j, &raw mut energy) };
+                            unsafe { mslip_harmonic_force(&as_c(&contact), workspace, u, f, j, &raw mut energy) };
                         assert_eq!(status, 0);
                     } else {
                         let (force, jacobian) = (Some(force.as_mut_slice()), Some(jacobian.as_mut_slice()));

@@ -25,9 +25,7 @@ unsafe fn active_contacts<'a>(
     let takes_part = move |i: usize| active.is_none_or(|active| active.get(i).is_none_or(|&flag| flag != 0));
     let items = contacts.iter().enumerate().filter(move |(i, _)| takes_part(*i));
     for (_, contact) in items.clone() {
-        if !contact.is_prepared() {
-            return Err(Error::BadContact);
-        }
+        pointer::check_contact(contact)?;
     }
     Ok(items)
 }

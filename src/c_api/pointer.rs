@@ -1,10 +1,11 @@
 //! From pointers to slices, and from results to status codes.
 
+use super::widest::on_widest;
 use super::{MSLIP_OK, mslip_contact};
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::{between_reversals, harmonic_force};
-use core::slice;
+use crate::{between_reversals, harmonic_force, seal};
+use core::{mem, ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
     match result {
@@ -51,7 +52,30 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
 /// `pointer` is NULL or points to a contact.
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
     let contact = unsafe { pointer.cast::<Contact>().as_ref() }.ok_or(Error::NullPointer)?;
-    if contact.is_prepared() { Ok(contact) } else { Err(Error::BadContact) }
+    check_contact(contact)?;
+    Ok(contact)
+}
+
+/// Whether memory is a contact, as it was written.
+pub fn check_contact(contact: &Contact) -> Result<(), Error> {
+    if contact.is_prepared() && sum(contact) == 0 { Ok(()) } else { Err(Error::BadContact) }
+}
+
+/// A contact as callers hold it, with its seal.
+impl From<Contact> for mslip_contact {
+    fn from(mut contact: Contact) -> mslip_contact {
+        contact.seal = 0;
+        contact.seal = sum(&contact).wrapping_neg();
+        // Both are the same doubles and words of their size.
+        unsafe { mem::transmute(contact) }
+    }
+}
+
+/// The sum of all words of a contact.
+fn sum(contact: &Contact) -> u64 {
+    // A contact is made of doubles and words of their size, without gaps.
+    let words = unsafe { &*ptr::from_ref(contact).cast::<[f64; size_of::<Contact>() / size_of::<f64>()]>() };
+    on_widest!(seal::of_table, words: &[f64] => u64)
 }
 
 /// Sets item i of an output.
@@ -81,19 +105,50 @@ impl HarmonicWorkspace<'_> {
 /// A workspace that was initialised.
 ///
 /// # Safety
-/// `pointer` is NULL or points to three numbers at least, and to a whole workspace where these begin one.
+/// `pointer` is NULL or points to four numbers at least, and to a whole workspace where these begin one.
 #[inline(always)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<HarmonicWorkspace<'a>, Error> {
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    let header = unsafe { pointer.cast::<[f64; 3]>().read() };
+    let header = unsafe { pointer.cast::<[f64; 4]>().read() };
     let whole = |extent: usize| unsafe { output(pointer, extent) }.ok_or(Error::BadWorkspace);
     Ok(match between_reversals::workspace_extent(&header) {
-        Some(extent) => HarmonicWorkspace::BetweenReversals(between_reversals::Workspace::new(whole(extent?)?)?),
+        Some(extent) => HarmonicWorkspace::BetweenReversals(between_reversals_workspace(whole(extent?)?)?),
         None => {
             let extent = harmonic_force::workspace_extent(&header)?;
-            HarmonicWorkspace::Equidistant(harmonic_force::Workspace::new(whole(extent)?)?)
+            HarmonicWorkspace::Equidistant(equidistant_workspace(whole(extent)?)?)
         }
     })
+}
+
+fn equidistant_workspace(memory: &mut [f64]) -> Result<harmonic_force::Workspace<'_>, Error> {
+    on_widest!(harmonic_force::Workspace::new, memory: &mut [f64] => Result<harmonic_force::Workspace<'_>, Error>)
+}
+
+fn between_reversals_workspace(memory: &mut [f64]) -> Result<between_reversals::Workspace<'_>, Error> {
+    on_widest!(between_reversals::Workspace::new, memory: &mut [f64] => Result<between_reversals::Workspace<'_>, Error>)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tests::{FLATS, contact as flat, ellipse};
+
+    #[test]
+    fn a_contact_of_which_any_bit_was_changed_is_refused() {
+        for prepared in FLATS.map(flat).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let good = mslip_contact::from(prepared);
+            assert!(unsafe { contact(&raw const good) }.is_ok());
+            let mut words: [u64; 249] = unsafe { mem::transmute(good) };
+            for place in 0..words.len() {
+                for bit in 0..64 {
+                    words[place] ^= 1 << bit;
+                    let bad = words.as_ptr().cast::<mslip_contact>();
+                    assert_eq!(unsafe { contact(bad) }.map(|_| ()), Err(Error::BadContact), "{place} {bit}");
+                    words[place] ^= 1 << bit;
+                }
+            }
+        }
+    }
 }

@@ -48,7 +48,7 @@ unsafe fn prepare<P>(
         if contact.is_null() {
             return Err(Error::NullPointer);
         }
-        unsafe { contact.cast::<Contact>().write(make(parameters)?) };
+        unsafe { contact.write(make(parameters)?.into()) };
         Ok(())
     };
     status(prepare())
