@@ -35,16 +35,15 @@ pub(crate) fn of_table(words: &[f64]) -> u64 {
     words.iter().fold(0, |sum, word| sum.wrapping_add(word.to_bits()))
 }
 
-/// Checksum of a few numbers, each in its place.
+/// Checksum of a few numbers, each in its place: their sum with the weights 1, 3, 5, ... from the last to the first. Odd weights
+/// lose no change of one word.
 #[inline(always)]
 pub(crate) fn of_places(words: impl Iterator<Item = f64>) -> u64 {
-    // An odd factor for each place: no change of one word is lost. Any will do; this is 2^64 over the golden ratio.
-    const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-    let first = (0u64, FACTOR);
-    let (sum, _) = words.fold(first, |(sum, factor), word| {
-        (sum.wrapping_add(word.to_bits().wrapping_mul(factor)), factor.wrapping_add(FACTOR << 1))
+    let (sum, sum_of_sums) = words.fold((0u64, 0u64), |(sum, sum_of_sums), word| {
+        let sum = sum.wrapping_add(word.to_bits());
+        (sum, sum_of_sums.wrapping_add(sum))
     });
-    sum
+    sum_of_sums.wrapping_mul(2).wrapping_sub(sum)
 }
 
 /// A whole number below 2^52, read off its bits: memory of unknown contents meets no arithmetic, which would trap.
