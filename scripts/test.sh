@@ -189,13 +189,16 @@ fortran_against_rust() {
 }
 step 'Fortran examples against the balance in Rust' fortran_against_rust
 
-step 'README: extraction of its programs' scripts/snippets.sh README.md "$work/snippets"
-for extension in c f90; do
-    step "README: has a whole program in $extension" test -n "$(find "$work/snippets" -name "*.$extension")"
+for document in README.md docs/*.md; do
+    name=$(basename "$document" .md)
+    step "$name: extraction of its programs" scripts/snippets.sh "$document" "$work/snippets/$name"
+    for file in "$work/snippets/$name"/*; do
+        [ -e "$file" ] || break
+        step "$name: $(basename "$file")" snippet "$file"
+    done
 done
-for file in "$work"/snippets/*; do
-    [ -e "$file" ] || break
-    step "README: $(basename "$file")" snippet "$file"
+for extension in c f90; do
+    step "README: has a whole program in $extension" test -n "$(find "$work/snippets/README" -name "*.$extension")"
 done
 step 'uninstall leaves no file' uninstall
 
