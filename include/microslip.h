@@ -69,10 +69,10 @@
 // Half-width, force, displacement or energy would be out of range.
 #define MSLIP_OUT_OF_RANGE 13
 
-// The contact was never prepared, or its memory was changed.
+// The contact was never prepared, belongs to another version, or its memory was changed.
 #define MSLIP_BAD_CONTACT 20
 
-// The state was never initialised, or its memory was changed.
+// The state was never initialised, is cut short, or its memory was changed.
 #define MSLIP_BAD_STATE 21
 
 // The workspace was never initialised, or its memory was changed.

@@ -65,9 +65,9 @@ pub const MSLIP_BAD_SEMI_AXIS_Y: i32 = 11;
 pub const MSLIP_LENGTH_TOO_SHORT: i32 = 12;
 /// Half-width, force, displacement or energy would be out of range.
 pub const MSLIP_OUT_OF_RANGE: i32 = 13;
-/// The contact was never prepared, or its memory was changed.
+/// The contact was never prepared, belongs to another version, or its memory was changed.
 pub const MSLIP_BAD_CONTACT: i32 = 20;
-/// The state was never initialised, or its memory was changed.
+/// The state was never initialised, is cut short, or its memory was changed.
 pub const MSLIP_BAD_STATE: i32 = 21;
 /// The workspace was never initialised, or its memory was changed.
 pub const MSLIP_BAD_WORKSPACE: i32 = 22;

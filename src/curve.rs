@@ -7,6 +7,7 @@ use crate::contact::Contact;
 use crate::error::Error;
 use crate::family::{Member, Place, Split};
 use crate::inverse::Inverse;
+use crate::number::{is_finite, is_within};
 
 /// Relative excess over mu N that is taken for rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -50,12 +51,12 @@ impl Contact {
     }
 
     pub(crate) fn check_force(&self, force: f64) -> Result<(), Error> {
-        if !force.is_finite() {
-            Err(Error::BadForce)
-        } else if force.abs() > self.slip_force * (1.0 + ROUNDING) {
+        if is_within(force, self.slip_force * (1.0 + ROUNDING)) {
+            Ok(())
+        } else if is_finite(force) {
             Err(Error::ForceExceedsSlip)
         } else {
-            Ok(())
+            Err(Error::BadForce)
         }
     }
 
@@ -255,9 +256,11 @@ impl Responder<'_> {
     }
 }
 
+/// The bound keeps products with forces and energies representable.
+pub(crate) const LARGEST_DISPLACEMENT: f64 = 1e150;
+
 pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
-    // The bound keeps products with forces and energies representable.
-    if displacement.abs() <= 1e150 { Ok(()) } else { Err(Error::BadDisplacement) }
+    if is_within(displacement, LARGEST_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
 }
 
 fn sign_of(value: f64) -> f64 {

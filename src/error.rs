@@ -103,10 +103,10 @@ impl Error {
             Error::OutOfRange => {
                 c"the parameters are each allowed, but together they give a half-width, force, displacement or energy out of range"
             }
-            Error::BadContact => c"the contact was never prepared, or its memory was changed: call mslip_contact_init first",
-            Error::BadState => c"the state was never initialised, or its memory was changed: call mslip_state_init first",
+            Error::BadContact => c"the contact was never prepared, belongs to another version, or was changed: call mslip_contact_init first",
+            Error::BadState => c"the state was never initialised, is cut short, or was changed: call mslip_state_init first",
             Error::BadWorkspace => {
-                c"the workspace was never initialised, or its memory was changed: call mslip_harmonic_workspace_init first"
+                c"the workspace was never initialised, or was changed: call mslip_harmonic_workspace_init first"
             }
             Error::StateTooShort => c"state_length is too short: use mslip_state_length for the number of reversals wanted",
             Error::StateFull => {

@@ -30,10 +30,11 @@
 //! is a sum of one sign; in gross slip the upper limit is fixed and K' is differentiated as it stands.
 
 use crate::contact::Contact;
-use crate::curve::check_displacement;
+use crate::curve::LARGEST_DISPLACEMENT;
 use crate::cycle_rules::{GAUSS, RULES};
 use crate::error::Error;
 use crate::family::{ContactFamily, Member, Station, integrate};
+use crate::number::is_from_0_to;
 use crate::quadrature::TANH_SINH;
 use core::f64::consts::PI;
 
@@ -79,7 +80,7 @@ impl Contact {
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
-        if force_amplitude >= 0.0 && force_amplitude.is_finite() {
+        if is_from_0_to(f64::MAX, force_amplitude) {
             self.check_force(force_amplitude)
         } else {
             Err(Error::BadForceAmplitude)
@@ -146,11 +147,7 @@ fn side_by_side(terms: &[f64]) -> f64 {
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
-    if amplitude >= 0.0 {
-        check_displacement(amplitude).map_err(|_| Error::BadAmplitude)
-    } else {
-        Err(Error::BadAmplitude)
-    }
+    if is_from_0_to(LARGEST_DISPLACEMENT, amplitude) { Ok(()) } else { Err(Error::BadAmplitude) }
 }
 
 impl ComplexStiffness<'_> {

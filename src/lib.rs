@@ -12,6 +12,7 @@ pub mod error;
 pub mod parameters;
 
 mod chebyshev;
+mod number;
 mod quadrature;
 mod seal;
 mod series;

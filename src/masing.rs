@@ -226,9 +226,13 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
         falls = displacement < last;
         last = displacement;
     }
-    if read.depth().saturating_add(turns) <= read.capacity {
-        return Ok(());
-    }
+    if read.depth().saturating_add(turns) <= read.capacity { Ok(()) } else { check_path_aside(contact, state, path) }
+}
+
+/// Walks a path in a [`Scratch`]: a function of its own, whose large frame is entered before anything else. Where a frame is
+/// entered late, LLVM probes its pages with a register that may be in use already.
+#[inline(never)]
+fn check_path_aside(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), Error> {
     let mut scratch = Scratch::of(state)?;
     let mut dry = Track::start(scratch.state())?;
     for &displacement in path {

@@ -7,6 +7,7 @@ use crate::contact::Contact;
 use crate::error::Error;
 use crate::masing::{self, PathOutput};
 use crate::memory;
+use crate::number::is_finite;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ptr;
 use libc::size_t;
@@ -126,7 +127,7 @@ pub unsafe extern "C" fn mslip_tractions(
 }
 
 fn check_positions(x: &[f64]) -> Result<(), Error> {
-    if x.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Error::BadPosition) }
+    if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
 }
 
 /// Relative slip \[m\] (Eq. 15) and frictional damage parameter mu p |s| \[N/m\] (section 3.5) at x\[n\] \[m\], under a
@@ -354,23 +355,28 @@ pub unsafe extern "C" fn mslip_masing_path(
     let walk = || {
         let contact = unsafe { pointer::contact(contact) }?;
         let path = unsafe { input(displacement, n) }?;
-        let mut scratch;
-        let state = if state1.is_null() {
-            scratch = masing::Scratch::of(unsafe { input(state0, state_length) }?)?;
-            masing::check_path(contact, scratch.state(), path)?;
-            scratch.state()
-        } else {
-            masing::check_path(contact, unsafe { input(state0, state_length) }?, path)?;
-            if !ptr::eq(state0, state1) {
-                unsafe { ptr::copy(state0, state1, state_length) };
-            }
-            unsafe { output(state1, state_length) }.ok_or(Error::StateTooShort)?
-        };
+        let start = unsafe { input(state0, state_length) }?;
         let [force, stiffness, dissipated] =
             [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
-        lead(contact, state, path, PathOutput { force, stiffness, dissipated })
+        let output = PathOutput { force, stiffness, dissipated };
+        if state1.is_null() {
+            return lead_aside(contact, start, path, output);
+        }
+        masing::check_path(contact, start, path)?;
+        if !ptr::eq(state0, state1) {
+            unsafe { ptr::copy(state0, state1, state_length) };
+        }
+        lead(contact, unsafe { pointer::output(state1, state_length) }.ok_or(Error::StateTooShort)?, path, output)
     };
     status(walk())
+}
+
+/// Leads a copy of a state that is not kept.
+#[inline(never)]
+fn lead_aside(contact: &Contact, start: &[f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    let mut scratch = masing::Scratch::of(start)?;
+    masing::check_path(contact, scratch.state(), path)?;
+    lead(contact, scratch.state(), path, output)
 }
 
 fn lead(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
