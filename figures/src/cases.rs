@@ -1,0 +1,236 @@
+//! Contacts by the paper's dimensionless ratios, and the units in which its figures are drawn.
+//!
+//! The law has similarity: in these units nothing depends on the numbers that are chosen here for size, modulus and friction.
+
+use microslip::{Contact, EllipticParameters, Material, Parameters};
+use microslip::{masing, memory};
+use std::f64::consts::PI;
+
+/// Half-width b of the contacts \[m\].
+const HALF_WIDTH: f64 = 1e-3;
+/// Radius of the edges over b: large, as half-planes ask.
+const EDGE_RADIUS: f64 = 50.0 * HALF_WIDTH;
+const FRICTION: f64 = 0.5;
+const STEEL: Material = Material { young_modulus: 2.1e11, poisson_ratio: POISSON };
+
+/// The paper leaves Poisson's ratio open.
+pub const POISSON: f64 = 0.3;
+
+/// A contact with its units.
+pub struct Case {
+    pub contact: Contact,
+    /// a \[m\].
+    pub flat: f64,
+    /// R \[m\].
+    pub edge_radius: f64,
+    /// L \[m\].
+    pub length: f64,
+    /// N \[N\].
+    pub normal_force: f64,
+    pub friction: f64,
+}
+
+/// `4 P R/E*` of a contact of half-width b (Eq. 1 as it holds), in the form of the angle φ0 with sin φ0 = a/b.
+pub fn load_of_size(flat: f64, half_width: f64) -> f64 {
+    let angle = (flat / half_width).acos(); // π/2 - φ0
+    2.0 * half_width * half_width * angle - 2.0 * flat * ((half_width - flat) * (half_width + flat)).sqrt()
+}
+
+/// E* of two like bodies (Eq. 2).
+fn composite_modulus(material: Material) -> f64 {
+    material.young_modulus / (2.0 * (1.0 - material.poisson_ratio.powi(2)))
+}
+
+impl Case {
+    /// A flat with rounded edges, or a cylinder, by a/b and L/b.
+    pub fn flat(flat_over_width: f64, length_over_width: f64) -> Case {
+        Case::scaled(flat_over_width, length_over_width, EDGE_RADIUS, STEEL, FRICTION)
+    }
+
+    /// The same with other dimensions: in the paper's units it must make no difference.
+    pub fn scaled(
+        flat_over_width: f64,
+        length_over_width: f64,
+        edge_radius: f64,
+        material: Material,
+        friction: f64,
+    ) -> Case {
+        let (flat, length) = (flat_over_width * HALF_WIDTH, length_over_width * HALF_WIDTH);
+        let line_load = composite_modulus(material) * load_of_size(flat, HALF_WIDTH) / (4.0 * edge_radius);
+        Case::loaded(flat, edge_radius, length, line_load * length, material, friction)
+    }
+
+    /// A flat by a/R, L/R and P/(E* R). `widened` times R is what Eq. 1 hears of: 1, or 2 for the relation as it is printed.
+    pub fn under_load(flat_over_radius: f64, length_over_radius: f64, load: f64, widened: f64) -> Case {
+        let (flat, length) = (flat_over_radius * EDGE_RADIUS, length_over_radius * EDGE_RADIUS);
+        let normal_force = load * composite_modulus(STEEL) * EDGE_RADIUS * length;
+        Case::loaded(flat, widened * EDGE_RADIUS, length, normal_force, STEEL, FRICTION)
+    }
+
+    fn loaded(flat: f64, edge_radius: f64, length: f64, normal_force: f64, material: Material, friction: f64) -> Case {
+        let parameters = Parameters {
+            flat_half_width: flat,
+            edge_radius,
+            length,
+            normal_force,
+            friction_coefficient: friction,
+            material: [material; 2],
+            ..Parameters::default()
+        };
+        let contact = Contact::rounded_flat(&parameters).expect("a contact of the paper");
+        Case { contact, flat, edge_radius, length, normal_force, friction }
+    }
+
+    /// The elliptical contact of section 3.3 beside the cylinder of that L/b: semi-axes b and L/2, the same normal force.
+    pub fn ellipse(length_over_width: f64) -> Case {
+        let beside = Case::flat(0.0, length_over_width);
+        Case::hertz(beside.contact.half_width, beside.length / 2.0, beside.normal_force)
+    }
+
+    pub fn sphere() -> Case {
+        Case::hertz(HALF_WIDTH, HALF_WIDTH, 1000.0)
+    }
+
+    fn hertz(semi_axis_x: f64, semi_axis_y: f64, normal_force: f64) -> Case {
+        let parameters = EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient: FRICTION,
+            material: [STEEL; 2],
+        };
+        let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
+        let length = 2.0 * semi_axis_y;
+        Case { contact, flat: 0.0, edge_radius: f64::NAN, length, normal_force, friction: FRICTION }
+    }
+
+    /// a/b of the contact.
+    pub fn flat_over_width(&self) -> f64 {
+        self.flat / self.contact.half_width
+    }
+
+    /// P \[N/m\].
+    pub fn line_load(&self) -> f64 {
+        self.normal_force / self.length
+    }
+
+    /// 2μP/(πE*) \[m\]: the factor of Eq. 10 under μP.
+    pub fn displacement_unit(&self) -> f64 {
+        2.0 * self.contact.slip_force / (PI * self.contact.composite_modulus * self.length)
+    }
+
+    /// 2(μP)²L/(πE*) \[J\]: the energy of Eq. 16.
+    pub fn energy_unit(&self) -> f64 {
+        self.contact.slip_force * self.displacement_unit()
+    }
+
+    /// E* L \[N/m\].
+    pub fn stiffness_unit(&self) -> f64 {
+        self.contact.composite_modulus * self.length
+    }
+
+    /// Displacement of gross slip, in its unit.
+    pub fn slip_displacement(&self) -> f64 {
+        self.contact.slip_displacement / self.displacement_unit()
+    }
+
+    /// Initial stiffness, in its unit.
+    pub fn initial_stiffness(&self) -> f64 {
+        self.contact.initial_stiffness / self.stiffness_unit()
+    }
+
+    /// Displacement on the monotonic curve at Q/μP.
+    pub fn displacement(&self, force: f64) -> f64 {
+        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
+        point.displacement() / self.displacement_unit()
+    }
+
+    /// Q/μP on the monotonic curve at a displacement in its unit.
+    pub fn force(&self, displacement: f64) -> f64 {
+        let displacement = displacement * self.displacement_unit();
+        self.contact.curve_at_displacement(displacement).expect("a displacement").force() / self.contact.slip_force
+    }
+
+    /// Half-width of the stick zone over b at Q/μP.
+    pub fn stick_zone(&self, force: f64) -> f64 {
+        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
+        point.stick_half_width() / self.contact.half_width
+    }
+
+    /// b p/P at x/b.
+    pub fn pressure(&self, x: f64) -> f64 {
+        self.contact.pressure(x * self.contact.half_width) * self.contact.half_width / self.line_load()
+    }
+
+    /// b q/(μP) at x/b and Q/μP.
+    pub fn shear(&self, x: f64, force: f64) -> f64 {
+        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
+        point.shear(x * self.contact.half_width) * self.contact.half_width / (self.friction * self.line_load())
+    }
+
+    /// Slip at x/b and Q/μP, in the unit of the displacement.
+    pub fn slip(&self, x: f64, force: f64) -> f64 {
+        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
+        point.slip(x * self.contact.half_width).expect("a rounded flat") / self.displacement_unit()
+    }
+
+    /// The state after displacements in their unit.
+    fn state_after(&self, displacements: &[f64]) -> [f64; memory::state_length(2)] {
+        let mut state = [0.0; memory::state_length(2)];
+        memory::state_init(&mut state).expect("a state");
+        for displacement in displacements {
+            let step = masing::step(&self.contact, &state, displacement * self.displacement_unit()).expect("a step");
+            step.write(&mut state);
+        }
+        state
+    }
+
+    /// Stiffness a little after a reversal at Q/μP, in its unit.
+    pub fn stiffness_after_reversal(&self, reversal: f64, little: f64) -> f64 {
+        let turn = self.displacement(reversal);
+        let back = (1.0 - little) * turn * self.displacement_unit();
+        let state = self.state_after(&[turn]);
+        masing::step(&self.contact, &state, back).expect("a step").stiffness() / self.stiffness_unit()
+    }
+
+    /// b q/(μP) at each x/b, loaded to one Q/μP and brought back to another.
+    pub fn shear_after_reversal(&self, x: &[f64], reversal: f64, force: f64) -> Vec<f64> {
+        let half = self.displacement((reversal - force) / 2.0);
+        let turn = self.displacement(reversal);
+        let state = self.state_after(&[turn, turn - 2.0 * half]);
+        let places: Vec<f64> = x.iter().map(|x| x * self.contact.half_width).collect();
+        let mut shear = vec![0.0; x.len()];
+        masing::shear_after(&self.contact, &state, &places, &mut shear).expect("tractions");
+        let unit = self.contact.half_width / (self.friction * self.line_load());
+        shear.iter().map(|shear| shear * unit).collect()
+    }
+
+    /// Energy per cycle between ± Q/μP, in its unit.
+    pub fn energy(&self, force: f64) -> f64 {
+        let energy = self.contact.dissipated_energy(force * self.contact.slip_force);
+        energy.expect("a force up to gross slip") / self.energy_unit()
+    }
+
+    /// Energy per cycle of a displacement amplitude, gross slip included.
+    pub fn energy_of_amplitude(&self, amplitude: f64) -> f64 {
+        let stiffness = self.contact.complex_stiffness(amplitude * self.displacement_unit()).expect("an amplitude");
+        stiffness.dissipated() / self.energy_unit()
+    }
+
+    /// K' and K'' at a displacement amplitude, in their unit.
+    pub fn complex_stiffness(&self, amplitude: f64) -> (f64, f64) {
+        let stiffness = self.contact.complex_stiffness(amplitude * self.displacement_unit()).expect("an amplitude");
+        (stiffness.real() / self.stiffness_unit(), stiffness.imaginary() / self.stiffness_unit())
+    }
+
+    /// The closed loop of a displacement amplitude: displacements and forces at so many instants, the first repeated.
+    pub fn hysteresis_loop(&self, amplitude: f64, instants: usize) -> (Vec<f64>, Vec<f64>) {
+        let cycle = self.contact.hysteresis_loop(amplitude * self.displacement_unit()).expect("an amplitude");
+        (0..=instants)
+            .map(|i| {
+                let (displacement, force) = (cycle.displacement(i, instants), cycle.force(i, instants));
+                (displacement / self.displacement_unit(), force / self.contact.slip_force)
+            })
+            .unzip()
+    }
+}
