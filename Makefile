@@ -15,7 +15,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all install uninstall demo demo-dependencies test bench instructions instructions-record counting-dependencies \
-	header clean help
+	figures header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -83,6 +83,12 @@ counting-dependencies:
 bench: all
 	@scripts/dependencies.sh bench
 	$(MAKE) -C bench run PREFIX=../dist QUICK=$(QUICK)
+
+## figures: compute and draw the figures of the paper, and check its claims, into docs/
+figures:
+	@scripts/dependencies.sh figures
+	$(CARGO) run --quiet --release --locked --package figures
+	figures/draw.sh
 
 ## header: make include/microslip.h from the Rust source
 header:

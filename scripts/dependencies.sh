@@ -4,6 +4,7 @@
 #   fortran   the compiler
 #   demo      Fortran with LAPACK, and gnuplot
 #   bench     the C compiler, and gnuplot
+#   figures   gnuplot
 #   counting  what counts instructions
 #   test      all that `make test` uses
 #
@@ -48,6 +49,10 @@ bench() {
     need gnuplot-nox gnuplot
 }
 
+figures() {
+    need gnuplot-nox gnuplot
+}
+
 rust_component() {
     cargo "$2" --version > /dev/null 2>&1 || components="$components $1"
 }
@@ -71,10 +76,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|counting|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|counting|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | counting) "$group" ;;
+        fortran | demo | bench | figures | counting) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

@@ -144,6 +144,8 @@ step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warn
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
+step 'paper: its figures and its claims' "$CARGO" run --quiet --release --locked --package figures -- --check
+
 step 'install, then move' install_and_move
 if [ ! -e "$prefix/lib/libmicroslip.a" ]; then
     echo 'Nothing is installed, so the clients cannot be tested.'
