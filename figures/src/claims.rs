@@ -293,11 +293,9 @@ fn long_contact() -> Claim {
 fn gross_slip_is_horizontal() -> Claim {
     let error = largest(shapes().iter().flat_map(|case| {
         let slip = case.slip_displacement();
-        let energy = |beyond: f64| case.energy(1.0) + 4.0 * beyond;
-        [0.5, 2.0].map(|beyond| {
-            let loss = relative(case.energy_of_amplitude(slip + beyond), energy(beyond));
-            loss.max((case.force(slip + beyond) - 1.0).abs())
-        })
+        let energy = move |beyond: f64| case.energy(1.0) + 4.0 * beyond;
+        let loss = move |beyond| relative(case.energy_of_amplitude(slip + beyond), energy(beyond));
+        [0.5, 2.0].into_iter().flat_map(move |beyond| [loss(beyond), (case.force(slip + beyond) - 1.0).abs()])
     }));
     Claim {
         figure: "fig07",
@@ -550,7 +548,7 @@ fn end_of_microslip() -> Claim {
 fn first_harmonic() -> Claim {
     const INSTANTS: usize = 20_000;
     let error = largest(shapes().iter().flat_map(|case| {
-        [0.5, 1.0, 2.0].map(|share| {
+        [0.5, 1.0, 2.0].into_iter().flat_map(move |share| {
             let amplitude = share * case.slip_displacement();
             let (displacements, forces) = case.hysteresis_loop(amplitude, INSTANTS);
             let (mut real, mut imaginary) = (0.0, 0.0);
@@ -561,7 +559,7 @@ fn first_harmonic() -> Claim {
             // From force over displacement in their units to K/(E* L).
             let unit = PI / 2.0 / amplitude * 2.0 / INSTANTS as f64;
             let (expected_real, expected_imaginary) = case.complex_stiffness(amplitude);
-            (unit * real - expected_real).abs().max((unit * imaginary - expected_imaginary).abs())
+            [unit * real - expected_real, unit * imaginary - expected_imaginary].map(f64::abs)
         })
     }));
     // The loop has kinks: its sums err like 1/INSTANTS².
@@ -713,7 +711,7 @@ fn slip_of_plane_problem() -> Claim {
             in_stick(Reading::Printed) / edge
         ),
         verdict: AS_MENDED,
-        stands: mended.max(in_stick(Reading::Mended)) < QUADRATURE && in_stick(Reading::Printed) > 0.1 * edge,
+        stands: largest([mended, in_stick(Reading::Mended)]) < QUADRATURE && in_stick(Reading::Printed) > 0.1 * edge,
     }
 }
 
