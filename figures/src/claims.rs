@@ -350,7 +350,7 @@ fn mindlin() -> Claim {
         unloading.map(move |(displacement, force)| {
             let half = 1.0 - (top - force) / 2.0;
             // Rounding may leave the far reversal of full slip a hair below zero.
-            let expected = slip * (2.0 * half.max(0.0).powf(2.0 / 3.0) - (1.0 - top).powf(2.0 / 3.0) - 1.0);
+            let expected = slip * (2.0 * half.clamp(0.0, 1.0).powf(2.0 / 3.0) - (1.0 - top).powf(2.0 / 3.0) - 1.0);
             (displacement - expected).abs() / slip
         })
     }));
