@@ -145,6 +145,7 @@ step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
 step 'paper: its figures and its claims' "$CARGO" run --quiet --release --locked --package figures -- --check
+step 'paper: its pictures are of its data' sha256sum --check --quiet docs/figures/drawn.sha256
 
 step 'install, then move' install_and_move
 if [ ! -e "$prefix/lib/libmicroslip.a" ]; then

@@ -61,6 +61,7 @@ pub fn all() -> Vec<Claim> {
         pressure_by_shape(),
         two_limits_of_shape(),
         slip_at_any_force(),
+        full_stick(),
         shear_is_coulombs(),
         displacement_of_tractions(),
         long_contact(),
@@ -228,6 +229,26 @@ fn slip_at_any_force() -> Claim {
         ),
         verdict: HOLDS,
         stands: narrows && widths.iter().all(|&width| width > 0.0),
+    }
+}
+
+fn full_stick() -> Claim {
+    let (case, force) = (Case::flat(0.0, LENGTH), 1e-6);
+    let full = |x: f64| 1.0 / (PI * (1.0 - x * x).sqrt());
+    // The stick zone ends 5e-7 before b, which the traction feels by that over 1 - x.
+    let error = largest([0.0, 0.5, 0.9].map(|x| relative(case.shear(x, force) / force, full(x))));
+    let quotients = [0.9, 0.99, 0.999].map(|x| full(x) / case.pressure(x));
+    Claim {
+        figure: "fig04",
+        place: "2.2",
+        claim: "Without slip the quotient of shear and pressure would be infinite at the edge",
+        computed: format!(
+            "the traction of a small force is bq/Q = 1/(π√(1-x²/b²)), to 10⁻⁵ at Q/μP = 10⁻⁶; over bp/P of the cylinder {} at \
+             x/b = 0.9, 0.99, 0.999",
+            list(&quotients, 1)
+        ),
+        verdict: HOLDS,
+        stands: error < 1e-5 && quotients.windows(2).all(|pair| pair[1] > 5.0 * pair[0]),
     }
 }
 
