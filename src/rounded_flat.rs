@@ -93,7 +93,7 @@ impl RoundedFlat {
     /// The member with that rest of the approach, from one near it; its w, and the power of the rest with which w goes there.
     ///
     /// Halley's iteration on w cubes a distance of a few per cent each time; the last step is an expansion, in which third
-    /// powers of 2e-5 are below rounding.
+    /// powers of 2e-5 are below rounding, over the square of the compliance where that is small.
     fn near_approach_rest(&self, rest: f64, start: Indentation) -> (Member, f64, f64) {
         let mut inner = start;
         let mut iterations_left = 8;
@@ -109,7 +109,7 @@ impl RoundedFlat {
             let newton = gap * self.load / slope;
             let step = newton / (1.0 + 0.5 * newton * bend / slope).max(0.5);
             iterations_left -= 1;
-            if step.abs() <= 2e-5 * w || iterations_left == 0 {
+            if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
                 let load = now.load.rest + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
                 let excess = now.excess + step * (rate + 0.5 * step * rate_change);
                 let member = Member {
@@ -209,7 +209,13 @@ impl ContactFamily for RoundedFlat {
     }
 
     fn size(&self, member: &Member) -> f64 {
-        (-member.excess).exp()
+        match member.measure {
+            Some(measure) => {
+                let w = self.w * measure;
+                (self.flat * self.flat + w * w).sqrt().max(self.flat)
+            }
+            None => (-member.excess).exp(),
+        }
     }
 
     fn measure(&self, member: &Member) -> f64 {
@@ -273,8 +279,9 @@ fn curvature(contact: &Indentation, load: f64) -> [f64; KEPT] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::tests::{FLATS, contact};
+    use crate::contact::tests::{FLATS, contact, cylinder};
     use crate::family::{ContactFamily, integrate};
+    use crate::parameters::CENTRE_POINT;
 
     /// A contact by its ψ, and a compliance of its own.
     fn family(psi: f64) -> RoundedFlat {
@@ -383,12 +390,14 @@ mod tests {
     /// The inverse, wherever the approach rests, against the formula of the rest itself.
     #[test]
     fn what_rests_is_found_again() {
-        for flat in FLATS {
-            let shape = contact(flat);
+        let short = cylinder(1.005, 0.0, CENTRE_POINT).unwrap();
+        // The last one bends sharply: Λ = 0.005.
+        for (flat, shape) in FLATS.map(|flat| (flat, contact(flat))).into_iter().chain([(0.0, short)]) {
             let family = shape.family();
             let half = family.slip_approach() - family.origin().half_approach;
-            for k in 0..=800 {
-                let rest = half * 10f64.powf(-0.02 * k as f64);
+            // Coarsely to far below, and finely, for what depends on where an iteration ends.
+            for power in (0..=800).map(|k| -0.02 * f64::from(k)).chain((0..=4000).map(|k| -1e-4 * f64::from(k))) {
+                let rest = half * 10f64.powf(power);
                 let found = family.at_approach_rest(rest);
                 let member = family.at_load_rest(found.load.rest);
                 assert!((member.approach.rest / rest - 1.0).abs() < 4e-15, "{flat} {rest}: {}", member.approach.rest);
