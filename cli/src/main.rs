@@ -1,0 +1,86 @@
+//! The command line of microslip, for whoever wants numbers before linking anything.
+//!
+//! `arguments` is what can be asked, `parameters` and `path` are what is read, `commands` what is computed, `table` and
+//! `picture` how it is shown, `output` where it goes.
+
+mod arguments;
+mod commands;
+mod digits;
+mod output;
+mod parameters;
+mod path;
+mod picture;
+mod refusal;
+mod table;
+mod units;
+
+use arguments::{Arguments, Command, Output, Source};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use commands::Answer;
+use picture::Format;
+use refusal::{Outcome, Refusal, usage};
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Refusal::Input(sentence)) => {
+            // Where there is no standard error there is nobody to tell.
+            let _ = writeln!(io::stderr(), "microslip: {}", sentence.trim_end());
+            ExitCode::from(1)
+        }
+        Err(Refusal::Usage(sentence)) => Arguments::command().error(ErrorKind::ValueValidation, sentence).exit(),
+    }
+}
+
+fn run(command: &Command) -> Outcome<()> {
+    match command {
+        Command::Contact(a) => give(&a.source, None, &a.output, || commands::contact(a)),
+        Command::Tractions(a) => give(&a.source, None, &a.output, || commands::tractions(a)),
+        Command::Curve(a) => give(&a.source, None, &a.output, || commands::curve(a)),
+        Command::Loop(a) => give(&a.source, None, &a.output, || commands::hysteresis_loop(a)),
+        Command::Stiffness(a) => give(&a.source, None, &a.output, || commands::stiffness(a)),
+        Command::History(a) => give(&a.source, Some(&a.displacements), &a.output, || commands::history(a)),
+        Command::Jenkins(a) => give(&a.source, None, &a.output, || commands::jenkins_equivalent(a)),
+        Command::Iwan(a) => give(&a.source, None, &a.output, || commands::iwan_equivalent(a)),
+        Command::Example { elliptic: false } => output::to_stdout(include_bytes!("../example.toml")),
+        Command::Example { elliptic: true } => output::to_stdout(include_bytes!("../example_elliptic.toml")),
+    }
+}
+
+/// Computes the answer and writes it where the user wants it, all of it or nothing.
+fn give(
+    source: &Source,
+    other_input: Option<&Path>,
+    output: &Output,
+    answer: impl FnOnce() -> Outcome<Answer>,
+) -> Outcome<()> {
+    let inputs: Vec<_> = source.file.as_deref().into_iter().chain(other_input).collect();
+    let outputs: Vec<_> = output.out.as_deref().into_iter().chain(output.plot.as_deref()).collect();
+    output::keep_apart(&inputs, &outputs)?;
+    let plot = output.plot.as_deref().map(|path| Ok((path, format_of(path)?))).transpose()?;
+
+    let answer = answer()?;
+    let not_made = |error: &dyn Display| Refusal::Input(format!("the result cannot be written: {error}"));
+    let table = answer.table().map_err(|error| not_made(&error))?;
+    if let Some((path, format)) = plot {
+        let picture = answer.picture().draw(format).map_err(|error| not_made(&error))?;
+        output::to_file(path, &picture)?;
+    }
+    match &output.out {
+        Some(path) => output::to_file(path, &table),
+        None => output::to_stdout(&table),
+    }
+}
+
+fn format_of(path: &Path) -> Outcome<Format> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("svg") => Ok(Format::Svg),
+        Some("png") => Ok(Format::Png),
+        _ => usage(format!("--plot {}: the name must end with .svg or .png", path.display())),
+    }
+}
