@@ -80,11 +80,11 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_POSITION = 33  !! A position is not finite.
   integer(mslip_int), parameter, public :: MSLIP_BAD_AMPLITUDE = 34  !! An amplitude is to be 0 to 1e150.
   integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE_AMPLITUDE = 35  !! A force amplitude is to be >= 0 and finite.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! At least one harmonic, and an addressable workspace.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37  !! More than twice as many samples as harmonics.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! At least one slider.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! The number of harmonics is to be 1 to 2**24.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37  !! Samples: more than twice the harmonics, up to 2**24.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! The number of sliders is to be 1 to 65536.
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! `rule` is none of those.
-  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Not for this kind of contact, or no equivalent exists.
+  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Elliptical contacts have no slip.
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90  !! Sizes of arrays disagree.
 
   ! A number nobody has set: outside the range of every parameter, so that mslip_contact_init refuses it by name.
@@ -1064,7 +1064,7 @@ contains
     real(mslip_real), intent(inout) :: stiffness  !! Stiffness of the spring, N/m.
     real(mslip_real), intent(inout) :: slip_force  !! Force at which the slider slips, N.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_NOT_AVAILABLE` where the contact carries no force, or what was refused.
+      !! `MSLIP_OK`, or what was refused. Both are 0 for a contact that carries no force.
 
     status = c_jenkins_equivalent(contact, amplitude, stiffness, slip_force)
   end subroutine mslip_jenkins_equivalent

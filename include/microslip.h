@@ -66,7 +66,7 @@
 // 2 length <= half-width, or the initial stiffness would not be positive.
 #define MSLIP_LENGTH_TOO_SHORT 12
 
-// Half-width, force, displacement or energy would be out of range.
+// Half-width, force, displacement or energy would be beyond about 1e-150 to 1e150.
 #define MSLIP_OUT_OF_RANGE 13
 
 // The contact was never prepared, belongs to another version, or its memory was changed.
@@ -105,10 +105,10 @@
 // A force amplitude is not finite, or negative.
 #define MSLIP_BAD_FORCE_AMPLITUDE 35
 
-// The number of harmonics is 0, or too large.
+// The number of harmonics is 0, or beyond 2^24.
 #define MSLIP_BAD_HARMONICS 36
 
-// The number of samples does not exceed twice the number of harmonics, or is too large.
+// The number of samples does not exceed twice the number of harmonics, or is beyond 2^24.
 #define MSLIP_BAD_SAMPLES 37
 
 // The number of sliders is 0, or beyond 65536.
@@ -117,7 +117,7 @@
 // rule is neither MSLIP_EQUIDISTANT nor MSLIP_BETWEEN_REVERSALS.
 #define MSLIP_BAD_RULE 39
 
-// Not available for this kind of contact, or no equivalent exists.
+// Slip is not available for an elliptical contact.
 #define MSLIP_NOT_AVAILABLE 40
 
 // An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a

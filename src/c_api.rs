@@ -63,7 +63,7 @@ pub const MSLIP_BAD_SEMI_AXIS_X: i32 = 10;
 pub const MSLIP_BAD_SEMI_AXIS_Y: i32 = 11;
 /// 2 length <= half-width, or the initial stiffness would not be positive.
 pub const MSLIP_LENGTH_TOO_SHORT: i32 = 12;
-/// Half-width, force, displacement or energy would be out of range.
+/// Half-width, force, displacement or energy would be beyond about 1e-150 to 1e150.
 pub const MSLIP_OUT_OF_RANGE: i32 = 13;
 /// The contact was never prepared, belongs to another version, or its memory was changed.
 pub const MSLIP_BAD_CONTACT: i32 = 20;
@@ -89,15 +89,15 @@ pub const MSLIP_BAD_POSITION: i32 = 33;
 pub const MSLIP_BAD_AMPLITUDE: i32 = 34;
 /// A force amplitude is not finite, or negative.
 pub const MSLIP_BAD_FORCE_AMPLITUDE: i32 = 35;
-/// The number of harmonics is 0, or too large.
+/// The number of harmonics is 0, or beyond 2^24.
 pub const MSLIP_BAD_HARMONICS: i32 = 36;
-/// The number of samples does not exceed twice the number of harmonics, or is too large.
+/// The number of samples does not exceed twice the number of harmonics, or is beyond 2^24.
 pub const MSLIP_BAD_SAMPLES: i32 = 37;
 /// The number of sliders is 0, or beyond 65536.
 pub const MSLIP_BAD_COUNT: i32 = 38;
 /// rule is neither MSLIP_EQUIDISTANT nor MSLIP_BETWEEN_REVERSALS.
 pub const MSLIP_BAD_RULE: i32 = 39;
-/// Not available for this kind of contact, or no equivalent exists.
+/// Slip is not available for an elliptical contact.
 pub const MSLIP_NOT_AVAILABLE: i32 = 40;
 /// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
 /// size that does not agree with the others.

@@ -101,7 +101,7 @@ impl Error {
                 c"length is too short for the contact half-width b: 2 length > b and a positive initial stiffness are needed"
             }
             Error::OutOfRange => {
-                c"the parameters are each allowed, but together they give a half-width, force, displacement or energy out of range"
+                c"the parameters are each allowed, but together they give numbers beyond about 1e-150 to 1e150"
             }
             Error::BadContact => c"the contact was never prepared, belongs to another version, or was changed: call mslip_contact_init first",
             Error::BadState => c"the state was never initialised, is cut short, or was changed: call mslip_state_init first",
@@ -121,11 +121,11 @@ impl Error {
             Error::BadPosition => c"position x must be a finite number",
             Error::BadAmplitude => c"amplitude must be a finite number >= 0, at most 1e150",
             Error::BadForceAmplitude => c"force_amplitude must be a finite number >= 0",
-            Error::BadHarmonics => c"the number of harmonics must be >= 1, and small enough for its workspace to be addressed",
-            Error::BadSamples => c"the number of samples must exceed twice the number of harmonics",
+            Error::BadHarmonics => c"the number of harmonics must lie in 1 to 16777216",
+            Error::BadSamples => c"the number of samples must exceed twice the number of harmonics, and be at most 16777216",
             Error::BadCount => c"the number of sliders must lie in 1 to 65536",
             Error::BadRule => c"rule must be MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)",
-            Error::NotAvailable => c"this quantity is not available for this kind of contact, or no equivalent exists",
+            Error::NotAvailable => c"slip is not available for an elliptical contact",
             Error::BadArraySize => c"an array is longer than memory, too short, or of a size that does not agree with the others",
         }
     }

@@ -83,6 +83,21 @@ fn equivalents() {
 }
 
 #[test]
+fn bad_parameters() {
+    drive("bad_parameters");
+}
+
+#[test]
+fn bad_arguments() {
+    drive("bad_arguments");
+}
+
+#[test]
+fn bad_memory() {
+    drive("bad_memory");
+}
+
+#[test]
 fn golden() {
     drive("golden");
 }

@@ -1,0 +1,297 @@
+/* bad_calls.h: every function that takes a contact in one table, and a call of each with good arguments, of which one at a time is
+   made bad. */
+#ifndef BAD_CALLS_H
+#define BAD_CALLS_H
+
+#include "refusal.h"
+
+enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { REVERSALS = 12, STATE = 6 + 2 * REVERSALS, HELD = 3 };
+
+/* Kinds of numbers. */
+enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE };
+
+/* What a function takes beside a contact. The n of sliders is not that of an array to be read. */
+enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_SLIDERS = 16 };
+
+static struct {
+    const mslip_contact *contacts;
+    const int32_t *active;
+    size_t n, state_length;
+    double scalar;
+    const double *input, *state0;
+    double *state1, *workspace, *out[4];
+} call;
+
+#define CALL(name, ...) static int32_t call_##name(void) { return mslip_##name(__VA_ARGS__); }
+CALL(tractions, call.contacts, call.scalar, call.n, call.input, call.out[0], call.out[1])
+CALL(slip, call.contacts, call.scalar, call.n, call.input, call.out[0], call.out[1])
+CALL(monotonic_displacement, call.contacts, call.n, call.input, call.out[0], call.out[1], call.out[2])
+CALL(monotonic_force, call.contacts, call.n, call.input, call.out[0], call.out[1], call.out[2])
+CALL(masing_update, call.contacts, call.state_length, call.state0, call.scalar, call.state1, call.out[0], call.out[1], call.out[2])
+CALL(masing_path, call.contacts, call.state_length, call.state0, call.n, call.input, call.state1, call.out[0], call.out[1],
+     call.out[2])
+CALL(masing_tractions, call.contacts, call.state_length, call.state0, call.n, call.input, call.out[0], call.out[1])
+CALL(hysteresis_loop, call.contacts, call.scalar, call.n, call.out[0], call.out[1])
+CALL(dissipated_energy, call.contacts, call.n, call.input, call.out[0])
+CALL(complex_stiffness, call.contacts, call.n, call.input, call.out[0], call.out[1], call.out[2], call.out[3])
+CALL(harmonic_force, call.contacts, call.workspace, call.input, call.out[0], call.out[1], call.out[2])
+CALL(jenkins_equivalent, call.contacts, call.scalar, call.out[0], call.out[1])
+CALL(iwan_equivalent, call.contacts, call.n, call.out[0], call.out[1], call.out[2])
+CALL(interface_complex_stiffness, call.n, call.contacts, call.active, call.input, call.out[0], call.out[1], call.out[2],
+     call.out[3])
+CALL(interface_masing_update, call.n, call.contacts, call.active, call.state_length, call.state0, call.input, call.state1,
+     call.out[0], call.out[1], call.out[2])
+CALL(interface_harmonic_force, call.n, call.contacts, call.active, call.workspace, call.input, call.out[0], call.out[1],
+     call.out[2])
+
+typedef struct {
+    const char *name;
+    int32_t (*call)(void);
+    int takes, rule;
+    int scalar;    /* kind of the number that is passed by value */
+    int kind;      /* kind of those of the array */
+    size_t inputs; /* length of the array */
+    size_t state1; /* and of the outputs */
+    size_t out[4];
+} function;
+
+#define FUNCTION(name) "mslip_" #name, call_##name
+static const function functions[] = {
+    { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, 0, { ITEMS, ITEMS } },
+    { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, 0, { ITEMS, ITEMS } },
+    { FUNCTION(monotonic_displacement), TAKES_COUNT, 0, NONE, FORCE, ITEMS, 0, { ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(monotonic_force), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, 0, { ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(masing_update), TAKES_STATE, 0, DISPLACEMENT, NONE, 0, STATE, { 1, 1, 1 } },
+    { FUNCTION(masing_path), TAKES_STATE | TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, STATE,
+      { ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(masing_tractions), TAKES_STATE | TAKES_COUNT, 0, NONE, POSITION, ITEMS, 0, { ITEMS, ITEMS } },
+    { FUNCTION(hysteresis_loop), TAKES_COUNT, 0, AMPLITUDE, NONE, 0, 0, { ITEMS, ITEMS } },
+    { FUNCTION(dissipated_energy), TAKES_COUNT, 0, NONE, FORCE_AMPLITUDE, ITEMS, 0, { ITEMS } },
+    { FUNCTION(complex_stiffness), TAKES_COUNT, 0, NONE, AMPLITUDE, ITEMS, 0, { ITEMS, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_EQUIDISTANT, NONE, DISPLACEMENT, COEFFICIENTS, 0,
+      { COEFFICIENTS, SQUARE, 1 } },
+    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_BETWEEN_REVERSALS, NONE, DISPLACEMENT, COEFFICIENTS, 0,
+      { COEFFICIENTS, SQUARE, 1 } },
+    { FUNCTION(jenkins_equivalent), 0, 0, AMPLITUDE, NONE, 0, 0, { 1, 1 } },
+    { FUNCTION(iwan_equivalent), TAKES_COUNT | IS_SLIDERS, 0, NONE, NONE, 0, 0, { ITEMS, ITEMS, 1 } },
+    { FUNCTION(interface_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, 0,
+      { ITEMS, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(interface_masing_update), TAKES_COUNT | TAKES_STATE | IS_BATCH, 0, NONE, DISPLACEMENT, ITEMS,
+      ITEMS * STATE, { ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(interface_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_EQUIDISTANT, NONE,
+      DISPLACEMENT, ITEMS * COEFFICIENTS, 0, { ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } },
+    { FUNCTION(interface_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_BETWEEN_REVERSALS, NONE,
+      DISPLACEMENT, ITEMS * COEFFICIENTS, 0, { ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } },
+};
+enum { FUNCTIONS = sizeof functions / sizeof *functions };
+
+static inline const function *find(const char *name)
+{
+    for (int i = 0; i < FUNCTIONS; ++i) {
+        if (strcmp(functions[i].name, name) == 0) {
+            return &functions[i];
+        }
+    }
+    fprintf(stderr, "no function %s\n", name);
+    exit(2);
+}
+
+static region *contact_region, *active_region, *input_region, *state0_region, *state1_region, *workspace_region, *out_regions[4];
+static size_t workspace_lengths[2];
+
+static inline void make_regions(void)
+{
+    size_t largest;
+    for (int rule = 0; rule < 2; ++rule) {
+        workspace_lengths[rule] = mslip_harmonic_workspace_length_rule(HARMONICS, SAMPLES, rule);
+    }
+    largest = workspace_lengths[workspace_lengths[1] > workspace_lengths[0]];
+    contact_region = make_region(ITEMS * sizeof(mslip_contact));
+    active_region = make_region(ITEMS * sizeof(int32_t));
+    input_region = make_region(ITEMS * COEFFICIENTS * sizeof(double));
+    state0_region = make_region(ITEMS * STATE * sizeof(double));
+    state1_region = make_region(ITEMS * STATE * sizeof(double));
+    workspace_region = make_region(largest * sizeof(double));
+    for (int i = 0; i < 4; ++i) {
+        out_regions[i] = make_region(ITEMS * SQUARE * sizeof(double));
+    }
+}
+
+/* What is given, to be made bad. */
+static inline mslip_contact *contacts(void)
+{
+    return (mslip_contact *)(size_t)call.contacts;
+}
+
+static inline int32_t *active(void)
+{
+    return (int32_t *)(size_t)call.active;
+}
+
+static inline double *input(void)
+{
+    return (double *)(size_t)call.input;
+}
+
+static inline double *states0(void)
+{
+    return (double *)(size_t)call.state0;
+}
+
+/* Displacements that nest, ever smaller: so many turn back and forth. */
+static inline double spiral(int turns)
+{
+    return (turns % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * turns);
+}
+
+/* As many as there is room for; a displacement that turns once more, and one that goes on. */
+static inline double filled_turn(void)
+{
+    return 0.5 * (spiral(REVERSALS) + spiral(REVERSALS - 1));
+}
+
+static inline double filled_end(void)
+{
+    return 1.01 * spiral(REVERSALS);
+}
+
+/* States of the contacts after so many turns. */
+static inline void lead_states(const function *f, int turns)
+{
+    const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
+    for (size_t i = 0; (f->takes & TAKES_STATE) && i < items; ++i) {
+        double *state = states0() + i * STATE;
+        CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
+        for (int k = 0; k <= turns; ++k) {
+            CHECK(mslip_masing_update(&call.contacts[i], STATE, state, spiral(k), state, NULL, NULL, NULL) == MSLIP_OK);
+        }
+    }
+}
+
+static inline void fill_states(const function *f)
+{
+    lead_states(f, REVERSALS);
+}
+
+static inline double good_number(int kind, size_t i, double slip_force)
+{
+    switch (kind) {
+        case POSITION: return 1e-4 * ((double)i - 2.0);
+        case FORCE: return slip_force * (0.2 * (double)i - 0.35);
+        case FORCE_AMPLITUDE: return 0.2 * slip_force * (double)i;
+        case DISPLACEMENT: return 1e-8 * (1.3 * (double)(i % 4) - 2.0);
+        case AMPLITUDE: return 4e-8 * (double)(i + 1);
+        default: return 0.0;
+    }
+}
+
+/* Good arguments, each just before its page. */
+static inline void set_up(const function *f)
+{
+    const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
+    mslip_contact *c = last(contact_region, items * sizeof *c);
+    int32_t *flags = last(active_region, ITEMS * sizeof *flags);
+    double *numbers = last(input_region, f->inputs * sizeof *numbers);
+
+    memset(&call, 0, sizeof call);
+    call.n = ITEMS;
+    call.state_length = STATE;
+    call.contacts = c;
+    for (size_t i = 0; i < items; ++i) {
+        c[i] = i % 3 == 0 ? flat_contact() : i % 3 == 1 ? cylinder_contact() : elliptic_contact();
+    }
+    for (size_t i = 0; i < ITEMS; ++i) {
+        flags[i] = 1;
+    }
+    call.active = f->takes & IS_BATCH ? flags : NULL;
+    for (size_t i = 0; i < f->inputs; ++i) {
+        numbers[i] = good_number(f->kind, i, c->slip_force);
+    }
+    call.input = f->inputs > 0 ? numbers : NULL;
+    call.scalar = good_number(f->scalar, 3, c->slip_force);
+    if (f->takes & TAKES_STATE) {
+        call.state0 = last(state0_region, items * STATE * sizeof(double));
+        lead_states(f, HELD);
+    }
+    if (f->takes & TAKES_WORKSPACE) {
+        const size_t length = workspace_lengths[f->rule];
+        call.workspace = last(workspace_region, length * sizeof(double));
+        CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
+    }
+    if (f->state1 > 0) {
+        call.state1 = last(state1_region, f->state1 * sizeof(double));
+    }
+    for (int i = 0; i < 4; ++i) {
+        call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
+    }
+}
+
+static inline void refused(const function *f, int32_t status, const char *what)
+{
+    int32_t got;
+    remember_regions();
+    feclearexcept(FE_ALL_EXCEPT);
+    got = f->call();
+    check_refused(got, status, f->name, what);
+}
+
+/* Nothing but the scratch memory of a workspace, if there is one. */
+static inline int nothing_changed_but_scratch(const function *f)
+{
+    for (int i = 0; i < regions_made; ++i) {
+        if (!region_is_unchanged(&regions[i]) && !((f->takes & TAKES_WORKSPACE) && &regions[i] == workspace_region)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Whether an output has finite numbers for all items but one, which is as it was, and nothing before its start changed. */
+static inline int is_written(const region *r, size_t length, size_t skipped)
+{
+    const size_t bytes = length * sizeof(double), share = length / ITEMS;
+    const double *values = last(r, bytes), *before = (const double *)(r->before + r->bytes - bytes);
+    if (memcmp(r->start, r->before, r->bytes - bytes) != 0) {
+        return 0;
+    }
+    for (size_t i = 0; i < length; ++i) {
+        if (skipped < ITEMS && i / share == skipped ? !same_bits(&values[i], &before[i], 1) : !isfinite(values[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The call is accepted, and only its outputs are written, for all items but that one. */
+static inline void skipped_alone(const function *f, size_t skipped, const char *what)
+{
+    int32_t status;
+    int flags, holds;
+    /* What is not written is no number. */
+    memset(state1_region->start, 0xff, state1_region->bytes);
+    for (int i = 0; i < 4; ++i) {
+        memset(out_regions[i]->start, 0xff, out_regions[i]->bytes);
+    }
+    remember_regions();
+    feclearexcept(FE_ALL_EXCEPT);
+    status = f->call();
+    flags = raised();
+    holds = status == MSLIP_OK && flags == 0 && region_is_unchanged(contact_region) && region_is_unchanged(active_region) &&
+            region_is_unchanged(input_region) && region_is_unchanged(state0_region);
+    for (int i = 0; i < 4; ++i) {
+        holds &= is_written(out_regions[i], f->out[i], skipped);
+    }
+    /* Beyond its reversals a state is copied as it is. */
+    holds &= f->state1 == 0 || is_written(state1_region, f->state1, skipped);
+    if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {
+        printf("    %s, %s: status %d, flags %x\n", f->name, what, (int)status, flags);
+    }
+}
+
+static inline void accepted(const function *f, const char *what)
+{
+    skipped_alone(f, ITEMS, what);
+}
+
+#endif
