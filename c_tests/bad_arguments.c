@@ -49,13 +49,6 @@ static double in_units(int kind, double value)
     return kind == FORCE || kind == FORCE_AMPLITUDE ? value * contacts()[0].slip_force : value;
 }
 
-static int32_t status_of_no_number(int kind)
-{
-    static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
-                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE };
-    return status[kind];
-}
-
 /* Each number that a function takes, at each place: wrong in every way, and extreme. */
 static void number_in_turn(const function *f, int kind, double *place, const char *where)
 {

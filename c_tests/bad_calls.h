@@ -11,6 +11,14 @@ enum { REVERSALS = 12, STATE = 6 + 2 * REVERSALS, HELD = 3 };
 /* Kinds of numbers. */
 enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE };
 
+/* How a number of a kind is refused that is none. */
+static inline int32_t status_of_no_number(int kind)
+{
+    static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE };
+    return status[kind];
+}
+
 /* What a function takes beside a contact. The n of sliders is not that of an array to be read. */
 enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_SLIDERS = 16 };
 

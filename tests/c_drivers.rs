@@ -98,6 +98,11 @@ fn bad_memory() {
 }
 
 #[test]
+fn environment() {
+    drive("environment");
+}
+
+#[test]
 fn golden() {
     drive("golden");
 }
