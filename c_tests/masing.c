@@ -252,6 +252,22 @@ static void test_full_state(void)
     CHECK(same_bits(virgin, before, length));
     CHECK(taken == REVERSALS + 2); /* the first step leaves the virgin state, each further one adds a reversal */
 
+    /* Copied to the beginning of a longer array, whatever else is in that, it goes on as if it had always been there. */
+    size_t enough = mslip_state_length(STEPS);
+    double longer[STATE], moved[STATE], force, expected;
+    CHECK(enough <= STATE);
+    CHECK(mslip_state_init(enough, longer) == MSLIP_OK);
+    CHECK(mslip_masing_path(&contact, enough, longer, (size_t)(taken - 1), displacement, longer, NULL, NULL, NULL)
+          == MSLIP_OK);
+    memset(moved, 0xff, sizeof moved);
+    memcpy(moved, virgin, length * sizeof(double));
+    for (int i = taken - 1; i < STEPS; ++i) {
+        CHECK(mslip_masing_update(&contact, enough, moved, displacement[i], moved, &force, NULL, NULL) == MSLIP_OK);
+        CHECK(mslip_masing_update(&contact, enough, longer, displacement[i], longer, &expected, NULL, NULL) == MSLIP_OK);
+        CHECK(same_bits(&force, &expected, 1));
+    }
+    CHECK(same_bits(moved, longer, mslip_state_length(STEPS - 1)));
+
     start(virgin);
     REFUSED(mslip_masing_path(&contact, length, virgin, STEPS, displacement, out[0], out[1], out[2], out[3]),
             MSLIP_STATE_FULL);

@@ -644,7 +644,8 @@ contains
   subroutine mslip_state_init(state, status)
     !! The virgin state: no displacement, no force, no memory.
     real(mslip_real), intent(inout), target, contiguous :: state(:)
-      !! The state; at least `mslip_state_length(0)` numbers. Its size decides how many nested reversals it holds.
+      !! The state; at least `mslip_state_length(0)` numbers. Its size decides how many nested reversals it holds; one that is
+      !! full goes on at the beginning of a longer array.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or `MSLIP_STATE_TOO_SHORT`.
 
     status = c_state_init(size(state, kind=mslip_size), address(state))

@@ -293,12 +293,14 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
 // Doubles of a state that holds that many nested reversals.
 size_t mslip_state_length(size_t reversals);
 
-// Makes a virgin state: no force, no displacement.
+// Makes a virgin state: no force, no displacement. A state goes on wherever its numbers are copied: one that is full at the
+// beginning of a longer array, one with room to spare in a shorter, as long as that holds its reversals.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 //
 // Memory: `state` is NULL or points to state_length numbers.
-int32_t mslip_state_init(size_t state_length, double *state);
+int32_t mslip_state_init(size_t state_length,
+                         double *state);
 
 // Leads a contact from a state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated by this
 // step [J] (Eq. 11, 12). state1 may be state0; where it is NULL the new state is not kept.

@@ -251,7 +251,8 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
     memory::state_length(reversals)
 }
 
-/// Makes a virgin state: no force, no displacement.
+/// Makes a virgin state: no force, no displacement. A state goes on wherever its numbers are copied: one that is full at the
+/// beginning of a longer array, one with room to spare in a shorter, as long as that holds its reversals.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 ///
