@@ -15,7 +15,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all install uninstall demo demo-dependencies test bench instructions instructions-record counting-dependencies \
-	figures header clean help
+	figures stress header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -89,6 +89,10 @@ figures:
 	@scripts/dependencies.sh figures
 	$(CARGO) run --quiet --release --locked --package figures
 	figures/draw.sh
+
+## stress: long and hostile histories of the memory, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
+stress:
+	$(CARGO) run --quiet --release --locked --package stress -- $(ARGUMENTS)
 
 ## header: make include/microslip.h from the Rust source
 header:

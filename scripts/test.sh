@@ -144,6 +144,8 @@ step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warn
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
+step 'memory under stress, a hundredth of it' "$CARGO" run --quiet --release --locked --package stress -- --scale 0.01
+
 step 'paper: its figures and its claims' "$CARGO" run --quiet --release --locked --package figures -- --check
 step 'paper: its pictures are of its data' sha256sum --check --quiet docs/figures/drawn.sha256
 

@@ -1,0 +1,130 @@
+//! The memory against a bank of 4,096 spring-sliders, whose every slider remembers by itself.
+//!
+//! A bank obeys Masing's rule with its own monotonic curve. If that errs by ε, then the force after a history that left n
+//! reversals errs by (1 + 2n) ε at most: once on the virgin curve and twice on each branch. The energy of a cycle of
+//! amplitude x, `8 ∫ M - 4 x M`, errs by 12 x ε at most, and one branch dissipates half of it.
+
+use crate::bank::{Bank, polygon_error};
+use crate::contacts::Named;
+use crate::family::{CurvePoint, elliptic_curve, flat_curve};
+use crate::library::{Contact, Given, accepted};
+use crate::walk::{BRANCH_ROUNDING, Care, Walk};
+use crate::{Case, contacts, ensure, histories};
+use microslip::c_api;
+
+const SLIDERS: usize = 4096;
+
+/// Points of the curve for each slider, between which its error is measured: midway on a parabola, so it is missed by a 64th.
+const POINTS: usize = 8;
+
+/// Steps between two reports of progress.
+const BATCH: u64 = 100;
+
+pub fn cases(steps: u64) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (number, contact) in contacts::all().into_iter().enumerate() {
+        cases.push(own(contact.clone(), number, steps));
+        // A bank by the library has the same curve.
+        if number % 5 == 0 {
+            cases.push(library_s(contact, number, steps));
+        }
+    }
+    cases
+}
+
+/// The contact's curve by itself; elliptical contacts from their first stiffness.
+fn curve_of(contact: &Contact) -> Vec<CurvePoint> {
+    match &contact.given {
+        Given::Flat(parameters) => flat_curve(parameters, SLIDERS * POINTS),
+        Given::Ellipse(_) => elliptic_curve(contact.limit(), contact.stiffness(), SLIDERS * POINTS),
+    }
+}
+
+fn own(named: Named, number: usize, steps: u64) -> Case {
+    Case::new(format!("bank: {}: 4,096 sliders", named.name), steps, move |run| {
+        let contact = &named.contact;
+        let curve = curve_of(contact);
+        let end = curve[curve.len() - 1];
+        // Sums of as many positive pieces, and the library's own error of 1e-13.
+        let (force, slip) = (end.force / contact.limit() - 1.0, end.displacement / contact.slip() - 1.0);
+        ensure!(
+            force.abs() < 1e-13 && slip.abs() < 2e-13,
+            "the curve ends at {end:?}, {force:e} {slip:e} off\n  {contact:?}"
+        );
+        let corners: Vec<CurvePoint> = curve.iter().copied().step_by(POINTS).collect();
+        let error = polygon_error(&curve, POINTS) * 65.0 / 64.0;
+        compare(contact, Bank::polygon(&corners), error, number, steps, run)
+    })
+}
+
+fn library_s(named: Named, number: usize, steps: u64) -> Case {
+    Case::new(format!("bank: {}: mslip_iwan_equivalent", named.name), steps, move |run| {
+        let contact = &named.contact;
+        let (mut stiffness, mut slip_force, mut error) = (vec![0.0; SLIDERS], vec![0.0; SLIDERS], 0.0);
+        // SAFETY: as long as said.
+        accepted(unsafe {
+            let (stiffness, slip_force) = (stiffness.as_mut_ptr(), slip_force.as_mut_ptr());
+            c_api::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
+        })?;
+        let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
+        let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)).collect());
+        compare(contact, bank, error * contact.limit(), number, steps, run)
+    })
+}
+
+/// Leads both through a history; `error` is that of the bank's monotonic force.
+fn compare(
+    contact: &Contact,
+    mut bank: Bank,
+    error: f64,
+    number: usize,
+    steps: u64,
+    run: &mut crate::Run,
+) -> Result<String, String> {
+    let slip = contact.slip();
+    // Each contact meets another kind of history; all but the last three come back from wherever they go.
+    let mut kinds = histories::all(slip);
+    let usable = kinds.len() - 2;
+    let (name, mut history) = kinds.swap_remove(number % usable);
+    let mut walk = Walk::new(contact, 64);
+    let (mut worst_force, mut worst_energy) = (0.0_f64, 0.0_f64);
+    for step in 0..steps {
+        let displacement = history(&walk.memory, &mut run.rng).clamp(-100.0 * slip, 100.0 * slip);
+        let (depth, from) = (walk.memory.depth(), walk.memory.now().displacement);
+        walk.step(displacement, Care::default(), &mut run.rng)
+            .map_err(|failure| format!("step {step}: {failure}\n  {contact:?}"))?;
+        let (force, energy) = bank.step(displacement);
+        // A spring that sticks rounds its elongation and its way, which is at most twice as long, in each step; one that slips
+        // starts anew. Both curves end within 2e-13 of each other.
+        let rounding = 2.0 * f64::EPSILON * (step + 1) as f64 + 1e-12;
+        let branches = (1 + 2 * walk.memory.depth()) as f64;
+        let bound = branches * (error + BRANCH_ROUNDING * contact.limit()) + rounding * contact.limit();
+        let off = (force - walk.now.force).abs();
+        worst_force = worst_force.max(off / error);
+        ensure!(
+            off <= bound,
+            "step {step}, {name}: the force {:?} of the bank {force:?}, {bound:?} allowed\n  {contact:?}",
+            walk.now.force
+        );
+        // A step passes the ends of as many branches as it closes, at most of all.
+        let stretches = (depth + 2) as f64;
+        let way = (displacement - from).abs();
+        let bound = stretches * 6.0 * slip * (error + BRANCH_ROUNDING * contact.limit())
+            + rounding * contact.limit() * (slip + way);
+        let off = (energy - walk.now.dissipated).abs();
+        worst_energy = worst_energy.max(off / (error * slip));
+        ensure!(
+            off <= bound,
+            "step {step}, {name}: {:?} dissipated, by the bank {energy:?}, {bound:?} allowed\n  {contact:?}",
+            walk.now.dissipated
+        );
+        if step % BATCH == BATCH - 1 {
+            run.done(BATCH);
+        }
+    }
+    run.done(steps % BATCH);
+    Ok(format!(
+        "{name}: bank errs by {:.0e} of mu N; off by {worst_force:.1} of that, energy by {worst_energy:.1}",
+        error / contact.limit()
+    ))
+}

@@ -1,0 +1,225 @@
+//! A walk through a history, on every step of which everything is checked that holds for any contact and any history.
+
+use crate::library::{Answer, Contact, State};
+use crate::memory::{Memory, Point};
+use crate::subjects::divided;
+use crate::{Outcome, ensure};
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use std::collections::VecDeque;
+
+/// Rounding of a force over mu N for each branch on which it rests: the curve errs by 1.5e-15 (see the tests of the library's
+/// inverse) and is doubled, and sums round by a unit.
+pub const BRANCH_ROUNDING: f64 = 4e-15;
+
+/// Steps that a failure shows.
+const SHOWN: usize = 12;
+
+pub struct Walk<'a> {
+    contact: &'a Contact,
+    pub memory: Memory,
+    pub state: State,
+    /// Walks through the negative of the history.
+    mirrored: State,
+    capacity: usize,
+    pub now: Answer,
+    recent: VecDeque<f64>,
+    pub deepest: usize,
+}
+
+/// Which checks a step gets beside the cheap ones.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Care {
+    /// The same displacement again.
+    pub repeat: bool,
+    /// The state moves into other memory through the bytes of a file.
+    pub restart: bool,
+    /// The same memory from a virgin state by the shortest path.
+    pub relive: bool,
+    /// The same step in parts.
+    pub divide: bool,
+}
+
+impl Care {
+    /// Each of them once in a while.
+    pub fn now_and_then(rng: &mut ChaCha8Rng) -> Care {
+        let dice = rng.random::<u32>();
+        Care {
+            repeat: dice & 7 == 0,
+            restart: (dice >> 3) & 63 == 0,
+            relive: (dice >> 9) & 63 == 0,
+            divide: (dice >> 15) & 63 == 0,
+        }
+    }
+
+    pub const ALL: Care = Care { repeat: true, restart: true, relive: true, divide: true };
+}
+
+impl<'a> Walk<'a> {
+    /// A walk that may nest that many reversals.
+    pub fn new(contact: &'a Contact, capacity: usize) -> Walk<'a> {
+        let state = State::new(capacity);
+        Walk {
+            contact,
+            memory: Memory::new(contact.slip()),
+            mirrored: state.clone(),
+            state,
+            capacity,
+            now: Answer { force: 0.0, stiffness: contact.stiffness(), dissipated: 0.0 },
+            recent: VecDeque::new(),
+            deepest: 0,
+        }
+    }
+
+    /// One step with its checks; a failure tells the way there.
+    pub fn step(&mut self, displacement: f64, care: Care, rng: &mut ChaCha8Rng) -> Outcome {
+        if self.recent.len() == SHOWN {
+            self.recent.pop_front();
+        }
+        self.recent.push_back(displacement);
+        let path = self.memory.shortest_path();
+        self.checked_step(displacement, care, rng).map_err(|failure| {
+            let recent = &self.recent;
+            format!("{failure}\n  remembered before the step: {path:?}\n  last displacements: {recent:?}")
+        })
+    }
+
+    fn checked_step(&mut self, displacement: f64, care: Care, rng: &mut ChaCha8Rng) -> Outcome {
+        let contact = self.contact;
+        let (before, was, depth) = (care.divide.then(|| self.state.clone()), self.now, self.memory.depth());
+        let from = self.memory.now().displacement;
+        let answer = self.state.step(contact, displacement)?;
+        let Answer { force, stiffness, dissipated } = answer;
+        let limit = contact.limit();
+
+        // Exactly, whatever rounding does: Coulomb's bound, and no energy gained.
+        ensure!(force.abs() <= limit, "Coulomb's bound {limit:?} is exceeded: {force:?}");
+        ensure!(dissipated >= 0.0 && dissipated.is_finite(), "dissipated {dissipated:?}");
+        // The stiffness of a branch errs by as much as its curve.
+        let stiffest = contact.stiffness() * (1.0 + 2e-15);
+        ensure!(stiffness >= 0.0 && stiffness <= stiffest, "stiffness {stiffness:?}");
+
+        // The memory.
+        self.memory.visit(Point { displacement, force }, self.state.slides());
+        self.deepest = self.deepest.max(self.memory.depth());
+        ensure!(
+            self.state.depth() == self.memory.depth(),
+            "{} reversals are remembered, {} needed",
+            self.state.depth(),
+            self.memory.depth()
+        );
+        ensure!(self.state.displacement() == displacement, "the displacement is not kept");
+        if self.state.slides() {
+            ensure!(force == self.memory.slid * limit, "gross slip with a force of {force:?}");
+        }
+        if let Some(old) = self.memory.returned {
+            ensure!(force == old.force, "back at {displacement:?} the force is {force:?}, it was {:?}", old.force);
+        }
+
+        // The force follows the displacement, no steeper than at first. Rounding: of all branches before and after, and
+        // of the displacements themselves at both ends.
+        let way = (displacement - from).abs();
+        let branches = (depth + self.memory.depth() + 2) as f64;
+        let place = 4.0 * f64::EPSILON * (displacement.abs() + from.abs());
+        let rounding = branches * BRANCH_ROUNDING * limit + (stiffest * place).min(2.0 * limit);
+        let rise = (force - was.force) * if displacement < from { -1.0 } else { 1.0 };
+        ensure!(rise >= -rounding, "the force goes against the displacement: {rise:?}");
+        ensure!(rise <= stiffest * way + rounding, "the force jumps by {rise:?} on a way of {way:?}");
+        // Where all slides is dissipated what can be.
+        let energy_rounding = branches * BRANCH_ROUNDING * contact.slip_energy() + limit * place;
+        ensure!(dissipated <= limit * way + energy_rounding, "dissipated {dissipated:?} on a way of {way:?}");
+
+        // Odd symmetry, to the bit.
+        let mirrored = self.mirrored.step(contact, -displacement)?;
+        ensure!(
+            mirrored == Answer { force: -force, ..answer } && self.state.is_mirror_of(&self.mirrored),
+            "the mirrored history answers {mirrored:?}, not {answer:?}"
+        );
+        self.now = answer;
+
+        if let Some(before) = before {
+            self.divided(before, displacement, rng)?;
+        }
+        if care.repeat {
+            self.repeated()?;
+        }
+        if care.relive {
+            self.relived()?;
+        }
+        if care.restart {
+            let bytes: Vec<u8> = self.state.used().iter().flat_map(|value| value.to_le_bytes()).collect();
+            self.capacity = self.memory.depth() + rng.random_range(1..=2 * self.capacity);
+            let mut copy = State::new(self.capacity);
+            for (place, bytes) in copy.0.iter_mut().zip(bytes.as_chunks().0) {
+                *place = f64::from_le_bytes(*bytes);
+            }
+            self.state = copy;
+        }
+        // As a host does whose state is nearly full.
+        if self.memory.depth() + 1 >= self.capacity {
+            self.capacity *= 2;
+            self.state = self.state.moved(self.capacity);
+        }
+        if self.memory.depth() + 1 >= self.mirrored.capacity() {
+            self.mirrored = self.mirrored.moved(2 * self.memory.depth() + 2);
+        }
+        Ok(())
+    }
+
+    /// The same displacement again changes nothing.
+    fn repeated(&mut self) -> Outcome {
+        let before = self.state.bits();
+        let again = self.state.step(self.contact, self.state.displacement())?;
+        let expected = Answer { dissipated: 0.0, ..self.now };
+        ensure!(again == expected, "the same displacement again answers {again:?}, not {expected:?}");
+        ensure!(self.state.bits() == before, "the same displacement again changes the state");
+        Ok(())
+    }
+
+    /// The shortest path to the same memory leaves the same state, to the bit: of loops that closed and of steps that went on
+    /// nothing is left.
+    fn relived(&mut self) -> Outcome {
+        let mut state = State::new(self.memory.depth());
+        let mut answer = self.now;
+        for displacement in self.memory.shortest_path() {
+            answer = state.step(self.contact, displacement)?;
+        }
+        answer.dissipated = self.now.dissipated;
+        ensure!(answer == self.now, "the shortest path answers {answer:?}, not {:?}", self.now);
+        ensure!(
+            state.bits() == self.state.bits(),
+            "the shortest path leaves {:?}, not {:?}",
+            state.used(),
+            self.state.used()
+        );
+        Ok(())
+    }
+
+    /// A step in parts leads to the same state, to the bit, and dissipates the same.
+    fn divided(&self, before: State, displacement: f64, rng: &mut ChaCha8Rng) -> Outcome {
+        let (contact, from) = (self.contact, before.displacement());
+        let parts = rng.random_range(2..40);
+        let places = divided(from, displacement, parts, rng);
+        let mut state = before.clone();
+        let mut sum = 0.0;
+        let mut answer = self.now;
+        for place in places {
+            answer = state.step(contact, place)?;
+            sum += answer.dissipated;
+        }
+        let whole = self.now.dissipated;
+        ensure!(
+            answer == Answer { dissipated: answer.dissipated, ..self.now } && state.bits() == self.state.bits(),
+            "in {parts} parts from {from:?} the step answers {answer:?} and leaves {:?}, not {:?}",
+            state.used(),
+            self.state.used()
+        );
+        // Each part is a difference of two energies of cycles that carry a rounding of their own.
+        let limit = contact.limit();
+        let scale = contact.slip_energy() + limit * (displacement - from).abs();
+        let place = limit * f64::EPSILON * (displacement.abs() + from.abs());
+        let bound = (parts + before.depth() + 2) as f64 * (BRANCH_ROUNDING * scale + place);
+        ensure!((sum - whole).abs() <= bound, "in {parts} parts from {from:?} {sum:?} is dissipated, not {whole:?}");
+        Ok(())
+    }
+}
