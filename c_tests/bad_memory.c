@@ -215,6 +215,8 @@ static void test_workspace_bits(const function *f)
     const size_t length = workspace_lengths[f->rule], least = 4 + SAMPLES / 2 * COEFFICIENTS;
     size_t sealed = 0;
     set_up(f);
+    /* Before the first use, when all of the scratch memory is 0. */
+    every_bit_is_refused(f, call.workspace, least, MSLIP_BAD_WORKSPACE, "a new workspace");
     accepted(f, "a good workspace");
     remember_outputs();
     remember_regions();

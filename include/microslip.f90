@@ -141,7 +141,7 @@ module microslip
   ! A workspace begins with numbers of this module, by which the sizes of the arrays can be checked: the mark of an
   ! initialised workspace, its length, and the number 2H+1 of coefficients. The workspace of the C function follows.
   integer, parameter :: workspace_header = 3
-  real(mslip_real), parameter :: workspace_mark = -5.7238113e286_mslip_real
+  integer(c_int64_t), parameter :: workspace_mark = transfer(-5.7238113e286_mslip_real, 0_c_int64_t)
 
   ! Where an array without elements lies: c_loc is defined for arrays with elements only.
   real(mslip_real), target, save :: no_elements(1) = 0
@@ -890,9 +890,8 @@ contains
       status = c_harmonic_workspace_init(harmonics, samples, chosen, 0_mslip_size, c_loc(no_elements))
     end if
     if (status /= MSLIP_OK) return
-    workspace(1) = workspace_mark
-    workspace(2) = real(mslip_harmonic_workspace_length(harmonics, samples, chosen), mslip_real)
-    workspace(3) = real(2*harmonics + 1, mslip_real)
+    call mark_workspace(workspace, int(mslip_harmonic_workspace_length(harmonics, samples, chosen), c_int64_t), &
+      int(2*harmonics + 1, c_int64_t))
   end subroutine mslip_harmonic_workspace_init
 
   subroutine mslip_harmonic_force(contact, workspace, displacement, status, force, jacobian, dissipated)
@@ -1109,21 +1108,39 @@ contains
     end do
   end function text_of
 
+  pure subroutine mark_workspace(workspace, needed, m)
+    ! What a workspace begins with: a seal, its length and its number of coefficients, which must agree when they are read.
+    real(mslip_real), intent(inout), contiguous :: workspace(:)
+    integer(c_int64_t), intent(in) :: needed, m
+
+    workspace(1:workspace_header) = transfer([workspace_seal(needed, m), needed, m], workspace, workspace_header)
+  end subroutine mark_workspace
+
+  pure function workspace_seal(needed, m) result(seal)
+    integer(c_int64_t), intent(in) :: needed, m
+    integer(c_int64_t) :: seal
+
+    seal = ieor(workspace_mark, ieor(needed, ishftc(m, 24)))
+  end function workspace_seal
+
   subroutine open_workspace(workspace, m, status)
-    ! The number of coefficients of a workspace. The mark is compared as bits, because what an array holds that was
-    ! never initialised may trap as a number.
+    ! The number of coefficients of a workspace. All is read as bits, because what an array holds that was never
+    ! initialised may trap as a number.
     real(mslip_real), intent(in), contiguous :: workspace(:)
     integer(mslip_size), intent(out) :: m
     integer(mslip_int), intent(out) :: status
 
+    integer(c_int64_t) :: header(workspace_header)
+
     m = 0
     status = MSLIP_BAD_WORKSPACE
     if (size(workspace) <= workspace_header) return
-    if (transfer(workspace(1), 0_c_int64_t) /= transfer(workspace_mark, 0_c_int64_t)) return
-    if (size(workspace, kind=mslip_size) < nint(workspace(2), mslip_size)) then
+    header = transfer(workspace(1:workspace_header), header)
+    if (header(1) /= workspace_seal(header(2), header(3))) return
+    if (size(workspace, kind=mslip_size) < header(2)) then
       status = MSLIP_WORKSPACE_TOO_SHORT
     else
-      m = nint(workspace(3), mslip_size)
+      m = int(header(3), mslip_size)
       status = MSLIP_OK
     end if
   end subroutine open_workspace

@@ -126,9 +126,10 @@ fortran_module() {
     mkdir -p "$work/module" && $FC $1 -c "$prefix/include/microslip.f90" -J "$work/module" -o "$work/module/microslip.o"
 }
 
+# fortran_tests FLAGS PROGRAM
 fortran_tests() {
     rm -rf "$work/fortran" && mkdir "$work/fortran" &&
-        build "$FC $1 -J $work/fortran $prefix/include/microslip.f90" fortran_tests/test_microslip.f90 \
+        build "$FC $1 -J $work/fortran $prefix/include/microslip.f90 fortran_tests/checks.f90" "fortran_tests/$2.f90" \
             "$work/fortran/test" && "$work/fortran/test"
 }
 
@@ -183,8 +184,10 @@ for standard in f2008 f2018; do
     done
 done
 for kinds in '' "$wide"; do
-    step "Fortran: $kinds" fortran_tests "$kinds"
-    step "Fortran: floating-point traps $kinds" fortran_tests "$traps $kinds"
+    for program in test_microslip bad_input; do
+        step "Fortran: $program $kinds" fortran_tests "$kinds" "$program"
+        step "Fortran: $program, floating-point traps $kinds" fortran_tests "$traps $kinds" "$program"
+    done
 done
 step 'benchmark: its own check' bench/check.sh "$prefix"
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"

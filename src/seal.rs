@@ -3,14 +3,15 @@
 //! A seal is a double. Its first 16 bits say what it belongs to, the others are a checksum. It is an ordinary finite number,
 //! so that it survives where numbers are written as text, with 17 digits.
 
-/// What a seal belongs to. As first bits of a double, numbers of about 1e65 to 1e75.
+/// What a seal belongs to. As first bits of a double, numbers of about 1e64. Any two differ in two bits at least: one that
+/// was changed in a bit is of no other kind.
 #[derive(Debug, Clone, Copy)]
 #[repr(u16)]
 pub(crate) enum Kind {
     State = 0x4d53,
     /// Of the rule of equidistant samples, and of the one between reversals.
-    Equidistant = 0x4d57,
-    BetweenReversals = 0x4d47,
+    Equidistant = 0x4d45,
+    BetweenReversals = 0x4d42,
     Table = 0x4d54,
 }
 
@@ -105,5 +106,9 @@ mod tests {
             }
         }
         assert!(!is_of(Kind::State, seal(Kind::Table, 1)));
+        let kinds = [Kind::State, Kind::Equidistant, Kind::BetweenReversals, Kind::Table].map(|kind| kind as u16);
+        for (place, one) in kinds.iter().enumerate() {
+            assert!(kinds.iter().skip(place + 1).all(|two| (one ^ two).count_ones() > 1));
+        }
     }
 }

@@ -1,0 +1,73 @@
+module checks
+  ! Counting checks: each failure is printed with its values, none stops the program.
+  use microslip, only: mslip_int, mslip_real, mslip_status_text
+  implicit none
+  private
+  public :: wp, untouched, check, check_status, check_close, check_same, report
+
+  integer, parameter :: wp = mslip_real
+  ! What outputs hold before a call, to see that a refused call left them alone.
+  real(wp), parameter :: untouched = -777.0_wp
+
+  integer :: passed = 0, failed = 0
+
+contains
+
+  subroutine check(name, holds)
+    character(len=*), intent(in) :: name
+    logical, intent(in) :: holds
+
+    if (holds) then
+      passed = passed + 1
+    else
+      failed = failed + 1
+      print '(2a)', 'FAILED: ', name
+    end if
+  end subroutine check
+
+  subroutine check_status(name, status, expected)
+    character(len=*), intent(in) :: name
+    integer(mslip_int), intent(in) :: status, expected
+
+    call check(name, status == expected)
+    if (status /= expected) then
+      print '(2x,a,i0,2a)', 'status   ', status, ': ', mslip_status_text(status)
+      print '(2x,a,i0,2a)', 'expected ', expected, ': ', mslip_status_text(expected)
+    end if
+  end subroutine check_status
+
+  subroutine check_close(name, value, expected, tolerance)
+    ! The difference over the expected value; over 1 where 0 is expected.
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: value, expected, tolerance
+
+    real(wp) :: scale
+    logical :: close
+
+    scale = abs(expected)
+    if (.not. scale > 0) scale = 1
+    close = abs(value - expected) <= tolerance*scale
+    call check(name, close)
+    if (.not. close) print '(2x,a,es24.16,a,es24.16,a,es9.1)', 'got', value, ', expected', expected, ', tolerance', tolerance
+  end subroutine check_close
+
+  subroutine check_same(name, values, expected)
+    ! Equal in every bit that counts.
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: values(:), expected(:)
+
+    integer :: i
+    logical :: same
+
+    same = size(values) == size(expected)
+    if (same) same = all(abs(values - expected) <= 0)
+    call check(name, same)
+    if (.not. same) print '(2x,es24.16,es24.16)', (values(i), expected(i), i = 1, min(size(values), size(expected)))
+  end subroutine check_same
+
+  subroutine report()
+    print '(i0,a,i0,a)', passed, ' passed, ', failed, ' failed'
+    if (failed > 0) error stop 1
+  end subroutine report
+
+end module checks
