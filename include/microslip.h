@@ -323,7 +323,7 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
 // MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
-// state has room for, or one whose state is not kept, may nest 2048 at most.
+// state has room for, or one whose state is not kept, may nest 2048 at most, and takes 40 kB of stack.
 //
 // Memory: Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
 int32_t mslip_masing_path(const struct mslip_contact *contact,

@@ -64,6 +64,12 @@ awk '$2 ~ /^\.(data|bss|tdata|tbss|init_array|ctors)/ && $2 !~ /^\.data\.rel\.ro
     "$work/sections" > "$work/writable"
 # valgrind knows no copy between registers in this form and stops a program that executes it.
 $OBJDUMP -d --no-show-raw-insn "$archive" | grep -E 'vmovq +%xmm[0-9]+, *%xmm' > "$work/unknown" || true
+# Where a large frame is not made at a function's entry, the loop that probes the stack may overwrite a register in use: LLVM
+# takes r11 for it without looking.
+$OBJDUMP -d --no-show-raw-insn "$archive" | awk '
+    />:$/ { function_name = $2; jumped = 0 }
+    $2 ~ /^j/ { jumped = 1 }
+    /mov +%rsp, *%r11/ && jumped { print function_name, $0 }' > "$work/late_frames"
 
 check 'the archive exports something' test -s "$work/defined"
 check 'the archive exports exactly what the header declares' diff "$work/declared" "$work/defined"
@@ -72,6 +78,7 @@ check 'the archive needs only the mathematical library' only_mathematics
 check 'no symbol is hidden: such ones still bind in a static link' none "$work/hidden"
 check 'the library has no variables' none "$work/writable"
 check 'valgrind knows every instruction' none "$work/unknown"
+check 'large frames are made at the entry of their functions' none "$work/late_frames"
 check 'the object asks for no executable stack' grep -q '\.note\.GNU-stack' "$work/sections"
 
 # The constants of the Fortran module are those of the header.

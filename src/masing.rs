@@ -182,42 +182,32 @@ impl<'a> Step<'a> {
     }
 }
 
-/// A state in memory of its own, for walks that leave no trace.
-#[derive(Debug)]
-pub struct Scratch {
-    values: [f64; state_length(Scratch::REVERSALS)],
-    used: usize,
-}
+/// Reversals that a copy of a state holds at most.
+const REVERSALS_OF_COPY: usize = 2048;
 
-impl Scratch {
-    /// Reversals that it holds at most.
-    const REVERSALS: usize = 2048;
-
-    /// A copy of a state.
-    ///
-    /// # Errors
-    /// `BadState`, `StateTooShort`; `StateFull` for a state that nests more reversals.
-    pub fn of(state: &[f64]) -> Result<Scratch, Error> {
-        let mut scratch = Scratch { values: [0.0; state_length(Scratch::REVERSALS)], used: 0 };
-        if State::read(state)?.depth() > Scratch::REVERSALS {
-            return Err(Error::StateFull);
-        }
-        scratch.used = state.len().min(scratch.values.len());
-        scratch.values.iter_mut().zip(state).for_each(|(copy, value)| *copy = *value);
-        Ok(scratch)
-    }
-
-    pub fn state(&mut self) -> &mut [f64] {
-        self.values.get_mut(..self.used).unwrap_or(&mut [])
-    }
-}
-
-/// Whether a state can take a whole path, found before anything is written.
+/// Walks in a copy of a state, which leaves no trace.
 ///
 /// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`; `StateFull` where the path nests more reversals than the state holds. A
-/// path that turns more often than there is room is walked without forces in a [`Scratch`], which must hold it too.
-pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), Error> {
+/// `BadState`, `StateTooShort`; `StateFull` for a state that nests more reversals than the copy holds; those of the walk.
+pub fn in_copy(state: &[f64], walk: impl FnOnce(&mut [f64]) -> Result<(), Error>) -> Result<(), Error> {
+    if State::read(state)?.depth() > REVERSALS_OF_COPY { Err(Error::StateFull) } else { in_copy_of_valid(state, walk) }
+}
+
+/// The copy lies on the stack, by far the largest piece there. It is not inlined, so that only walks which need it pay; and it
+/// has nothing before the copy: where a large frame is not made at a function's entry, LLVM overwrites a register in use.
+#[inline(never)]
+fn in_copy_of_valid(state: &[f64], walk: impl FnOnce(&mut [f64]) -> Result<(), Error>) -> Result<(), Error> {
+    let mut memory = [0.0; state_length(REVERSALS_OF_COPY)];
+    memory.iter_mut().zip(state).for_each(|(copy, value)| *copy = *value);
+    let used = state.len().min(memory.len());
+    walk(memory.get_mut(..used).unwrap_or(&mut []))
+}
+
+/// Whether a state has room for a path whatever it closes: for all of its turns.
+///
+/// # Errors
+/// `BadState`, `StateTooShort`, `BadDisplacement`.
+fn has_room(state: &[f64], path: &[f64]) -> Result<bool, Error> {
     let read = State::read(state)?;
     let (mut turns, mut last, mut falls) = (1, read.now.displacement, false);
     for &displacement in path {
@@ -226,22 +216,35 @@ pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), 
         falls = displacement < last;
         last = displacement;
     }
-    if read.depth().saturating_add(turns) <= read.capacity { Ok(()) } else { check_path_aside(contact, state, path) }
+    Ok(read.depth().saturating_add(turns) <= read.capacity)
 }
 
-/// Walks a path in a [`Scratch`]: a function of its own, whose large frame is entered before anything else. Where a frame is
-/// entered late, LLVM probes its pages with a register that may be in use already.
-#[inline(never)]
-fn check_path_aside(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), Error> {
-    let mut scratch = Scratch::of(state)?;
-    let mut dry = Track::start(scratch.state())?;
+/// Walks a path without forces: the memory needs displacements only.
+fn walk_dry(contact: &Contact, state: &mut [f64], path: &[f64]) -> Result<(), Error> {
+    let mut dry = Track::start(state)?;
     for &displacement in path {
         let course = admitted_course(contact, &dry.state(), displacement)?;
-        // The memory needs displacements only.
         let virgin = dry.state().virgin.after(contact, &course, displacement);
         dry.go(&course, virgin, Reversal { displacement, force: 0.0 });
     }
     Ok(())
+}
+
+/// Whether a state can take a whole path, found before anything is written.
+///
+/// # Errors
+/// `BadState`, `StateTooShort`, `BadDisplacement`; `StateFull` where the path nests more reversals than the state holds. A
+/// path that turns more often than there is room is walked without forces [`in_copy`], which must hold it too.
+pub fn check_path(contact: &Contact, state: &[f64], path: &[f64]) -> Result<(), Error> {
+    if has_room(state, path)? { Ok(()) } else { in_copy(state, |copy| walk_dry(contact, copy, path)) }
+}
+
+/// [`check_path`] in a copy that may be spoilt.
+///
+/// # Errors
+/// Those of [`check_path`].
+pub fn check_path_in(contact: &Contact, copy: &mut [f64], path: &[f64]) -> Result<(), Error> {
+    if has_room(copy, path)? { Ok(()) } else { walk_dry(contact, copy, path) }
 }
 
 /// Where the numbers of each step of a path go; `None` is not computed.

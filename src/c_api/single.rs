@@ -337,7 +337,7 @@ pub(super) unsafe fn update_one(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
 /// MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
-/// state has room for, or one whose state is not kept, may nest 2048 at most.
+/// state has room for, or one whose state is not kept, may nest 2048 at most, and takes 40 kB of stack.
 ///
 /// # Safety
 /// Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
@@ -361,7 +361,9 @@ pub unsafe extern "C" fn mslip_masing_path(
             [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
         let output = PathOutput { force, stiffness, dissipated };
         if state1.is_null() {
-            return lead_aside(contact, start, path, output);
+            // Checked and led in copies that follow each other: one at a time is on the stack.
+            masing::in_copy(start, |copy| masing::check_path_in(contact, copy, path))?;
+            return masing::in_copy(start, |copy| lead(contact, copy, path, output));
         }
         masing::check_path(contact, start, path)?;
         if !ptr::eq(state0, state1) {
@@ -370,14 +372,6 @@ pub unsafe extern "C" fn mslip_masing_path(
         lead(contact, unsafe { pointer::output(state1, state_length) }.ok_or(Error::StateTooShort)?, path, output)
     };
     status(walk())
-}
-
-/// Leads a copy of a state that is not kept.
-#[inline(never)]
-fn lead_aside(contact: &Contact, start: &[f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-    let mut scratch = masing::Scratch::of(start)?;
-    masing::check_path(contact, scratch.state(), path)?;
-    lead(contact, scratch.state(), path, output)
 }
 
 fn lead(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
