@@ -6,6 +6,7 @@
 #   bench     the C compiler, and gnuplot
 #   figures   gnuplot
 #   counting  what counts instructions
+#   guest     other compilers, linkers, and what watches memory and threads
 #   test      all that `make test` uses
 #
 # What is missing is installed when root runs this on Debian or a relative of it, else named.
@@ -53,6 +54,25 @@ figures() {
     need gnuplot-nox gnuplot
 }
 
+# need_clang PACKAGE OPTION: the package without which clang cannot link with the option.
+need_clang() {
+    probe=$(mktemp)
+    echo 'int main(void) { return 0; }' | clang "$2" -x c - -o "$probe" 2> /dev/null || missing="$missing $1"
+    rm -f "$probe"
+}
+
+guest() {
+    fortran
+    need gcc gcc
+    need g++ g++
+    need clang clang
+    need_clang libclang-rt-dev -fsanitize=address,undefined
+    need_clang libomp-dev -fopenmp
+    need lld ld.lld
+    need mold mold
+    need valgrind valgrind
+}
+
 rust_component() {
     cargo "$2" --version > /dev/null 2>&1 || components="$components $1"
 }
@@ -60,7 +80,7 @@ rust_component() {
 tests() {
     demo
     counting
-    need g++ g++
+    guest
     need cmake cmake
     need pkg-config pkg-config
     components=
@@ -76,10 +96,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|counting|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|counting|guest|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | counting) "$group" ;;
+        fortran | demo | bench | figures | counting | guest) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

@@ -79,12 +79,6 @@ cxx_driver() {
     build "$CXX -std=c++17 -pthread $strict" "c_tests/$1.cpp" "$work/$1" && "$work/$1"
 }
 
-header_as() {
-    printf '#include <microslip.h>\n#include <microslip.h>\nint main(void) { return mslip_abi_version() != MSLIP_ABI_VERSION; }\n' \
-        > "$work/header.$2"
-    build "$1 $strict" "$work/header.$2" "$work/header" && "$work/header"
-}
-
 cmake_client() {
     cmake -S c_tests/cmake -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED_VERSION=0.1 &&
         cmake --build "$work/cmake" && (cd "$work/cmake" && ctest --output-on-failure)
@@ -92,34 +86,6 @@ cmake_client() {
 
 cmake_refuses_other_version() {
     ! cmake -S c_tests/cmake -B "$work/cmake-other" -DCMAKE_PREFIX_PATH="$prefix" -DWANTED_VERSION=99
-}
-
-# Beside another Rust archive, with its own copy of Rust's runtime, in either order.
-two_archives() {
-    cat > "$work/other.rs" << 'END'
-#[unsafe(no_mangle)]
-pub extern "C" fn other(n: usize) -> usize {
-    (0..n).map(|i| format!("{i}").len()).sum()
-}
-END
-    cat > "$work/both.c" << 'END'
-#include <microslip.h>
-size_t other(size_t n);
-int main(void)
-{
-    return mslip_abi_version() != MSLIP_ABI_VERSION || other(12) != 14;
-}
-END
-    rustc --edition 2024 --crate-type staticlib -O "$work/other.rs" -o "$work/libother.a" &&
-        $CC "$work/both.c" -o "$work/both" $(flags) "$work/libother.a" -lpthread -ldl -lm && "$work/both" &&
-        $CC -I"$prefix/include" "$work/both.c" "$work/libother.a" $(flags) -lpthread -ldl -lm -o "$work/both" &&
-        "$work/both"
-}
-
-# Inside somebody's shared library.
-shared_library() {
-    $CC -shared -Wl,-z,text,-z,defs -o "$work/libclient.so" -Wl,--whole-archive "$prefix/lib/libmicroslip.a" \
-        -Wl,--no-whole-archive -lm
 }
 
 fortran_module() {
@@ -157,12 +123,11 @@ if [ ! -e "$prefix/lib/libmicroslip.a" ]; then
     exit 1
 fi
 step 'archive: symbols and sections' scripts/symbols.sh "$prefix"
-step 'archive: beside another Rust archive' two_archives
-step 'archive: inside a shared library' shared_library
+for group in arithmetic compilers links sanitizers valgrind threads process stack; do
+    step "archive in every host: $group" scripts/guest.sh "$prefix" "$group"
+done
 step 'archive: instructions' instruction_counts/run.sh "$prefix"
 
-step 'C header: C99' header_as "$CC -std=c99 -x c" c
-step 'C header: C++11' header_as "$CXX -std=c++11 -x c++" cpp
 for source in c_tests/*.c; do
     driver=$(basename "$source" .c)
     step "C: $driver" c_driver "$driver"
