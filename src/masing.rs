@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::memory::{
     Course, PER_REVERSAL, Reversal, State, Stretch, Track, Virgin, course, follow, seal_of, state_length,
 };
+use crate::seal::of_whole;
 
 /// Force and stiffness at the end of a course.
 #[inline(always)]
@@ -171,7 +172,7 @@ impl<'a> Step<'a> {
         let kept = PER_REVERSAL * self.course.depth.saturating_sub(usize::from(self.course.turned));
         let used = reversals.iter().copied().take(kept).chain(newest.into_iter().flatten());
         let header =
-            [self.course.depth as f64, self.end.displacement, self.virgin.slid, self.end.force, self.virgin.origin];
+            [of_whole(self.course.depth), self.end.displacement, self.virgin.slid, self.end.force, self.virgin.origin];
         *seal = seal_of(header, used);
         [*count, *displacement, *slid, *force, *origin] = header;
         if let Some(newest) = newest

@@ -16,7 +16,7 @@
 
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::seal::{Kind, of_places, seal, whole};
+use crate::seal::{Kind, of_places, of_whole, seal, whole};
 
 pub(crate) const HEADER: usize = 6;
 pub(crate) const PER_REVERSAL: usize = 2;
@@ -182,7 +182,7 @@ impl<'s> Track<'s> {
     /// Writes where it came to.
     pub fn finish(self) {
         let Reversal { displacement, force } = self.now;
-        let header = [self.depth as f64, displacement, self.virgin.slid, force, self.virgin.origin];
+        let header = [of_whole(self.depth), displacement, self.virgin.slid, force, self.virgin.origin];
         let seal = seal_of(header, self.reversals.iter().copied().take(PER_REVERSAL * self.depth));
         self.header.iter_mut().zip([seal].into_iter().chain(header)).for_each(|(place, value)| *place = value);
     }

@@ -47,6 +47,13 @@ pub(crate) fn of_places(words: impl Iterator<Item = f64>) -> u64 {
     sum_of_sums.wrapping_mul(2).wrapping_sub(sum)
 }
 
+/// A whole number as [`whole`] reads it. The conversion is signed: that of a number without sign is a difference, which is -0
+/// where the host rounds downwards.
+#[inline(always)]
+pub(crate) fn of_whole(number: usize) -> f64 {
+    number as i64 as f64
+}
+
 /// A whole number below 2^52, read off its bits: memory of unknown contents meets no arithmetic, which would trap.
 #[inline(always)]
 pub(crate) fn whole(value: f64) -> Option<usize> {
@@ -89,7 +96,7 @@ mod tests {
     #[test]
     fn whole_numbers_are_read_off_their_bits() {
         for number in [0usize, 1, 2, 3, 6, 1000, 1 << 24, (1 << 52) - 1] {
-            assert_eq!(whole(number as f64), Some(number));
+            assert_eq!(whole(of_whole(number)), Some(number));
         }
         for value in [-0.0, -1.0, 0.5, 1.5, 1e-310, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(whole(value), None, "{value}");

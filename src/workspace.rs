@@ -2,7 +2,7 @@
 //! are divided.
 
 use crate::error::Error;
-use crate::seal::{Kind, is_of, of_places, of_table, seal, whole};
+use crate::seal::{Kind, is_of, of_places, of_table, of_whole, seal, whole};
 
 /// Seal of the size, harmonics, samples, and seal of the tables.
 pub(crate) const HEADER: usize = 4;
@@ -60,7 +60,7 @@ impl Size {
         let (header, rest) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         let tables = rest.get_mut(..tables).ok_or(Error::WorkspaceTooShort)?;
         fill(&mut Parts(tables))?;
-        let [harmonics, samples] = [self.harmonics as f64, self.samples as f64];
+        let [harmonics, samples] = [self.harmonics, self.samples].map(of_whole);
         *header = [seal_of_size(kind, harmonics, samples), harmonics, samples, seal_of_tables(tables)];
         Ok(())
     }
