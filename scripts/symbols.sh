@@ -62,8 +62,8 @@ $OBJDUMP -h "$archive" > "$work/sections"
 # Rust keeps what the processor can do, asked once, in a variable of its own; there is no other.
 awk '$2 ~ /^\.(data|bss|tdata|tbss|init_array|ctors)/ && $2 !~ /^\.data\.rel\.ro/ && $2 !~ /std_detect.*CACHE$/ && $3 !~ /^0+$/' \
     "$work/sections" > "$work/writable"
-# valgrind knows no copy between registers in this form and stops a program that executes it.
-$OBJDUMP -d --no-show-raw-insn "$archive" | grep -E 'vmovq +%xmm[0-9]+, *%xmm' > "$work/unknown" || true
+# valgrind knows no copy between registers in this form, the one of a store, and stops a program that executes it.
+$OBJDUMP -d "$archive" | grep -E 'c[45]( [0-9a-f]{2}){1,2} d6 [c-f][0-9a-f][[:space:]]+vmovq ' > "$work/unknown" || true
 # Where a large frame is not made at a function's entry, the loop that probes the stack may overwrite a register in use: LLVM
 # takes r11 for it without looking.
 $OBJDUMP -d --no-show-raw-insn "$archive" | awk '
