@@ -297,6 +297,8 @@ valgrind_checks() {
     check 'control: valgrind sees uninitialised numbers' reports uninitialised uninitialised $memcheck "$work/mistakes"
     check 'valgrind: all calls' answers $memcheck --leak-check=full "$work/plain"
     for source in c_tests/*.c; do
+        # Changes every bit of memory before pages that must not be touched: it takes minutes here, and sees for itself.
+        [ "$source" != c_tests/bad_memory.c ] || continue
         check "valgrind: $source" under_valgrind "$source"
     done
 }
