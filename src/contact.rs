@@ -104,7 +104,10 @@ impl Contact {
 
     fn rounded_flat_with_tables(parameters: &Parameters, like: Option<&Contact>) -> Result<Contact, Error> {
         parameters.check()?;
-        let Parameters { flat_half_width, length, normal_force, friction_coefficient, .. } = *parameters;
+        // No zero has a sign, which would be seen in what is told of sizes.
+        let flat_half_width = parameters.flat_half_width.abs();
+        let parameters = &Parameters { flat_half_width, ..*parameters };
+        let Parameters { length, normal_force, friction_coefficient, .. } = *parameters;
         check_moduli(&parameters.material)?;
         let pair = Pair::new(&parameters.material);
         let open =
@@ -545,6 +548,9 @@ pub(crate) mod tests {
                 }
             }
         }
+        // Where nothing is measured there is no direction in it either.
+        let minus = Contact::rounded_flat(&Parameters { flat_half_width: -0.0, ..parameters(0.0) }).unwrap();
+        assert_eq!(bytes(minus), bytes(contact(0.0)));
         let refused = Parameters { normal_force: -1.0, ..parameters(0.0) };
         assert_eq!(Contact::rounded_flat_like(&refused, &contact(0.0)).map(|_| ()), Err(Error::BadNormalForce));
     }

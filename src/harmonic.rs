@@ -380,7 +380,7 @@ struct NearPoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::tests::{FLATS, contact, cylinder, ellipse};
+    use crate::contact::tests::{FLATS, contact, cylinder, ellipse, parameters};
     use crate::parameters::{CENTRE_POINT, Material, Parameters};
     use crate::quadrature::TANH_SINH;
 
@@ -399,6 +399,26 @@ mod tests {
                 (found[0] / real - 1.0).abs() < 4e-15 && (found[1] / imaginary - 1.0).abs() < 2e-14,
                 "{part} {found:?}"
             );
+        }
+    }
+
+    /// However little the edges carry: the difference of two compliances, by which stick zones are found, is then lost.
+    #[test]
+    fn the_energy_by_displacement_is_that_by_force() {
+        for lightness in 0..60 {
+            let normal_force = 150.0 * 0.1f64.powi(lightness);
+            let contact = Contact::rounded_flat(&Parameters { normal_force, ..parameters(5e-3) }).unwrap();
+            for part in [0.4, 0.6, 0.9, 0.975, 0.99, 0.998] {
+                let amplitude = part * contact.slip_displacement;
+                let force = contact.curve_at_displacement(amplitude).unwrap().force();
+                let by_displacement = contact.complex_stiffness(amplitude).unwrap().dissipated();
+                let by_force = contact.dissipated_energy(force).unwrap();
+                // Of the difference of members near each other 1e-13 is left on either side.
+                assert!(
+                    (by_displacement / by_force - 1.0).abs() < 1e-12,
+                    "{lightness} {part} {by_displacement} {by_force}"
+                );
+            }
         }
     }
 

@@ -169,12 +169,12 @@ impl Indentation {
         now
     }
 
-    /// The contact of this load, from one that is nearly always within 1e-9 of it.
+    /// The contact of this load, from one that is nearly always within 1e-9 of it, and of no use elsewhere.
     pub fn close_to_load(start: Indentation, load: f64) -> Indentation {
         let Indentation { w, psi, half_width, flat } = start;
         let step = (load - start.load()) / (4.0 * w * psi).max(TINY);
         if step.abs() > 1e-9 * w {
-            return Indentation::near_load(start, load);
+            return Indentation::of_load(flat, load);
         }
         // The square of such a step is below rounding.
         let c = half_width.max(TINY);
