@@ -15,7 +15,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all install uninstall demo demo-dependencies test bench instructions instructions-record counting-dependencies \
-	figures stress header clean help
+	figures stress fuzz header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -94,13 +94,18 @@ figures:
 stress:
 	$(CARGO) run --quiet --release --locked --package stress -- $(ARGUMENTS)
 
+## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
+fuzz:
+	@scripts/dependencies.sh fuzz
+	scripts/fuzz.sh
+
 ## header: make include/microslip.h from the Rust source
 header:
 	$(CARGO) run --quiet --package xtask -- header
 
 ## clean: remove everything that was built
 clean:
-	rm -rf dist target
+	rm -rf dist target fuzz/target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C bench clean
 

@@ -5,6 +5,7 @@
 #   demo      Fortran with LAPACK, and gnuplot
 #   bench     the C compiler, and gnuplot
 #   figures   gnuplot
+#   fuzz      the C++ compiler
 #   counting  what counts instructions
 #   guest     other compilers, linkers, and what watches memory and threads
 #   test      all that `make test` uses
@@ -37,6 +38,10 @@ demo() {
     need_library liblapack-dev lapack
     need_library libblas-dev blas
     need gnuplot-nox gnuplot
+}
+
+fuzz() {
+    need g++ g++
 }
 
 counting() {
@@ -81,6 +86,7 @@ tests() {
     demo
     counting
     guest
+    fuzz
     need cmake cmake
     need pkg-config pkg-config
     components=
@@ -96,10 +102,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|counting|guest|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|fuzz|counting|guest|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | counting | guest) "$group" ;;
+        fortran | demo | bench | figures | fuzz | counting | guest) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

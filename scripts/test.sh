@@ -107,6 +107,7 @@ snippet() {
 }
 
 step 'Rust: formatting' "$CARGO" fmt --all --check
+step 'Rust: formatting of the fuzz targets' "$CARGO" fmt --manifest-path fuzz/Cargo.toml --check
 step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
@@ -154,6 +155,7 @@ for kinds in '' "$wide"; do
         step "Fortran: $program, floating-point traps $kinds" fortran_tests "$traps $kinds" "$program"
     done
 done
+step 'C interface: fuzzing, bounded' scripts/fuzz.sh --check
 step 'benchmark: its own check' bench/check.sh "$prefix"
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
 
