@@ -1,4 +1,4 @@
-/* The floating-point environment of the caller: the four directions of rounding, subnormal numbers flushed, flags raised already. No
+/* The floating-point environment of the caller: four directions of rounding, subnormal numbers flushed, flags raised already. No
    call hangs, raises what may be trapped, answers by another status or changes the environment, and every number is near
    the one of the usual environment. */
 #include "bad_calls.h"
