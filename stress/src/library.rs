@@ -78,6 +78,16 @@ impl Contact {
         self.prepared.slip_energy
     }
 
+    /// Force on the monotonic curve.
+    pub fn monotonic_force(&self, displacement: f64) -> Result<f64, String> {
+        let mut force = f64::NAN;
+        // SAFETY: pointers to one number each.
+        accepted(unsafe {
+            c_api::mslip_monotonic_force(self.as_c(), 1, &displacement, &mut force, null_mut(), null_mut())
+        })?;
+        Ok(force)
+    }
+
     /// Energy of a cycle between displacements -amplitude and +amplitude, and what the rounding of the force at its end, by
     /// which it is asked for, is worth: `dE/dF = 4 (F dδ/dF - δ)`.
     pub fn cycle_energy(&self, amplitude: f64) -> Result<(f64, f64), String> {

@@ -34,7 +34,7 @@ pub struct Care {
     pub repeat: bool,
     /// The state moves into other memory through the bytes of a file.
     pub restart: bool,
-    /// The same memory from a virgin state by the shortest path.
+    /// The force anew by Masing's rule, and the same memory from a virgin state by the shortest path.
     pub relive: bool,
     /// The same step in parts.
     pub divide: bool,
@@ -144,6 +144,7 @@ impl<'a> Walk<'a> {
             self.repeated()?;
         }
         if care.relive {
+            self.by_masings_rule()?;
             self.relived()?;
         }
         if care.restart {
@@ -173,6 +174,28 @@ impl<'a> Walk<'a> {
         let expected = Answer { dissipated: 0.0, ..self.now };
         ensure!(again == expected, "the same displacement again answers {again:?}, not {expected:?}");
         ensure!(self.state.bits() == before, "the same displacement again changes the state");
+        Ok(())
+    }
+
+    /// Masing's rule as it is written: the monotonic curve to the first point, and twice the curve of half the way from each
+    /// point to the next.
+    fn by_masings_rule(&self) -> Outcome {
+        let (contact, points) = (self.contact, &self.memory.points);
+        let mut force = match self.memory.slid {
+            0.0 => contact.monotonic_force(points[0].displacement)?,
+            slid => slid * contact.limit(),
+        };
+        for ends in points.windows(2) {
+            force += 2.0 * contact.monotonic_force(0.5 * (ends[1].displacement - ends[0].displacement))?;
+        }
+        // Both round. Ways that exceed gross slip by the rounding of displacements end there.
+        let place = f64::EPSILON * points.iter().map(|point| point.displacement.abs()).fold(0.0, f64::max);
+        let rounding = 2.0 * points.len() as f64 * BRANCH_ROUNDING * contact.limit() + contact.stiffness() * place;
+        ensure!(
+            (force - self.now.force).abs() <= rounding,
+            "the force is {:?}, by Masing's rule {force:?}",
+            self.now.force
+        );
         Ok(())
     }
 
