@@ -1,4 +1,6 @@
 /* host.c: the hash of everything that the library answers. */
+#include <microslip.h> /* which needs nothing before it, and may come twice */
+
 #include "use.h"
 
 #include <inttypes.h>

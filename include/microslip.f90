@@ -18,7 +18,7 @@ module microslip
   !! refused. A contact, state or workspace that was never initialised is recognised and refused.
   !!
   !! **Threads.** Nothing is kept between calls: any thread may call anything on its own data, and contacts, once
-  !! prepared, may be shared.
+  !! prepared, may be shared. A call takes at most 40 kB of stack (`OMP_STACKSIZE`).
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_loc, &
     c_null_ptr, c_ptr, c_size_t
   implicit none

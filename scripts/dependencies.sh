@@ -71,6 +71,7 @@ guest() {
     need gcc gcc
     need g++ g++
     need clang clang
+    need llvm llvm-symbolizer
     need_clang libclang-rt-dev -fsanitize=address,undefined
     need_clang libomp-dev -fopenmp
     need lld ld.lld
