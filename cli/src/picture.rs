@@ -427,6 +427,19 @@ mod tests {
     }
 
     #[test]
+    fn the_amplitude_0_has_no_place_on_a_logarithmic_axis() {
+        let picture = |points: &[(f64, f64)]| {
+            let lines = vec![Line { name: String::new(), points: points.to_vec() }];
+            let x = Axis::logarithmic("amplitude", Quantity::Length);
+            let panels = vec![Panel { x, y: Axis::linear("stiffness", Quantity::Stiffness), lines }];
+            Picture { caption: String::new(), units: Units::Si, panels }.draw(Format::Svg).unwrap()
+        };
+        let points = [(0.0, 2.0), (1.0, 3.0), (10.0, 1.0)];
+        assert_eq!(picture(&points), picture(&points[1..]));
+        assert_ne!(picture(&points), picture(&[(0.5, 2.0), (1.0, 3.0), (10.0, 1.0)]));
+    }
+
+    #[test]
     fn a_bitmap_is_the_mean_of_a_finer_one() {
         let side = OVERSAMPLING as usize;
         let mut fine = vec![0; 3 * 2 * side * side];
