@@ -119,7 +119,7 @@ impl Picture {
 }
 
 /// Strokes in the order of the lines: dash and gap in pixels (none: a whole line), and colour. Colours grow lighter, so that
-/// they also differ in grey.
+/// they also differ in grey. The next as many lines have the same, but thin.
 const STROKES: [(Option<(u32, u32)>, RGBColor); 4] = [
     (None, RGBColor(0, 0, 0)),
     (Some((14, 6)), RGBColor(0, 90, 180)),
@@ -164,7 +164,8 @@ impl Panel {
             .draw()?;
         for (i, line) in self.lines.iter().enumerate() {
             let (dash, colour) = STROKES[i % STROKES.len()];
-            let style = colour.stroke_width(2 * scale);
+            let thick = i / STROKES.len() % 2 == 0;
+            let style = colour.stroke_width(if thick { 2 * scale } else { scale });
             let points: Vec<_> =
                 line.points.iter().map(|point| (x.place(point.0), y.place(point.1))).filter(is_finite).collect();
             let row = ((scale * 4) as i32, (scale * (24 + 24 * i as u32)) as i32);
@@ -294,8 +295,8 @@ impl Scale {
         let margin = 0.04 * (high - low) + least;
         let start = if low < 0.0 || low > 0.5 * high { low - margin } else { 0.0 };
         let end = high + margin;
-        // Four to nine ticks, 1, 2 or 5 times a power of ten apart.
-        let rough = (end - start) / 9.0;
+        // Four to eleven ticks, 1, 2 or 5 times a power of ten apart.
+        let rough = (end - start) / 10.0;
         let power = 10f64.powf(rough.log10().floor());
         let step =
             [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= rough).unwrap_or(10.0 * power);
