@@ -14,7 +14,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all install uninstall demo demo-dependencies test bench instructions instructions-record counting-dependencies \
+.PHONY: all install uninstall demo demo-dependencies audit test bench instructions instructions-record counting-dependencies \
 	figures stress fuzz header clean help
 .DELETE_ON_ERROR:
 
@@ -67,6 +67,10 @@ demo-dependencies:
 ## test: every test, in Rust, C, C++ and Fortran
 test:
 	scripts/test.sh
+
+## audit: licences, duplicates and sources of the dependencies, and advisories against them
+audit:
+	scripts/audit.sh
 
 ## instructions: count the instructions of each call, and compare them with the record and with each other
 instructions: counting-dependencies all
