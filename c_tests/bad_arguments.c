@@ -92,6 +92,52 @@ static void test_numbers(const function *f)
     set_up(f);
 }
 
+/* The same address, and half an item. */
+static void *askew(const void *pointer, size_t item)
+{
+    return (char *)(size_t)pointer + item / 2;
+}
+
+/* Each pointer in turn does not stand where its type may. */
+static void test_alignment(const function *f)
+{
+    call.contacts = askew(call.contacts, sizeof(double));
+    refused(f, MSLIP_BAD_ALIGNMENT, "contact is askew");
+    set_up(f);
+    if (call.active != NULL) {
+        call.active = askew(call.active, sizeof(int32_t));
+        refused(f, MSLIP_BAD_ALIGNMENT, "active is askew");
+        set_up(f);
+    }
+    if (f->inputs > 0) {
+        call.input = askew(call.input, sizeof(double));
+        refused(f, MSLIP_BAD_ALIGNMENT, "the array is askew");
+        set_up(f);
+    }
+    if (f->takes & TAKES_STATE) {
+        call.state0 = askew(call.state0, sizeof(double));
+        refused(f, MSLIP_BAD_ALIGNMENT, "state is askew");
+        set_up(f);
+    }
+    if (call.state1 != NULL) {
+        call.state1 = askew(call.state1, sizeof(double));
+        refused(f, MSLIP_BAD_ALIGNMENT, "the new state is askew");
+        set_up(f);
+    }
+    if (f->takes & TAKES_WORKSPACE) {
+        call.workspace = askew(call.workspace, sizeof(double));
+        refused(f, MSLIP_BAD_ALIGNMENT, "workspace is askew");
+        set_up(f);
+    }
+    for (size_t i = 0; i < sizeof call.out / sizeof *call.out; ++i) {
+        if (call.out[i] != NULL) {
+            call.out[i] = askew(call.out[i], sizeof(double));
+            refused(f, MSLIP_BAD_ALIGNMENT, "an output is askew");
+            set_up(f);
+        }
+    }
+}
+
 static void test_pointers(const function *f)
 {
     call.contacts = NULL;
@@ -112,6 +158,7 @@ static void test_pointers(const function *f)
         refused(f, MSLIP_NULL_POINTER, "workspace is NULL");
         set_up(f);
     }
+    test_alignment(f);
     /* What is NULL is not wanted: nothing but checks is left. */
     call.state1 = NULL;
     memset(call.out, 0, sizeof call.out);

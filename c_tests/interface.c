@@ -46,10 +46,12 @@ static void test_status(void)
         { MSLIP_BAD_HARMONICS, 36 },
         { MSLIP_BAD_SAMPLES, 37 },
         { MSLIP_BAD_COUNT, 38 },
+        { MSLIP_BAD_RULE, 39 },
         { MSLIP_NOT_AVAILABLE, 40 },
         { MSLIP_BAD_ARRAY_SIZE, 90 },
+        { MSLIP_BAD_ALIGNMENT, 91 },
     };
-    static const int32_t unknown[] = { -1, 14, 91, INT32_MAX, INT32_MIN };
+    static const int32_t unknown[] = { -1, 14, 92, INT32_MAX, INT32_MIN };
     const size_t codes = sizeof status / sizeof *status;
 
     for (size_t i = 0; i < codes; ++i) {

@@ -65,6 +65,7 @@ static const refusal refusals[] = {
     { MSLIP_BAD_RULE, "rule", "MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)", ARGUMENTS },
     { MSLIP_NOT_AVAILABLE, "slip", "elliptical contact", ARGUMENTS },
     { MSLIP_BAD_ARRAY_SIZE, "array", "longer than memory", ARGUMENTS },
+    { MSLIP_BAD_ALIGNMENT, "pointer", "multiple of", ARGUMENTS },
 };
 enum { REFUSALS = sizeof refusals / sizeof *refusals };
 

@@ -86,6 +86,7 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! `rule` is none of those.
   integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Elliptical contacts have no slip.
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90  !! Sizes of arrays disagree.
+  integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91  !! An array does not stand at a multiple of 8 bytes.
 
   ! A number nobody has set: outside the range of every parameter, so that mslip_contact_init refuses it by name.
   real(mslip_real), parameter :: unset = -2.0_mslip_real

@@ -124,6 +124,9 @@
 // size that does not agree with the others.
 #define MSLIP_BAD_ARRAY_SIZE 90
 
+// A pointer is not a multiple of 8 bytes, for flags of 4, which every function with pointers may answer.
+#define MSLIP_BAD_ALIGNMENT 91
+
 // Isotropic, linearly elastic material of one body.
 typedef struct mslip_material {
     // Young's modulus E > 0 [Pa].

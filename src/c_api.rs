@@ -102,6 +102,8 @@ pub const MSLIP_NOT_AVAILABLE: i32 = 40;
 /// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
 /// size that does not agree with the others.
 pub const MSLIP_BAD_ARRAY_SIZE: i32 = 90;
+/// A pointer is not a multiple of 8 bytes, for flags of 4, which every function with pointers may answer.
+pub const MSLIP_BAD_ALIGNMENT: i32 = 91;
 
 /// A contact: prepared once, then only read. Plain data of fixed size that may be copied, stored and sent.
 /// An open contact (N = 0) has zero width, force and stiffness.
@@ -200,6 +202,7 @@ mod tests {
             MSLIP_BAD_RULE,
             MSLIP_NOT_AVAILABLE,
             MSLIP_BAD_ARRAY_SIZE,
+            MSLIP_BAD_ALIGNMENT,
         ];
         assert!(constants.iter().copied().eq(Error::ALL.iter().map(|error| error.code())));
         assert!(constants.windows(2).all(|pair| pair[0] < pair[1]));

@@ -36,11 +36,12 @@ pub enum Error {
     BadRule = 39,
     NotAvailable = 40,
     BadArraySize = 90,
+    BadAlignment = 91,
 }
 
 impl Error {
     /// Every error, in the order of the status codes.
-    pub const ALL: [Error; 31] = [
+    pub const ALL: [Error; 32] = [
         Error::NullPointer,
         Error::BadFlatHalfWidth,
         Error::BadEdgeRadius,
@@ -72,6 +73,7 @@ impl Error {
         Error::BadRule,
         Error::NotAvailable,
         Error::BadArraySize,
+        Error::BadAlignment,
     ];
 
     /// The status code of the C interface.
@@ -127,6 +129,7 @@ impl Error {
             Error::BadRule => c"rule must be MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)",
             Error::NotAvailable => c"slip is not available for an elliptical contact",
             Error::BadArraySize => c"an array is longer than memory, too short, or of a size that does not agree with the others",
+            Error::BadAlignment => c"a pointer must be a multiple of what it points to: of 8 bytes, for flags of 4",
         }
     }
 }

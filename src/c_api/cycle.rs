@@ -1,7 +1,7 @@
 //! One contact in cycles: loops, energy, complex stiffness, harmonic force, and the spring-sliders that stand in for it.
 
 use super::mslip_contact;
-use super::pointer::{self, HarmonicWorkspace, check_length, input, output, set, status};
+use super::pointer::{self, HarmonicWorkspace, check_length, input, output, outputs, set, status};
 use super::widest::on_widest;
 use super::{MSLIP_BETWEEN_REVERSALS, MSLIP_EQUIDISTANT};
 use crate::between_reversals;
@@ -28,10 +28,10 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     force: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        check_length::<f64>(n)?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, [mut displacement, mut force]) =
+            unsafe { (pointer::contact(contact)?, outputs([displacement, force], n)?) };
         let cycle = contact.hysteresis_loop(amplitude)?;
-        let (mut displacement, mut force) = unsafe { (output(displacement, n), output(force, n)) };
         if displacement.is_none() && force.is_none() {
             return Ok(());
         }
@@ -58,10 +58,11 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
     energy: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let amplitude = unsafe { input(force_amplitude, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, amplitude, energy) =
+            unsafe { (pointer::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?) };
         amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
-        let Some(energy) = (unsafe { output(energy, n) }) else { return Ok(()) };
+        let Some(energy) = energy else { return Ok(()) };
         for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
             *energy = contact.dissipated_energy(amplitude)?;
         }
@@ -88,10 +89,15 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let amplitude = unsafe { input(amplitude, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, amplitude, mut outputs) = unsafe {
+            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
+            (pointer::contact(contact)?, input(amplitude, n)?, outputs?)
+        };
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        let mut outputs = [k_real, k_imag, dk_real, dk_imag].map(|pointer| unsafe { output(pointer, n) });
+        if outputs.iter().all(Option::is_none) {
+            return Ok(());
+        }
         for (i, &amplitude) in amplitude.iter().enumerate() {
             write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
         }
@@ -163,7 +169,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
         if workspace.is_null() {
             return Err(Error::NullPointer);
         }
-        let workspace = unsafe { output(workspace, workspace_length) }.unwrap_or(&mut []);
+        // SAFETY: what the caller was asked for above.
+        let workspace = unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []);
         harmonic_force::workspace_init(harmonics, samples, workspace)
     };
     status(init())
@@ -206,7 +213,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init_rule(
         if workspace.is_null() {
             return Err(Error::NullPointer);
         }
-        workspace_init(harmonics, samples, unsafe { output(workspace, workspace_length) }.unwrap_or(&mut []))
+        // SAFETY: what the caller was asked for above.
+        workspace_init(harmonics, samples, unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []))
     };
     status(init())
 }
@@ -278,15 +286,13 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     dissipated: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let mut workspace = unsafe { pointer::workspace(workspace) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, mut workspace) = unsafe { (pointer::contact(contact)?, pointer::workspace(workspace)?) };
         let n = workspace.coefficients();
-        let displacement = unsafe { input(displacement, n) }?;
-        let output = HarmonicOutput {
-            force: unsafe { output(force, n) },
-            jacobian: unsafe { output(jacobian, n * n) },
-            dissipated: unsafe { dissipated.as_mut() },
-        };
+        // SAFETY: as above.
+        let (displacement, force, jacobian, dissipated) =
+            unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
+        let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
         widest_harmonic_force(contact, &mut workspace, displacement, output)
     };
     status(compute())
@@ -307,8 +313,10 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     slip_force: *mut f64,
 ) -> i32 {
     let compute = || {
-        let slider = equivalent::jenkins(unsafe { pointer::contact(contact) }?, amplitude)?;
-        let (mut stiffness, mut slip_force) = unsafe { (output(stiffness, 1), output(slip_force, 1)) };
+        // SAFETY: what the caller was asked for above.
+        let (contact, [mut stiffness, mut slip_force]) =
+            unsafe { (pointer::contact(contact)?, outputs([stiffness, slip_force], 1)?) };
+        let slider = equivalent::jenkins(contact, amplitude)?;
         set(&mut stiffness, 0, || slider.stiffness);
         set(&mut slip_force, 0, || slider.slip_force);
         Ok(())
@@ -333,16 +341,18 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
     force_error: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        check_length::<f64>(n)?;
-        let (mut stiffness, mut slip_force) = unsafe { (output(stiffness, n), output(slip_force, n)) };
+        // SAFETY: what the caller was asked for above.
+        let (contact, [mut stiffness, mut slip_force], mut force_error) = unsafe {
+            let outputs = outputs([stiffness, slip_force], n);
+            (pointer::contact(contact)?, outputs?, output(force_error, 1)?)
+        };
         let mut i = 0;
         let error = equivalent::iwan(contact, n, |slider| {
             set(&mut stiffness, i, || slider.stiffness);
             set(&mut slip_force, i, || slider.slip_force);
             i += 1;
         })?;
-        set(&mut unsafe { output(force_error, 1) }, 0, || error);
+        set(&mut force_error, 0, || error);
         Ok(())
     };
     status(compute())

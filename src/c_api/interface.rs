@@ -2,7 +2,7 @@
 
 use super::cycle::{widest_harmonic_force, write_complex_stiffness};
 use super::mslip_contact;
-use super::pointer::{self, check_length, input, output, status};
+use super::pointer::{self, check_alignment, input, output, outputs, status};
 use super::single::update_one;
 use crate::contact::Contact;
 use crate::error::Error;
@@ -20,7 +20,9 @@ unsafe fn active_contacts<'a>(
     contacts: *const mslip_contact,
     active: *const i32,
 ) -> Result<impl Iterator<Item = (usize, &'a Contact)> + Clone, Error> {
+    // SAFETY: the caller's word.
     let contacts = unsafe { input(contacts.cast::<Contact>(), n) }?;
+    // SAFETY: the caller's word.
     let active: Option<&'a [i32]> = if active.is_null() { None } else { Some(unsafe { input(active, n) }?) };
     let takes_part = move |i: usize| active.is_none_or(|active| active.get(i).is_none_or(|&flag| flag != 0));
     let items = contacts.iter().enumerate().filter(move |(i, _)| takes_part(*i));
@@ -48,11 +50,13 @@ pub unsafe extern "C" fn mslip_interface_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     let compute = || {
-        let items = unsafe { active_contacts(n, contacts, active) }?;
-        let amplitude = unsafe { input(amplitude, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (items, amplitude, mut outputs) = unsafe {
+            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
+            (active_contacts(n, contacts, active)?, input(amplitude, n)?, outputs?)
+        };
         let items = items.filter_map(|(i, contact)| Some((i, contact, *amplitude.get(i)?)));
         items.clone().try_for_each(|(_, _, amplitude)| check_amplitude(amplitude))?;
-        let mut outputs = [k_real, k_imag, dk_real, dk_imag].map(|pointer| unsafe { output(pointer, n) });
         for (i, contact, amplitude) in items {
             write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
         }
@@ -82,11 +86,15 @@ pub unsafe extern "C" fn mslip_interface_masing_update(
     dissipated: *mut f64,
 ) -> i32 {
     let update = || {
+        // SAFETY: what the caller was asked for above.
         let items = unsafe { active_contacts(n, contacts, active) }?;
+        // SAFETY: as above.
         let displacement = unsafe { input(displacement, n) }?;
         let items = items.filter_map(|(i, contact)| Some((i, contact, *displacement.get(i)?)));
+        [states1, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
         let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
         {
+            // SAFETY: as above.
             let states = unsafe { input(states0, length) }?;
             if n > 0 && state_length == 0 {
                 return Err(Error::StateTooShort);
@@ -101,6 +109,7 @@ pub unsafe extern "C" fn mslip_interface_masing_update(
         for (i, contact, displacement) in items {
             let outputs = [at(force, i), at(stiffness, i), at(dissipated, i)];
             let state0 = states0.wrapping_add(i * state_length);
+            // SAFETY: each item's, as above.
             unsafe { update_one(contact, state_length, state0, displacement, at(states1, i * state_length), outputs) }?;
         }
         Ok(())
@@ -127,17 +136,17 @@ pub unsafe extern "C" fn mslip_interface_harmonic_force(
     dissipated: *mut f64,
 ) -> i32 {
     let compute = || {
-        let items = unsafe { active_contacts(n, contacts, active) }?;
-        let mut workspace = unsafe { pointer::workspace(workspace) }?;
+        // SAFETY: what the caller was asked for above.
+        let (items, mut workspace) = unsafe { (active_contacts(n, contacts, active)?, pointer::workspace(workspace)?) };
         let one = workspace.coefficients();
         let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
         let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-        let displacement = unsafe { input(displacement, all) }?;
-        check_length::<f64>(square)?;
+        // SAFETY: as above.
+        let (displacement, mut force, mut jacobian, mut dissipated) = unsafe {
+            (input(displacement, all)?, output(force, all)?, output(jacobian, square)?, output(dissipated, n)?)
+        };
         let items = items.filter_map(|(i, contact)| Some((i, contact, displacement.get(i * one..(i + 1) * one)?)));
         items.clone().try_for_each(|(_, _, displacement)| harmonic_force::check_coefficients(displacement))?;
-        let (mut force, mut jacobian) = unsafe { (output(force, all), output(jacobian, square)) };
-        let mut dissipated = unsafe { output(dissipated, n) };
         for (i, contact, displacement) in items {
             let output = HarmonicOutput {
                 force: force.as_mut().and_then(|force| force.get_mut(i * one..(i + 1) * one)),

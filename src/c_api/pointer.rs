@@ -19,31 +19,75 @@ pub fn check_length<T>(n: usize) -> Result<(), Error> {
     if n <= isize::MAX as usize / size_of::<T>().max(1) { Ok(()) } else { Err(Error::BadArraySize) }
 }
 
+/// Whether a pointer stands where its type may; NULL does.
+#[inline(always)]
+pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
+    if pointer.is_aligned() { Ok(()) } else { Err(Error::BadAlignment) }
+}
+
+/// One item, a contact or parameters.
+///
+/// What it holds may be anything, and is recognised: hosts are compiled apart from this archive, so that memory they never
+/// wrote is, here, memory with some bytes or other.
+///
+/// # Safety
+/// `pointer` is NULL or points to what its type says, which is not written while the reference lives.
+pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
+    check_alignment(pointer)?;
+    // SAFETY: aligned; the rest is the caller's word.
+    unsafe { pointer.as_ref() }.ok_or(Error::NullPointer)
+}
+
 /// An input of n items.
 ///
 /// # Safety
 /// `pointer` is NULL or points to n items that are not written while the slice lives.
 pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
     check_length::<T>(n)?;
+    check_alignment(pointer)?;
     if n == 0 {
-        Ok(&[])
-    } else if pointer.is_null() {
-        Err(Error::NullPointer)
-    } else {
-        Ok(unsafe { slice::from_raw_parts(pointer, n) })
+        return Ok(&[]);
     }
+    if pointer.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: aligned, not NULL, and not longer than memory; the rest is the caller's word.
+    Ok(unsafe { slice::from_raw_parts(pointer, n) })
 }
 
-/// An output of n items; `None` is not wanted.
+/// An output of n items; `None` is not wanted. It may never have been written, and is not read.
 ///
 /// # Safety
 /// `pointer` is NULL or points to n items that nobody else uses while the slice lives.
-pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
-    if pointer.is_null() || n == 0 || check_length::<T>(n).is_err() {
-        None
-    } else {
-        Some(unsafe { slice::from_raw_parts_mut(pointer, n) })
-    }
+#[inline(always)]
+pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut [T]>, Error> {
+    check_length::<T>(n)?;
+    check_alignment(pointer)?;
+    // SAFETY: not longer than memory, and aligned; the rest is the caller's word.
+    Ok(unsafe { wanted(pointer, n) })
+}
+
+/// Outputs of n numbers each.
+///
+/// # Safety
+/// As for one.
+#[inline(always)]
+pub unsafe fn outputs<'a, const K: usize>(
+    pointers: [*mut f64; K],
+    n: usize,
+) -> Result<[Option<&'a mut [f64]>; K], Error> {
+    check_length::<f64>(n)?;
+    pointers.iter().try_for_each(|pointer| check_alignment(*pointer))?;
+    // SAFETY: as for one.
+    Ok(pointers.map(|pointer| unsafe { wanted(pointer, n) }))
+}
+
+/// # Safety
+/// As for an output; aligned, and not longer than memory.
+#[inline(always)]
+pub unsafe fn wanted<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
+    // SAFETY: the caller's word.
+    if pointer.is_null() || n == 0 { None } else { Some(unsafe { slice::from_raw_parts_mut(pointer, n) }) }
 }
 
 /// A contact that was prepared.
@@ -51,7 +95,8 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
 /// # Safety
 /// `pointer` is NULL or points to a contact.
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
-    let contact = unsafe { pointer.cast::<Contact>().as_ref() }.ok_or(Error::NullPointer)?;
+    // SAFETY: the caller's word; both are the same doubles and words of their size, of which any bits will do.
+    let contact = unsafe { item(pointer.cast::<Contact>()) }?;
     check_contact(contact)?;
     Ok(contact)
 }
@@ -66,14 +111,14 @@ impl From<Contact> for mslip_contact {
     fn from(mut contact: Contact) -> mslip_contact {
         contact.seal = 0;
         contact.seal = sum(&contact).wrapping_neg();
-        // Both are the same doubles and words of their size.
+        // SAFETY: both are the same doubles and words of their size.
         unsafe { mem::transmute(contact) }
     }
 }
 
 /// The sum of all words of a contact.
 fn sum(contact: &Contact) -> u64 {
-    // A contact is made of doubles and words of their size, without gaps.
+    // SAFETY: a contact is made of doubles and words of their size, without gaps.
     let words = unsafe { &*ptr::from_ref(contact).cast::<[f64; size_of::<Contact>() / size_of::<f64>()]>() };
     on_widest!(seal::of_table, words: &[f64] => u64)
 }
@@ -111,8 +156,11 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<HarmonicWorkspace<'a>, 
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
+    check_alignment(pointer)?;
+    // SAFETY: aligned, and four numbers by the caller's word.
     let header = unsafe { pointer.cast::<[f64; 4]>().read() };
-    let whole = |extent: usize| unsafe { output(pointer, extent) }.ok_or(Error::BadWorkspace);
+    // SAFETY: they begin a workspace of that extent, by the caller's word.
+    let whole = |extent: usize| unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace);
     Ok(match between_reversals::workspace_extent(&header) {
         Some(extent) => HarmonicWorkspace::BetweenReversals(between_reversals_workspace(whole(extent?)?)?),
         None => {
@@ -139,12 +187,15 @@ mod tests {
     fn a_contact_of_which_any_bit_was_changed_is_refused() {
         for prepared in FLATS.map(flat).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let good = mslip_contact::from(prepared);
+            // SAFETY: a contact.
             assert!(unsafe { contact(&raw const good) }.is_ok());
+            // SAFETY: a contact is as many words.
             let mut words: [u64; 249] = unsafe { mem::transmute(good) };
             for place in 0..words.len() {
                 for bit in 0..64 {
                     words[place] ^= 1 << bit;
                     let bad = words.as_ptr().cast::<mslip_contact>();
+                    // SAFETY: as many words as a contact has.
                     assert_eq!(unsafe { contact(bad) }.map(|_| ()), Err(Error::BadContact), "{place} {bit}");
                     words[place] ^= 1 << bit;
                 }

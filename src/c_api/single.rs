@@ -1,7 +1,7 @@
 //! One contact: preparation, tractions, monotonic curve and memory.
 
 use super::mslip_contact;
-use super::pointer::{self, check_length, input, output, set, status};
+use super::pointer::{self, check_alignment, check_length, input, item, output, outputs, set, status, wanted};
 use super::widest::on_widest;
 use crate::contact::Contact;
 use crate::error::Error;
@@ -20,7 +20,8 @@ use libc::size_t;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
-        unsafe { p.write(Parameters::default()) }
+        // SAFETY: parameters, wherever they stand: there is no status to refuse them with.
+        unsafe { p.write_unaligned(Parameters::default()) }
     }
 }
 
@@ -31,7 +32,8 @@ pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
     if !p.is_null() {
-        unsafe { p.write(EllipticParameters::default()) }
+        // SAFETY: parameters, wherever they stand: there is no status to refuse them with.
+        unsafe { p.write_unaligned(EllipticParameters::default()) }
     }
 }
 
@@ -45,11 +47,15 @@ unsafe fn prepare<P>(
     make: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
     let prepare = || {
-        let parameters = unsafe { parameters.as_ref() }.ok_or(Error::NullPointer)?;
+        // SAFETY: the caller's word.
+        let parameters = unsafe { item(parameters) }?;
         if contact.is_null() {
             return Err(Error::NullPointer);
         }
-        unsafe { contact.write(make(parameters)?.into()) };
+        check_alignment(contact)?;
+        let made = make(parameters)?.into();
+        // SAFETY: aligned, not NULL, and a contact by the caller's word.
+        unsafe { contact.write(made) };
         Ok(())
     };
     status(prepare())
@@ -64,6 +70,7 @@ unsafe fn prepare<P>(
 /// `p` and `contact` are NULL or point to what their types say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
+    // SAFETY: what the caller was asked for above.
     unsafe { prepare(p, contact, Contact::rounded_flat) }
 }
 
@@ -80,6 +87,7 @@ pub unsafe extern "C" fn mslip_contact_init_like(
     like: *const mslip_contact,
     contact: *mut mslip_contact,
 ) -> i32 {
+    // SAFETY: what the caller was asked for above.
     unsafe { prepare(p, contact, |p| Contact::rounded_flat_like(p, pointer::contact(like)?)) }
 }
 
@@ -92,6 +100,7 @@ pub unsafe extern "C" fn mslip_contact_init_like(
 /// `p` and `contact` are NULL or point to what their types say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
+    // SAFETY: what the caller was asked for above.
     unsafe { prepare(p, contact, Contact::elliptic) }
 }
 
@@ -112,11 +121,11 @@ pub unsafe extern "C" fn mslip_tractions(
     shear: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let x = unsafe { input(x, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, x, [mut pressure, mut shear]) =
+            unsafe { (pointer::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?) };
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
-        let (mut pressure, mut shear) = unsafe { (output(pressure, n), output(shear, n)) };
         for (i, &x) in x.iter().enumerate() {
             set(&mut pressure, i, || contact.pressure(x));
             set(&mut shear, i, || point.shear(x));
@@ -148,12 +157,12 @@ pub unsafe extern "C" fn mslip_slip(
     damage: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let x = unsafe { input(x, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, x, [mut slip, mut damage]) =
+            unsafe { (pointer::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?) };
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         point.slip(0.0)?;
-        let (mut slip, mut damage) = unsafe { (output(slip, n), output(damage, n)) };
         if slip.is_none() && damage.is_none() {
             return Ok(());
         }
@@ -184,11 +193,12 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
     stick_half_width: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let force = unsafe { input(force, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) = unsafe {
+            let outputs = outputs([displacement, compliance, stick_half_width], n);
+            (pointer::contact(contact)?, input(force, n)?, outputs?)
+        };
         force.iter().try_for_each(|&force| contact.check_force(force))?;
-        let (mut displacement, mut compliance) = unsafe { (output(displacement, n), output(compliance, n)) };
-        let mut stick_half_width = unsafe { output(stick_half_width, n) };
         if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
             return Ok(());
         }
@@ -220,12 +230,14 @@ pub unsafe extern "C" fn mslip_monotonic_force(
     stick_half_width: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let displacement = unsafe { input(displacement, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, displacement, [force, stiffness, stick_half_width]) = unsafe {
+            let outputs = outputs([force, stiffness, stick_half_width], n);
+            (pointer::contact(contact)?, input(displacement, n)?, outputs?)
+        };
         displacement.iter().try_for_each(|&displacement| crate::curve::check_displacement(displacement))?;
-        let (force, stiffness) = unsafe { (output(force, n), output(stiffness, n)) };
         responses(contact, displacement, force, stiffness);
-        if let Some(stick_half_width) = unsafe { output(stick_half_width, n) } {
+        if let Some(stick_half_width) = stick_half_width {
             for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
                 *c = contact.curve_at_displacement(displacement)?.stick_half_width();
             }
@@ -265,7 +277,8 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
         if state.is_null() {
             return Err(Error::NullPointer);
         }
-        memory::state_init(unsafe { output(state, state_length) }.ok_or(Error::StateTooShort)?)
+        // SAFETY: what the caller was asked for above.
+        memory::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
     };
     status(init())
 }
@@ -290,8 +303,12 @@ pub unsafe extern "C" fn mslip_masing_update(
     dissipated: *mut f64,
 ) -> i32 {
     let update = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        unsafe { update_one(contact, state_length, state0, displacement, state1, [force, stiffness, dissipated]) }
+        // SAFETY: what the caller was asked for above.
+        unsafe {
+            let contact = pointer::contact(contact)?;
+            [state1, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
+            update_one(contact, state_length, state0, displacement, state1, [force, stiffness, dissipated])
+        }
     };
     status(update())
 }
@@ -299,7 +316,7 @@ pub unsafe extern "C" fn mslip_masing_update(
 /// One update; nothing is written unless all is well.
 ///
 /// # Safety
-/// As `mslip_masing_update`; outputs in the order force, stiffness, dissipated.
+/// As `mslip_masing_update`, and the new state and the outputs are aligned; these in the order force, stiffness, dissipated.
 pub(super) unsafe fn update_one(
     contact: &Contact,
     state_length: usize,
@@ -309,6 +326,7 @@ pub(super) unsafe fn update_one(
     outputs: [*mut f64; 3],
 ) -> Result<(), Error> {
     let (step, energy) = {
+        // SAFETY: the caller's word; the new state, which may be the same memory, is written when this reference has gone.
         let state = unsafe { input(state0, state_length) }?;
         if state1.is_null() && outputs.iter().all(|output| output.is_null()) {
             return masing::check_step(contact, state, displacement);
@@ -319,13 +337,16 @@ pub(super) unsafe fn update_one(
     };
     if !state1.is_null() {
         if !ptr::eq(state0, state1) {
+            // SAFETY: aligned, and of that length by the caller's word.
             unsafe { ptr::copy(state0, state1, state_length) };
         }
-        if let Some(state) = unsafe { output(state1, state_length) } {
+        // SAFETY: the same.
+        if let Some(state) = unsafe { wanted(state1, state_length) } {
             step.write(state);
         }
     }
-    let [mut force, mut stiffness, mut dissipated] = outputs.map(|pointer| unsafe { output(pointer, 1) });
+    // SAFETY: aligned, and NULL or one number by the caller's word.
+    let [mut force, mut stiffness, mut dissipated] = outputs.map(|pointer| unsafe { wanted(pointer, 1) });
     set(&mut force, 0, || step.force());
     set(&mut stiffness, 0, || step.stiffness());
     set(&mut dissipated, 0, || energy);
@@ -354,11 +375,12 @@ pub unsafe extern "C" fn mslip_masing_path(
     dissipated: *mut f64,
 ) -> i32 {
     let walk = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let path = unsafe { input(displacement, n) }?;
-        let start = unsafe { input(state0, state_length) }?;
-        let [force, stiffness, dissipated] =
-            [force, stiffness, dissipated].map(|pointer| unsafe { output(pointer, n) });
+        // SAFETY: what the caller was asked for above.
+        let (contact, path, start, [force, stiffness, dissipated]) = unsafe {
+            let (contact, path) = (pointer::contact(contact)?, input(displacement, n)?);
+            (contact, path, input(state0, state_length)?, outputs([force, stiffness, dissipated], n)?)
+        };
+        check_alignment(state1)?;
         let output = PathOutput { force, stiffness, dissipated };
         if state1.is_null() {
             // Checked and led in copies that follow each other: one at a time is on the stack.
@@ -367,9 +389,12 @@ pub unsafe extern "C" fn mslip_masing_path(
         }
         masing::check_path(contact, start, path)?;
         if !ptr::eq(state0, state1) {
+            // SAFETY: as above, and aligned.
             unsafe { ptr::copy(state0, state1, state_length) };
         }
-        lead(contact, unsafe { pointer::output(state1, state_length) }.ok_or(Error::StateTooShort)?, path, output)
+        // SAFETY: as above; the old state, which may be the same memory, is not looked at again.
+        let state = unsafe { wanted(state1, state_length) }.ok_or(Error::StateTooShort)?;
+        lead(contact, state, path, output)
     };
     status(walk())
 }
@@ -402,12 +427,13 @@ pub unsafe extern "C" fn mslip_masing_tractions(
     shear: *mut f64,
 ) -> i32 {
     let compute = || {
-        let contact = unsafe { pointer::contact(contact) }?;
-        let state = unsafe { input(state, state_length) }?;
-        let x = unsafe { input(x, n) }?;
+        // SAFETY: what the caller was asked for above.
+        let (contact, state, x, [mut pressure, shear]) = unsafe {
+            let (contact, state) = (pointer::contact(contact)?, input(state, state_length)?);
+            (contact, state, input(x, n)?, outputs([pressure, shear], n)?)
+        };
         check_positions(x)?;
-        let mut pressure = unsafe { output(pressure, n) };
-        masing::shear_after(contact, state, x, unsafe { output(shear, n) }.unwrap_or(&mut []))?;
+        masing::shear_after(contact, state, x, shear.unwrap_or(&mut []))?;
         x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
         Ok(())
     };

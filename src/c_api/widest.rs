@@ -13,7 +13,7 @@ macro_rules! on_widest {
                 $function($($argument),+)
             }
             if std::is_x86_feature_detected!("avx2") {
-                // The processor has what the function was compiled for.
+                // SAFETY: the processor has what the function was compiled for.
                 return unsafe { on_avx2($($argument),+) };
             }
         }
