@@ -164,7 +164,7 @@ impl Panel {
             .draw()?;
         for (i, line) in self.lines.iter().enumerate() {
             let (dash, colour) = STROKES[i % STROKES.len()];
-            let thick = i / STROKES.len() % 2 == 0;
+            let thick = (i / STROKES.len()).is_multiple_of(2);
             let style = colour.stroke_width(if thick { 2 * scale } else { scale });
             let points: Vec<_> =
                 line.points.iter().map(|point| (x.place(point.0), y.place(point.1))).filter(is_finite).collect();
