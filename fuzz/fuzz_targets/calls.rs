@@ -11,7 +11,7 @@ use microslip::{EllipticParameters, Error, Material, Parameters};
 use microslip_fuzz::contacts::{self, SIZE};
 use microslip_fuzz::interface::{self, Faults, call, status};
 use microslip_fuzz::memory::{Array, Output, UNTOUCHED, same};
-use microslip_fuzz::source::Source;
+use microslip_fuzz::source::{Scatter, Source};
 use microslip_fuzz::tell;
 use std::ptr::{null, null_mut};
 
@@ -665,20 +665,11 @@ impl<'a> World<'a> {
         let c = self.contact();
         let (slot, before, faults) = self.state();
         let steps = self.source.byte() as usize + 1;
-        let (width, decay) = (self.source.number(c.way()), 1.0 - 2f64.powi(-(self.source.byte() as i32 % 16)));
-        let mut random = self.source.byte() as u32 | 1;
+        let width = self.source.number(c.way());
+        let mut scatter = Scatter::new(&mut self.source, width);
         let mut path = Array::new(steps, 0.0);
-        let mut envelope = width;
         for i in 0..steps {
-            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            // Anywhere within, or where it has been.
-            let returns = random >> 30 == 0 && i > 0;
-            let back = (random >> 8) as usize % 16 + 1;
-            path.values_mut()[i] = match returns {
-                true => path.values()[i.saturating_sub(back)],
-                false => envelope * ((random >> 8) as f64 * 2f64.powi(-23) - 1.0),
-            };
-            envelope *= decay;
+            path.values_mut()[i] = scatter.next(&path.values()[..i]);
         }
         tell!("  {:?}", path.values());
         let refused = faults.and(c.faults).refuses();

@@ -121,3 +121,27 @@ impl<'a> Source<'a> {
         }
     }
 }
+
+/// Displacements without a pattern: anywhere within a width that may shrink, or where one of the last was.
+pub struct Scatter {
+    state: u32,
+    width: f64,
+    decay: f64,
+}
+
+impl Scatter {
+    pub fn new(source: &mut Source, width: f64) -> Scatter {
+        let decay = 1.0 - 2f64.powi(-(source.byte() as i32 % 16));
+        Scatter { state: source.byte() as u32 | 1, width, decay }
+    }
+
+    pub fn next(&mut self, before: &[f64]) -> f64 {
+        self.state = self.state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        self.width *= self.decay;
+        let back = (self.state >> 8) as usize % 16 + 1;
+        match before.len().checked_sub(back) {
+            Some(place) if self.state >> 30 == 0 => before[place],
+            _ => self.width * ((self.state >> 8) as f64 * 2f64.powi(-23) - 1.0),
+        }
+    }
+}
