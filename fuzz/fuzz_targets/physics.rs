@@ -179,7 +179,7 @@ fn remembered(state: &[f64]) -> &[f64] {
 fn history(contact: &Contact, source: &mut Source) {
     let parts = source.below(4) + 1;
     let inner = (source.byte() as f64 + 0.5) / 256.0;
-    let (more, width) = (source.byte() as usize, contact.draw(source));
+    let (more, width) = (4 * source.byte() as usize, contact.draw(source));
     let mut scatter = Scatter::new(source, width);
     let mut path = Vec::new();
     while !source.is_empty() && path.len() < 64 {
