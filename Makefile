@@ -15,7 +15,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all install uninstall demo demo-dependencies audit test bench instructions instructions-record counting-dependencies \
-	figures stress fuzz header clean help
+	figures host stress fuzz header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -94,6 +94,11 @@ figures:
 	$(CARGO) run --quiet --release --locked --package figures
 	figures/draw.sh
 
+## host: build CalculiX with the law as one of its elements, and compare what it finds, into host_examples/ (5 minutes)
+host: all
+	@scripts/dependencies.sh host
+	host_examples/calculix/run.sh dist
+
 ## stress: long and hostile histories of the memory, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
 stress:
 	$(CARGO) run --quiet --release --locked --package stress -- $(ARGUMENTS)
@@ -112,6 +117,7 @@ clean:
 	rm -rf dist target fuzz/target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C bench clean
+	rm -rf host_examples/calculix/build
 
 ## help: list the targets
 help:

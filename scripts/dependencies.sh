@@ -5,6 +5,7 @@
 #   demo      Fortran with LAPACK, and gnuplot
 #   bench     the C compiler, and gnuplot
 #   figures   gnuplot
+#   host      what CalculiX is built with, and gnuplot
 #   fuzz      the C++ compiler
 #   counting  what counts instructions
 #   guest     other compilers, linkers, and what watches memory and threads
@@ -59,6 +60,15 @@ figures() {
     need gnuplot-nox gnuplot
 }
 
+host() {
+    demo
+    need gcc gcc
+    need make make
+    need dpkg-dev dpkg-source
+    need_library libspooles-dev spooles
+    need_library libarpack2-dev arpack
+}
+
 # need_clang PACKAGE OPTION: the package without which clang cannot link with the option.
 need_clang() {
     probe=$(mktemp)
@@ -103,10 +113,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|fuzz|counting|guest|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | fuzz | counting | guest) "$group" ;;
+        fortran | demo | bench | figures | host | fuzz | counting | guest) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

@@ -163,6 +163,17 @@ for kinds in '' "$wide"; do
 done
 step 'C interface: fuzzing, bounded' scripts/fuzz.sh --check
 step 'benchmark: its own check' bench/check.sh "$prefix"
+calculix_results() {
+    mkdir -p "$work/calculix" &&
+        $FC -J "$work/calculix" "$prefix/include/microslip.f90" host_examples/calculix/compare.f90 $(flags) -llapack -lblas \
+            -o "$work/calculix/compare" &&
+        "$work/calculix/compare" host_examples/calculix/results
+}
+calculix_is_current() {
+    (cd host_examples/calculix && sha256sum --check --quiet results/made.sha256)
+}
+step 'CalculiX: what it found is what the library finds' calculix_results
+step 'CalculiX: found with this element and these models' calculix_is_current
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
 
 fortran_against_rust() {

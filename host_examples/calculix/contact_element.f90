@@ -1,0 +1,216 @@
+! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one direction. The routines
+! below have the names and arguments that CalculiX calls for this element, and replace those of its own U1, a beam.
+!
+!   *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
+!   *ELEMENT, TYPE=U1, ELSET=rubbing
+!   number, first node, second node
+!   *MATERIAL, NAME=law
+!   *USER MATERIAL, CONSTANTS=9
+!   a, R, L, N, mu, E1, nu1, E2,
+!   nu2
+!   *DEPVAR
+!   3 + the length of a state
+!   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
+!   direction of sliding
+!
+! A displacement of the second node against the first along the direction (a unit vector is made of it) is positive. State
+! variables: 1 force on the second node's mover, 2 displacement, 3 energy dissipated so far, 4... the state of the law.
+! The direction does not rotate with the structure.
+module contact_element
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use microslip
+  implicit none
+  private
+  public :: prepare, direction, answer, stop_for
+
+  integer, parameter, public :: wp = mslip_real
+  integer, parameter, public :: printed = 3  ! state variables before the state of the law
+
+contains
+
+  !> The contact of the element's material. It is prepared anew in every call: 20 us, and nothing is kept between calls,
+  !> which CalculiX makes from several threads.
+  subroutine prepare(element, kind_and_count, constants, contact)
+    integer, intent(in) :: element, kind_and_count
+    real(wp), intent(in) :: constants(*)
+    type(mslip_contact), intent(out) :: contact
+    type(mslip_parameters) :: p
+    integer(mslip_int) :: status
+
+    if (kind_and_count /= -109) call stop_for(element, 'its material is to be a *USER MATERIAL with 9 constants')
+    call mslip_parameters_default(p)
+    p%flat_half_width = constants(1)
+    p%edge_radius = constants(2)
+    p%length = constants(3)
+    p%normal_force = constants(4)
+    p%friction_coefficient = constants(5)
+    p%material = [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))]
+    call mslip_contact_init(p, contact, status)
+    if (status /= MSLIP_OK) call stop_for(element, mslip_status_text(status))
+  end subroutine prepare
+
+  !> Unit vector of sliding.
+  function direction(element, property, properties) result(d)
+    integer, intent(in) :: element, property
+    real(wp), intent(in) :: properties(*)
+    real(wp) :: d(3)
+
+    d = properties(property + 1:property + 3)
+    if (.not. norm2(d) > 0) call stop_for(element, 'its *USER SECTION is to give a direction')
+    d = d/norm2(d)
+  end function direction
+
+  !> Force and stiffness at a displacement, from the variables of the last accepted increment to those of this attempt.
+  !> `accepted` is false for a displacement that is none: Newton's method has diverged.
+  subroutine answer(element, contact, displacement, start, before, after, stiffness, accepted)
+    integer, intent(in) :: element
+    type(mslip_contact), intent(in) :: contact
+    real(wp), intent(in) :: displacement, start, before(:)
+    real(wp), intent(inout) :: after(:)
+    real(wp), intent(out) :: stiffness
+    logical, intent(out) :: accepted
+    real(wp) :: state(size(before) - printed), force, dissipated
+    integer(mslip_int) :: status
+
+    status = MSLIP_OK
+    state = before(printed + 1:)
+    if (all(abs(state) <= 0)) then  ! CalculiX begins with zeros
+      if (abs(start) > 0) call stop_for(element, 'it is displaced and has no memory (restart files of CalculiX hold ' // &
+        'state variables only where the model has a *CONTACT PAIR)')
+      call mslip_state_init(state, status)
+    end if
+    if (status == MSLIP_OK) &
+      call mslip_masing_update(contact, state, displacement, status, force, stiffness, dissipated)
+    accepted = status /= MSLIP_BAD_DISPLACEMENT
+    if (.not. accepted) return
+    if (status /= MSLIP_OK) call stop_for(element, mslip_status_text(status))
+    after(1:printed) = [force, displacement, before(3) + dissipated]
+    after(printed + 1:) = state
+  end subroutine answer
+
+  subroutine stop_for(element, reason)
+    integer, intent(in) :: element
+    character(len=*), intent(in) :: reason
+
+    write (error_unit, '(a, i0, 2a)') ' *ERROR in the contact element ', element, ': ', reason
+    stop 201
+  end subroutine stop_for
+
+end module contact_element
+
+!> Called in every iteration: nodal forces, state, and the stiffness, which is handed to e_c3d_u1 in xstiff.
+subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhcon, nrhcon, alcon, nalcon, alzero, &
+    ielmat, ielorien, norien, orab, ntmat_, t0, t1, ithermal, prestr, iprestr, eme, iperturb, fn, iout, qa, vold, &
+    nmethod, veold, dtime, time, ttime, plicon, nplicon, plkcon, nplkcon, xstateini, xstiff, xstate, npmat_, matname, &
+    mi, ielas, icmd, ncmat_, nstate_, stiini, vini, ener, eei, enerini, istep, iinc, reltime, calcul_fn, calcul_qa, &
+    calcul_cauchy, nener, ikin, nal, ne0, thicke, emeini, i, ielprop, prop, t0g, t1g)
+  use contact_element
+  use microslip, only: mslip_contact
+  implicit none
+  ! What is used: node numbers of element i from kon(ipkon(i) + 1); displacements of this iteration, v, of the one before,
+  ! vold, and at the start of the increment, vini; constants of the material; properties of the section; state variables
+  ! at the start (xstateini) and the end (xstate) of the increment.
+  integer :: mi(*), ncmat_, ntmat_, nstate_, kon(*), ipkon(*), nelcon(2, *), ielmat(mi(3), *), iperturb(*), nmethod, icmd
+  integer :: calcul_fn, calcul_qa, nal, i, ielprop(*)
+  real(wp) :: v(0:mi(2), *), vold(0:mi(2), *), vini(0:mi(2), *), fn(0:mi(2), *), elcon(0:ncmat_, ntmat_, *), qa(*), prop(*)
+  real(wp) :: xstateini(nstate_, mi(1), *), xstate(nstate_, mi(1), *), xstiff(27, mi(1), *)
+  ! What is not.
+  character(len=8) :: lakon(*)
+  character(len=80) :: matname(*)
+  integer :: ne, nrhcon(*), nalcon(*), ielorien(*), norien, ithermal(*), iprestr, iout, nplicon(*), nplkcon(*), npmat_
+  integer :: istep, iinc, calcul_cauchy, nener, ikin, ne0, ielas
+  real(wp) :: co(*), stx(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), prestr(*), eme(*), veold(*), dtime
+  real(wp) :: time, ttime, plicon(*), plkcon(*), stiini(*), ener(*), eei(*), enerini(*), reltime, thicke(*)
+  real(wp) :: emeini(*), t0g(*), t1g(*)
+  type(mslip_contact) :: contact
+  real(wp) :: d(3), force, stiffness
+  integer :: first, second, material
+  logical :: accepted
+
+  first = kon(ipkon(i) + 1)
+  second = kon(ipkon(i) + 2)
+  material = ielmat(1, i)
+  d = direction(i, ielprop(i), prop)
+  call prepare(i, nelcon(1, material), elcon(1, 1, material), contact)
+  if (iperturb(1) >= 2) then
+    call answer(i, contact, slide(v), slide(vini), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
+    if (.not. accepted) then
+      qa(3) = 0.25_wp  ! asks for an increment of a quarter
+      return
+    end if
+    force = xstate(1, 1, i)
+  else
+    ! Linear, and not of the history: small vibrations about any state begin with the initial stiffness. So does any branch,
+    ! in the first iteration of a step whose supports move (-1), which asks for the force of the change alone.
+    if (nmethod == 1 .and. iperturb(1) /= -1) &
+      call stop_for(i, 'the step is linear, as CalculiX takes one after *FREQUENCY unless it has NLGEOM')
+    stiffness = contact%initial_stiffness
+    force = stiffness*slide(v)
+    if (iperturb(1) == -1) force = force - stiffness*slide(vold)
+  end if
+
+  if (icmd /= 3) xstiff(1, 1, i) = stiffness
+  if (calcul_fn == 1) then
+    fn(1:3, second) = fn(1:3, second) + force*d
+    fn(1:3, first) = fn(1:3, first) - force*d
+  end if
+  if (calcul_qa == 1) then  ! the sum whose mean the residual is compared with
+    qa(1) = qa(1) + 2*abs(force)*sum(abs(d))
+    nal = nal + 6
+  end if
+
+contains
+
+  !> Displacement of the second node against the first.
+  function slide(nodal)
+    real(wp), intent(in) :: nodal(0:mi(2), *)
+    real(wp) :: slide
+
+    slide = dot_product(d, nodal(1:3, second) - nodal(1:3, first))
+  end function slide
+
+end subroutine resultsmech_u1
+
+!> The stiffness matrix. There is no mass and there are no loads.
+subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nelem, nmethod, elcon, nelcon, rhcon, nrhcon, &
+    alcon, nalcon, alzero, ielmat, ielorien, norien, orab, ntmat_, t0, t1, ithermal, vold, iperturb, nelemload, sideload, &
+    xload, nload, idist, sti, stx, iexpl, plicon, nplicon, plkcon, nplkcon, xstiff, npmat_, dtime, matname, mi, ncmat_, &
+    mass, stiffness, buckling, rhsi, intscheme, ttime, time, istep, iinc, coriolis, xloadold, reltime, ipompc, nodempc, &
+    coefmpc, nmpc, ikmpc, ilmpc, veold, ne0, ipkon, thicke, integerglob, doubleglob, tieset, istartset, iendset, ialset, &
+    ntie, nasym, ielprop, prop)
+  use contact_element
+  implicit none
+  integer :: nelem, mi(*), ielprop(*)
+  real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*)
+  ! What is not used.
+  character(len=8) :: lakonl
+  character(len=20) :: sideload(*)
+  character(len=80) :: matname(*)
+  character(len=81) :: tieset(3, *)
+  integer :: kon(*), nbody, nmethod, nelcon(*), nrhcon(*), nalcon(*), ielmat(*), ielorien(*), norien, ntmat_, ithermal(*)
+  integer :: iperturb(*), nelemload(*), nload, idist, iexpl, nplicon(*), nplkcon(*), npmat_, ncmat_, mass(*), stiffness
+  integer :: buckling, rhsi, intscheme, istep, iinc, coriolis, ipompc(*), nodempc(*), nmpc, ikmpc(*), ilmpc(*), ne0
+  integer :: ipkon(*), integerglob(*), istartset(*), iendset(*), ialset(*), ntie, nasym
+  real(wp) :: co(*), p1(*), p2(*), omx, bodyfx(*), elcon(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), vold(*)
+  real(wp) :: xload(*), sti(*), stx(*), plicon(*), plkcon(*), dtime, ttime, time, xloadold(*), reltime, coefmpc(*)
+  real(wp) :: veold(*), thicke(*), doubleglob(*)
+  real(wp) :: slide(6)
+
+  slide(4:6) = direction(nelem, ielprop(nelem), prop)
+  slide(1:3) = -slide(4:6)
+  s(1:6, 1:6) = xstiff(1, 1, nelem)*spread(slide, 2, 6)*spread(slide, 1, 6)
+  sm(1:6, 1:6) = 0
+  ff(1:6) = 0
+end subroutine e_c3d_u1
+
+!> Stresses and other fields at nodes: the contact has none, and leaves those of the elements around it alone.
+subroutine extrapolate_u1(yi, yn, ipkon, inum, kon, lakon, nfield, nk, ne, mi, ndim, orab, ielorien, co, iorienloc, cflag, &
+    vold, force, ielmat, thicke, ielprop, prop, i)
+  use contact_element, only: wp
+  implicit none
+  logical :: force
+  character(len=1) :: cflag
+  character(len=8) :: lakon(*)
+  integer :: ipkon(*), inum(*), kon(*), mi(*), ne, nfield, nk, i, ndim, iorienloc, ielorien(*), ielmat(*), ielprop(*)
+  real(wp) :: yi(*), yn(*), orab(*), co(*), prop(*), vold(*), thicke(*)
+end subroutine extrapolate_u1

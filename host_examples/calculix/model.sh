@@ -1,0 +1,118 @@
+#!/bin/sh
+# model.sh: writes the input of CalculiX into the working directory. Millimetres, newtons, tonnes, seconds.
+#
+# A blade of 120 x 40 x 6, clamped at x = 0, is bent by a force in z at its tip. At x = 20, in the middle of its lower
+# face, it rubs in z on a node that is held. 12 x 2 x 1 elements with incompatible modes.
+#
+#   blade.inp      mesh, contact, supports: included by the others
+#   law.inp        the contact's numbers: a, R, L, N, mu, E1, nu1, E2, nu2
+#   static.inp     loads back and forth, a step each, in increments that CalculiX chooses
+#   resumed.inp    the last three of these steps, from a restart file of the fourth
+#   dynamic.inp    a force of constant frequency between the first resonances of the sliding and of the sticking blade
+#   frequency.inp  natural frequencies of the sticking blade
+#   matrices.inp   stiffness and mass of the blade alone, for who wants to compute the same
+#   *_load.csv     the force at the tip over time, linear between
+set -eu
+
+# Columns: x, then y, then z.
+awk 'BEGIN {
+    print "*NODE, NSET=all"
+    for (k = 0; k <= 1; k++) for (j = 0; j <= 2; j++) for (i = 0; i <= 12; i++)
+        printf "%d, %g, %g, %g\n", 1000*k + 100*j + i + 1, 10*i, 20*j, 6*k
+    print "5000, 20., 20., 0."
+    print "*ELEMENT, TYPE=C3D8I, ELSET=blade"
+    for (j = 0; j < 2; j++) for (i = 0; i < 12; i++) {
+        n = 100*j + i + 1
+        printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", n, n, n + 1, n + 101, n + 100, n + 1000, n + 1001, n + 1101, n + 1100
+    }
+    print "*NSET, NSET=root"
+    for (k = 0; k <= 1; k++) for (j = 0; j <= 2; j++) print 1000*k + 100*j + 1
+}' > mesh.inp
+
+cat > law.inp << 'END'
+*USER MATERIAL, CONSTANTS=9
+0., 50., 3., 800., 0.5, 114.e3, 0.33, 114.e3,
+0.33
+END
+
+cat > blade_alone.inp << 'END'
+*INCLUDE, INPUT=mesh.inp
+*MATERIAL, NAME=titanium
+*ELASTIC
+114.e3, 0.33
+*DENSITY
+4.43e-9
+*SOLID SECTION, ELSET=blade, MATERIAL=titanium
+*BOUNDARY
+root, 1, 3
+5000, 1, 3
+END
+
+# 33 state variables: 3 to be read, and a state for 12 reversals.
+cat > blade.inp << 'END'
+*INCLUDE, INPUT=blade_alone.inp
+*USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
+*ELEMENT, TYPE=U1, ELSET=rubbing
+5000, 5000, 103
+*MATERIAL, NAME=law
+*INCLUDE, INPUT=law.inp
+*DEPVAR
+33
+*USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
+0., 0., 1.
+*INCLUDE, INPUT=for_restart.inp
+END
+
+# A pair that never meets: CalculiX 2.20 writes state variables to a restart file only if there is a contact of its own.
+cat > for_restart.inp << 'END'
+*SURFACE, NAME=end, TYPE=ELEMENT
+12, S2
+*SURFACE, NAME=held, TYPE=NODE
+5000
+*SURFACE INTERACTION, NAME=never
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+1., 1.
+*CONTACT PAIR, INTERACTION=never, TYPE=NODE TO SURFACE
+held, end
+END
+
+# Newton's method goes on until residuals and corrections are 1e-9 of forces and displacements: CalculiX is content with
+# 5e-3 and 1e-2, which would hide the differences that are looked for.
+controls='*CONTROLS, PARAMETERS=FIELD
+1.e-9, 1.e-9'
+output='*NODE PRINT, NSET=tip
+U
+*EL PRINT, ELSET=rubbing
+SDV'
+tip='*NSET, NSET=tip
+113'
+
+# step LOAD: to this load.
+step() {
+    printf '%s\n' '*STEP, INC=500' '*STATIC' '0.3, 1., 1.e-5, 0.3' "$controls" '*RESTART, WRITE' \
+        '*CLOAD' "113, 3, $1." "$output" '*END STEP'
+}
+
+# From nothing beyond gross slip, back, and small loops within it; and from the end of the fourth step once more.
+{
+    printf '%s\n' '*INCLUDE, INPUT=blade.inp' "$tip"
+    for load in 75 -75 50 -35 45 -75 75; do step "$load"; done
+} > static.inp
+{
+    echo '*RESTART, READ, STEP=4'
+    for load in 45 -75 75; do step "$load"; done
+} > resumed.inp
+printf '%s\n' '0., 0.' '1., 75.' '2., -75.' '3., 50.' '4., -35.' '5., 45.' '6., -75.' '7., 75.' > static_load.csv
+
+# Five periods of 380 Hz, 200 increments each; the trapezoidal rule.
+awk 'BEGIN {
+    for (n = 0; n <= 1000; n++) printf "%.12g, %.12g\n", n/76000, 8*sin(2*atan2(0, -1)*n/200)
+}' > dynamic_load.csv
+{
+    printf '%s\n' '*INCLUDE, INPUT=blade.inp' "$tip" '*AMPLITUDE, NAME=force' '*INCLUDE, INPUT=dynamic_load.csv' \
+        '*STEP, INC=2000' '*DYNAMIC, DIRECT, ALPHA=0.' '1.31578947368e-5, 1.31578947368e-2' "$controls" \
+        '*CLOAD, AMPLITUDE=force' '113, 3, 1.' "$output" '*END STEP'
+} > dynamic.inp
+
+printf '%s\n' '*INCLUDE, INPUT=blade.inp' '*STEP' '*FREQUENCY' '4' '*END STEP' > frequency.inp
+printf '%s\n' '*INCLUDE, INPUT=blade_alone.inp' '*STEP' '*FREQUENCY, SOLVER=MATRIXSTORAGE' '4' '*END STEP' > matrices.inp

@@ -1,0 +1,84 @@
+#!/bin/sh
+# run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the
+# models, and compares what it finds with the library. PREFIX is where microslip is installed. Everything is made in
+# build/; the tables and the picture of results/ are written anew.
+set -eu
+
+prefix=$(cd "${1:?usage: run.sh PREFIX}" && pwd)
+cd "$(dirname "$0")"
+: "${FC:=gfortran}" "${CC:=gcc}" "${GNUPLOT:=gnuplot}"
+mkdir -p build results
+
+# The source, whatever release of Debian this is: apt asks for it by name and checks its signature, from a list of its own.
+source=build/calculix-ccx-2.20/ccx_2.20/src
+if [ ! -d "$source" ]; then
+    apt=$PWD/build/apt
+    mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial"
+    echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" \
+        > "$apt/sources.list"
+    set -- -q -o Dir::Etc::sourcelist="$apt/sources.list" -o Dir::Etc::sourceparts=/dev/null \
+        -o Dir::State::lists="$apt/lists" -o Dir::Cache="$apt/cache" -o APT::Sandbox::User=
+    apt-get "$@" update
+    (cd build && apt-get "$@" source calculix-ccx=2.20-1)
+fi
+
+# All of CalculiX as an archive, by its own makefile.
+flags='-w -O1'
+make -C "$source" ccx_2.20.a CC="$CC" FC="$FC" FFLAGS="$flags -fallow-argument-mismatch" \
+    CFLAGS="$flags -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1" > build/make.log 2>&1 ||
+    { tail -n 20 build/make.log; exit 1; }
+
+# Linked before the archive, the routines of U1 are ours.
+strict='-std=f2008 -Wall -Wextra -pedantic -Wno-unused-dummy-argument'
+(
+    cd build
+    $CC -w -O1 -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1 \
+        -c "../$source/ccx_2.20.c" -o main.o
+    # shellcheck disable=SC2086
+    {
+        $FC -O2 -c "$prefix/include/microslip.f90" -o microslip.o
+        $FC $strict -O2 -c ../contact_element.f90 -o contact_element.o
+        $FC -fopenmp main.o contact_element.o microslip.o "../$source/ccx_2.20.a" "$prefix/lib/libmicroslip.a" \
+            -lspooles -lpthread -larpack -llapack -lblas -lm -o ccx
+        $FC $strict -O2 ../compare.f90 microslip.o "$prefix/lib/libmicroslip.a" -llapack -lblas -lm -o compare
+    }
+)
+
+rm -rf build/jobs
+mkdir build/jobs
+cd build/jobs
+../../model.sh
+
+# job NAME: one run of CalculiX.
+job() {
+    ../ccx "$1" > "$1.log" 2>&1 || { tail -n 20 "$1.log"; exit 1; }
+}
+
+# table NAME: time, displacement of the tip, displacement and force of the contact, energy.
+table() {
+    awk 'BEGIN { print "time,tip,displacement,force,dissipated" }
+         / and time /               { time = $NF }
+         NF == 4 && $1 == 113       { tip = $4 }
+         NF == 35 && $1 == 5000     { print time "," tip "," $4 "," $3 "," $5 }' "$1.dat"
+}
+
+for name in static dynamic frequency matrices; do job "$name"; done
+cp static.rout resumed.rin
+job resumed
+table static > ../../results/static.csv
+table dynamic > ../../results/dynamic.csv
+table resumed > resumed.csv
+awk '$1 == 1 && NF == 5 { print $2; exit }' frequency.dat > ../../results/frequency.csv
+cp law.inp ../../results/
+
+tail -n +2 resumed.csv > resumed.tail
+tail -n "$(wc -l < resumed.tail)" ../../results/static.csv | cmp - resumed.tail ||
+    { echo 'After a restart CalculiX finds something else.'; exit 1; }
+rejected=$(awk '$3 ~ /U$/' static.sta | wc -l)
+[ "$rejected" -gt 0 ] || { echo 'No increment was rejected, so nothing is known of those.'; exit 1; }
+echo "increments rejected: $rejected; after a restart: the same digits"
+
+cd ../..
+build/compare results build/jobs
+"$GNUPLOT" loops.gp
+sha256sum contact_element.f90 model.sh loops.gp results/*.csv results/law.inp > results/made.sha256
