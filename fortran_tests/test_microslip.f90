@@ -994,6 +994,10 @@ contains
     call mslip_tractions(flat, 100.0_wp, [0.0_wp, 2.0e-4_wp, 5.05e-4_wp], status, shear=dense)
     call check_same('strides: tractions of each', shear(1::2), dense)
     call check_same('strides: nothing between', shear(2::2), spread(untouched, 1, 3))
+    associate (places => x(1::2))  ! gfortran forgets the stride of a name where an argument is to be contiguous
+      call mslip_tractions(flat, 100.0_wp, places, status, shear=x(2::2))
+    end associate
+    call check_same('strides: under a name', x(2::2), dense)
 
     state = fresh_state(2_mslip_size)
     table(1, :) = state

@@ -11,7 +11,8 @@ module microslip
   !!
   !! **Arguments.** The order is: inputs, required outputs, `status`, optional arguments. The number of points is the
   !! size of the arrays; all arrays of one call that hold a number for each point have the same size. An optional
-  !! output that is absent is not computed.
+  !! output that is absent is not computed. Sections with strides are allowed. But of a name for one, `associate
+  !! (row => table(1, :))`, gfortran 12 forgets the stride where the argument is changed: there pass `table(1, :)` itself.
   !!
   !! **Errors.** `status` is `MSLIP_OK`, or a code that `mslip_status_text` explains; then no other argument was
   !! changed. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. A number that is infinite or not a number is
@@ -518,7 +519,7 @@ contains
     !! contact are on the x axis.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(in) :: force  !! Tangential force, N; its magnitude is at most `slip_force`.
-    real(mslip_real), intent(in), contiguous :: x(:)  !! Positions from the centre, m; outside the contact tractions are 0.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m; outside the contact tractions are 0.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
     real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
@@ -541,7 +542,7 @@ contains
     !! slip (section 3.5), under a tangential force grown monotonically from 0.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact, not an elliptical one (`MSLIP_NOT_AVAILABLE`).
     real(mslip_real), intent(in) :: force  !! Tangential force, N; its magnitude is at most `slip_force`.
-    real(mslip_real), intent(in), contiguous :: x(:)  !! Positions from the centre, m.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: slip(:)  !! Slip, m, at each x; 0 where it sticks.
     real(mslip_real), intent(inout), optional, target, contiguous :: damage(:)  !! Damage parameter, N/m, at each x.
@@ -562,7 +563,7 @@ contains
   subroutine monotonic_displacement_array(contact, force, status, displacement, compliance, stick_half_width)
     !! Displacements under tangential forces each grown monotonically from 0 (Eq. 10); odd in the force.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), contiguous :: force(:)
+    real(mslip_real), intent(in) :: force(:)
       !! Tangential forces, N; magnitudes at most `slip_force` (`MSLIP_FORCE_EXCEEDS_SLIP`).
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: displacement(:)  !! Displacement, m, for each force.
@@ -604,7 +605,7 @@ contains
     !! Tangential forces at displacements each grown monotonically from 0: the inverse of Eq. 10, odd in the displacement.
     !! Beyond `slip_displacement` the force stays at `slip_force` and the stiffness is 0.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! Displacements, m; at most 1e150 in size.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacements, m; at most 1e150 in size.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force, N, at each displacement.
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
@@ -692,7 +693,7 @@ contains
     !! Many steps, from where the state is through the displacements in turn, in place.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before the first and after the last step.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! Displacement at the end of each step, m.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step, m.
     integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`; a refused step refuses the whole path.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step, N.
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
@@ -718,7 +719,7 @@ contains
     !! Many steps, from where the state is through the displacements in turn; the first state is kept.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(in), target, contiguous :: state(:)  !! State before the first step.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! Displacement at the end of each step, m.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step, m.
     integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`; a refused step refuses the whole path.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step, N.
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
@@ -746,7 +747,7 @@ contains
     !! Tractions along the width in a state (Eq. 17-24, one term for each reversal remembered).
     type(mslip_contact), intent(in) :: contact  !! The contact that led to the state.
     real(mslip_real), intent(in), target, contiguous :: state(:)  !! A state; it is not changed.
-    real(mslip_real), intent(in), contiguous :: x(:)  !! Positions from the centre, m.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
     real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
@@ -784,7 +785,7 @@ contains
   subroutine dissipated_energy_array(contact, force_amplitude, energy, status)
     !! Energy dissipated per cycle of the force between +amplitude and -amplitude (Eq. 13-16).
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), contiguous :: force_amplitude(:)  !! Amplitudes of the force, N, 0 to `slip_force`.
+    real(mslip_real), intent(in) :: force_amplitude(:)  !! Amplitudes of the force, N, 0 to `slip_force`.
     real(mslip_real), intent(inout), target, contiguous :: energy(:)  !! Energy per cycle, J, for each amplitude.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
 
@@ -807,7 +808,7 @@ contains
     !! Harmonic contact stiffness K' + iK'' at amplitudes of the displacement (section 3.4): the first harmonic of the
     !! force over that of the displacement, in rotating-vector form; K'' >= 0. And its derivatives by the amplitude.
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), contiguous :: amplitude(:)
+    real(mslip_real), intent(in) :: amplitude(:)
       !! Amplitudes of the displacement, m, 0 to 1e150; 0 gives the initial stiffness.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! K', N/m, at each amplitude.
@@ -902,7 +903,7 @@ contains
     type(mslip_contact), intent(in) :: contact  !! A prepared contact.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace (`MSLIP_BAD_WORKSPACE`); it decides H.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! 2H+1 coefficients of the displacement, m.
+    real(mslip_real), intent(in) :: displacement(:)  !! 2H+1 coefficients of the displacement, m.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force, N.
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
@@ -930,8 +931,8 @@ contains
 
   subroutine mslip_interface_complex_stiffness(contacts, amplitude, status, active, k_real, k_imag, dk_real, dk_imag)
     !! `mslip_complex_stiffness` of n contacts.
-    type(mslip_contact), intent(in), contiguous :: contacts(:)  !! n prepared contacts.
-    real(mslip_real), intent(in), contiguous :: amplitude(:)  !! n amplitudes of the displacement, m, 0 to 1e150.
+    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
+    real(mslip_real), intent(in) :: amplitude(:)  !! n amplitudes of the displacement, m, 0 to 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: where 0 the item is skipped and its outputs keep what they held. Absent: none is skipped.
@@ -958,10 +959,10 @@ contains
 
   subroutine interface_masing_update_in_place(contacts, states, displacement, status, active, force, stiffness, dissipated)
     !! `mslip_masing_update` of n contacts, in place. Where one is refused, none is updated.
-    type(mslip_contact), intent(in), contiguous :: contacts(:)  !! n prepared contacts.
+    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
       !! (state length, n): the state of each contact before and after the step.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! n displacements at the end of the step, m.
+    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step, m.
     integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: where 0 the item is skipped, its state and outputs keep what they held. Absent: none is skipped.
@@ -989,10 +990,10 @@ contains
   subroutine interface_masing_update_separate(contacts, states, displacement, status, active, force, stiffness, &
     dissipated, states_new)
     !! `mslip_masing_update` of n contacts; the states before the step are kept. Where one is refused, none is updated.
-    type(mslip_contact), intent(in), contiguous :: contacts(:)  !! n prepared contacts.
+    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
     real(mslip_real), intent(in), target, contiguous :: states(:, :)
       !! (state length, n): the state of each contact before the step.
-    real(mslip_real), intent(in), contiguous :: displacement(:)  !! n displacements at the end of the step, m.
+    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step, m.
     integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: where 0 the item is skipped, its new state and outputs keep what they held. Absent: none is skipped.
@@ -1022,10 +1023,10 @@ contains
 
   subroutine mslip_interface_harmonic_force(contacts, workspace, displacement, status, active, force, jacobian, dissipated)
     !! `mslip_harmonic_force` of n contacts, with one workspace.
-    type(mslip_contact), intent(in), contiguous :: contacts(:)  !! n prepared contacts.
+    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace (`MSLIP_BAD_WORKSPACE`); it decides H.
-    real(mslip_real), intent(in), contiguous :: displacement(:, :)  !! (2H+1, n): coefficients of each displacement, m.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2H+1, n): coefficients of each displacement, m.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: where 0 the item is skipped and its outputs keep what they held. Absent: none is skipped.
@@ -1127,7 +1128,7 @@ contains
   subroutine open_workspace(workspace, m, status)
     ! The number of coefficients of a workspace. All is read as bits, because what an array holds that was never
     ! initialised may trap as a number.
-    real(mslip_real), intent(in), contiguous :: workspace(:)
+    real(mslip_real), intent(in) :: workspace(:)
     integer(mslip_size), intent(out) :: m
     integer(mslip_int), intent(out) :: status
 
