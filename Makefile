@@ -94,7 +94,7 @@ figures:
 	$(CARGO) run --quiet --release --locked --package figures
 	figures/draw.sh
 
-## host: build CalculiX with the law as one of its elements, and compare what it finds, into host_examples/ (5 minutes)
+## host: build CalculiX with the law as one of its elements, and compare what it finds, into host_examples/ (some minutes)
 host: all
 	@scripts/dependencies.sh host
 	host_examples/calculix/run.sh dist

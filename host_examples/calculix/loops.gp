@@ -26,9 +26,9 @@ do for [extension in 'svg png'] {
   set title 'loads back and forth'
   plot 'build/jobs/static_curve.csv' using (1e3*$1):2 with lines ls 1 title 'microslip', \
        'results/static.csv' using (1e3*$3):4 with points ls 2 ps 0.8 title 'CalculiX'
-  set title 'five periods of 380 Hz, from rest'
+  set title 'five periods of 380 Hz from rest, every fourth increment'
   plot 'build/jobs/dynamic_curve.csv' using (1e3*$1):2 with lines ls 1 title 'microslip', \
-       'results/dynamic.csv' using (1e3*$3):4 every 4 with points ls 2 ps 0.4 title 'CalculiX, every fourth increment'
+       'results/dynamic.csv' using (1e3*$3):4 every 4 with points ls 2 ps 0.4 title 'CalculiX'
   unset multiplot
   unset output
 }
