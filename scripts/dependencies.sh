@@ -100,6 +100,7 @@ tests() {
     fuzz
     need cmake cmake
     need pkg-config pkg-config
+    need shellcheck shellcheck
     components=
     rust_component rustfmt fmt
     rust_component clippy clippy

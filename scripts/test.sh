@@ -114,6 +114,8 @@ snippet() {
 step 'Rust: formatting' "$CARGO" fmt --all --check
 step 'Rust: formatting of the fuzz targets' "$CARGO" fmt --manifest-path fuzz/Cargo.toml --check
 step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+step 'Rust: documentation' env RUSTDOCFLAGS='-D warnings' "$CARGO" doc --no-deps --locked --package microslip
+step 'shell: lints' sh -c 'find . -name target -prune -o -name "*.sh" -print | xargs shellcheck .ci/run'
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
 step 'C interface under Miri' scripts/miri.sh
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check

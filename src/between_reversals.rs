@@ -99,6 +99,7 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
 ///
 /// # Errors
 /// `BadWorkspace` for one that was changed.
+#[must_use]
 pub fn workspace_extent(header: &[f64; HEADER]) -> Option<Result<usize, Error>> {
     says(Kind::BetweenReversals, header).then(|| layout_of(header).map(|layout| layout.length()))
 }

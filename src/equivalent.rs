@@ -8,10 +8,12 @@ use crate::error::Error;
 use crate::family::{ContactFamily, Split};
 use core::f64::consts::PI;
 
-/// A spring of some stiffness \[N/m\] that slips at some force \[N\].
+/// A spring of some stiffness that slips at some force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringSlider {
+    /// \[N/m\].
     pub stiffness: f64,
+    /// \[N\].
     pub slip_force: f64,
 }
 

@@ -4,6 +4,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "each says what it is in its sentence")]
 pub enum Error {
     NullPointer = 1,
     BadFlatHalfWidth = 2,

@@ -490,7 +490,7 @@ mod tests {
                 let middle = if part > 1.0 { (1.0 - 2.0 / part).acos() / PI } else { 0.5 };
                 let (mut real, mut imaginary) = (0.0, 0.0);
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
-                    for node in TANH_SINH.iter() {
+                    for node in &TANH_SINH {
                         let turn: f64 = from + (to - from) * node.from_0;
                         let force = contact.hysteresis_loop(amplitude).unwrap().force_after((1.0, 0.5 * turn));
                         let share = 2.0 / amplitude * (to - from) * node.weight * force;

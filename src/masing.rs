@@ -197,6 +197,7 @@ pub fn in_copy(state: &[f64], walk: impl FnOnce(&mut [f64]) -> Result<(), Error>
 /// The copy lies on the stack, by far the largest piece there. It is not inlined, so that only walks which need it pay; and it
 /// has nothing before the copy: where a large frame is not made at a function's entry, LLVM overwrites a register in use.
 #[inline(never)]
+#[expect(clippy::large_stack_arrays, reason = "there is no heap")]
 fn in_copy_of_valid(state: &[f64], walk: impl FnOnce(&mut [f64]) -> Result<(), Error>) -> Result<(), Error> {
     let mut memory = [0.0; state_length(REVERSALS_OF_COPY)];
     memory.iter_mut().zip(state).for_each(|(copy, value)| *copy = *value);
@@ -572,7 +573,7 @@ mod tests {
         places.sort_by(f64::total_cmp);
         let mut sum = 0.0;
         for (from, to) in places.iter().zip(places.iter().skip(1)) {
-            for node in crate::quadrature::TANH_SINH.iter() {
+            for node in &crate::quadrature::TANH_SINH {
                 let x = from + (to - from) * node.from_0;
                 let mut shear = [0.0];
                 shear_after(&contact, &state, &[x], &mut shear).unwrap();

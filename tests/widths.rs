@@ -55,6 +55,7 @@ fn the_curve_has_the_same_bits() {
         let displacement: Vec<f64> = scattered(1000, 1).iter().map(|x| 1.1 * x * contact.slip_displacement).collect();
         let (mut force, mut stiffness) = (vec![0.0; 1000], vec![0.0; 1000]);
         let (f, k) = (force.as_mut_ptr(), stiffness.as_mut_ptr());
+        // SAFETY: arrays of the lengths that are said.
         assert_eq!(unsafe { mslip_monotonic_force(&as_c(&contact), 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
         for ((&x, force), stiffness) in displacement.iter().zip(force).zip(stiffness) {
             let point = contact.curve_at_displacement(x).unwrap();
@@ -70,7 +71,8 @@ fn the_complex_stiffness_has_the_same_bits() {
             let amplitude = part * contact.slip_displacement;
             let mut outputs = [0.0; 4];
             let [a, b, c, d] = &mut outputs;
-            assert_eq!(unsafe { mslip_complex_stiffness(&as_c(&contact), 1, &amplitude, a, b, c, d) }, 0);
+            // SAFETY: arrays of the lengths that are said.
+            assert_eq!(unsafe { mslip_complex_stiffness(&as_c(&contact), 1, &raw const amplitude, a, b, c, d) }, 0);
             let k = contact.complex_stiffness(amplitude).unwrap();
             assert_eq!(bits(&[k.real(), k.imaginary(), k.real_slope(), k.imaginary_slope()]), bits(&outputs), "{part}");
         }
@@ -85,10 +87,12 @@ fn a_path_has_the_same_bits() {
         let run = |wide: bool| {
             let mut state = vec![0.0; state_length(64)];
             let [mut force, mut stiffness, mut energy] = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+            // SAFETY: arrays of the lengths that are said.
             assert_eq!(unsafe { mslip_state_init(state.len(), state.as_mut_ptr()) }, 0);
             if wide {
                 let (state, length) = (state.as_mut_ptr(), state.len());
                 let [f, k, e] = [force.as_mut_ptr(), stiffness.as_mut_ptr(), energy.as_mut_ptr()];
+                // SAFETY: arrays of the lengths that are said.
                 let status =
                     unsafe { mslip_masing_path(&as_c(&contact), length, state, n, path.as_ptr(), state, f, k, e) };
                 assert_eq!(status, 0);
@@ -118,11 +122,13 @@ fn the_harmonic_force_has_the_same_bits() {
                 let run = |wide: bool| {
                     let mut memory = vec![0.0; workspace_length(harmonics, samples)];
                     let (workspace, length) = (memory.as_mut_ptr(), memory.len());
+                    // SAFETY: arrays of the lengths that are said.
                     assert_eq!(unsafe { mslip_harmonic_workspace_init(harmonics, samples, length, workspace) }, 0);
                     let (mut force, mut jacobian, mut energy) = (vec![0.0; n], vec![0.0; n * n], 0.0);
                     if wide {
                         let (f, j) = (force.as_mut_ptr(), jacobian.as_mut_ptr());
                         let u = displacement.as_ptr();
+                        // SAFETY: arrays of the lengths that are said.
                         let status =
                             unsafe { mslip_harmonic_force(&as_c(&contact), workspace, u, f, j, &raw mut energy) };
                         assert_eq!(status, 0);

@@ -254,7 +254,7 @@ fn responses(contact: &Contact, displacement: &[f64], force: Option<&mut [f64]>,
         displacement: &[f64],
         force: Option<&mut [f64]>,
         stiffness: Option<&mut [f64]> => ()
-    )
+    );
 }
 
 /// Doubles of a state that holds that many nested reversals.
