@@ -78,14 +78,14 @@ impl Contact {
         self.prepared.slip_energy
     }
 
-    /// Force on the monotonic curve.
-    pub fn monotonic_force(&self, displacement: f64) -> Result<f64, String> {
-        let mut force = f64::NAN;
+    /// Force and stiffness on the monotonic curve.
+    pub fn monotonic(&self, displacement: f64) -> Result<(f64, f64), String> {
+        let (mut force, mut stiffness) = (f64::NAN, f64::NAN);
         // SAFETY: pointers to one number each.
         accepted(unsafe {
-            c_api::mslip_monotonic_force(self.as_c(), 1, &displacement, &mut force, null_mut(), null_mut())
+            c_api::mslip_monotonic_force(self.as_c(), 1, &displacement, &mut force, &mut stiffness, null_mut())
         })?;
-        Ok(force)
+        Ok((force, stiffness))
     }
 
     /// Energy of a cycle between displacements -amplitude and +amplitude, and what the rounding of the force at its end, by

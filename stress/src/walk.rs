@@ -181,13 +181,21 @@ impl<'a> Walk<'a> {
     /// point to the next.
     fn by_masings_rule(&self) -> Outcome {
         let (contact, points) = (self.contact, &self.memory.points);
-        let mut force = match self.memory.slid {
-            0.0 => contact.monotonic_force(points[0].displacement)?,
-            slid => slid * contact.limit(),
+        let (mut force, mut stiffness) = match self.memory.slid {
+            0.0 => contact.monotonic(points[0].displacement)?,
+            slid => (slid * contact.limit(), 0.0),
         };
         for ends in points.windows(2) {
-            force += 2.0 * contact.monotonic_force(0.5 * (ends[1].displacement - ends[0].displacement))?;
+            let half = 0.5 * (ends[1].displacement - ends[0].displacement);
+            let (jump, tangent) = contact.monotonic(half.clamp(-contact.slip(), contact.slip()))?;
+            (force, stiffness) = (force + 2.0 * jump, tangent);
         }
+        // The same point of the same curve.
+        ensure!(
+            stiffness == self.now.stiffness,
+            "the stiffness is {:?}, by Masing's rule {stiffness:?}",
+            self.now.stiffness
+        );
         // Both round. Ways that exceed gross slip by the rounding of displacements end there.
         let place = f64::EPSILON * points.iter().map(|point| point.displacement.abs()).fold(0.0, f64::max);
         let rounding = 2.0 * points.len() as f64 * BRANCH_ROUNDING * contact.limit() + contact.stiffness() * place;
