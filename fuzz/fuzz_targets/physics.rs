@@ -34,7 +34,7 @@ fuzz_target!(init: interface::start(), |input: &[u8]| -> Corpus {
 /// A contact of the collection, or one of its own.
 fn choose(source: &mut Source) -> Option<(Given, Bits)> {
     match source.byte() {
-        choice if choice < 240 => {
+        choice if choice < 160 => {
             let all = contacts::all();
             Some(all[choice as usize % all.len()])
         }
