@@ -14,8 +14,8 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all install uninstall demo demo-dependencies audit test bench instructions instructions-record counting-dependencies \
-	figures host stress fuzz header clean help
+.PHONY: all install uninstall demo demo-dependencies audit test accuracy bench instructions instructions-record \
+	counting-dependencies figures host stress fuzz header clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -71,6 +71,12 @@ test:
 ## audit: licences, duplicates and sources of the dependencies, and advisories against them
 audit:
 	scripts/audit.sh
+
+## accuracy: every output against multi-precision, about an hour on two cores; POINTS=1e6 for less than the 1e7 of each
+accuracy:
+	@scripts/dependencies.sh accuracy
+	$(CARGO) run --release --locked --manifest-path accuracy/Cargo.toml --target-dir target/accuracy -- \
+		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
 
 ## instructions: count the instructions of each call, and compare them with the record and with each other
 instructions: counting-dependencies all

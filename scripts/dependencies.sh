@@ -9,6 +9,7 @@
 #   fuzz      the C++ compiler
 #   counting  what counts instructions
 #   guest     other compilers, linkers, and what watches memory and threads
+#   accuracy  GMP and MPFR
 #   test      all that `make test` uses
 #
 # What is missing is installed when root runs this on Debian or a relative of it, else named.
@@ -49,6 +50,17 @@ counting() {
     need gcc gcc
     need binutils readelf
     need valgrind valgrind
+}
+
+# need_header PACKAGE NAME: the package that brings what the C compiler includes.
+need_header() {
+    echo "#include <$2>" | gcc -E - > /dev/null 2>&1 || missing="$missing $1"
+}
+
+accuracy() {
+    need gcc gcc
+    need_header libgmp-dev gmp.h
+    need_header libmpfr-dev mpfr.h
 }
 
 bench() {
@@ -98,6 +110,7 @@ tests() {
     counting
     guest
     fuzz
+    accuracy
     need cmake cmake
     need pkg-config pkg-config
     need shellcheck shellcheck
@@ -114,10 +127,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|accuracy|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | host | fuzz | counting | guest) "$group" ;;
+        fortran | demo | bench | figures | host | fuzz | counting | guest | accuracy) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

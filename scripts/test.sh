@@ -125,6 +125,17 @@ step 'memory under stress, a hundredth of it' "$CARGO" run --quiet --release --l
 step 'paper: its figures and its claims' "$CARGO" run --quiet --release --locked --package figures -- --check
 step 'paper: its pictures are of its data' sha256sum --check --quiet docs/figures/drawn.sha256
 
+# cargo COMMAND of the comparison with multi-precision.
+accuracy() {
+    command=$1
+    shift
+    "$CARGO" "$command" --quiet --release --locked --manifest-path accuracy/Cargo.toml --target-dir target/accuracy -- "$@"
+}
+
+step 'accuracy: formatting' "$CARGO" fmt --manifest-path accuracy/Cargo.toml --check
+step 'accuracy: the reference' accuracy test
+step 'accuracy: short' accuracy run --check
+
 step 'install, then move' install_and_move
 if [ ! -e "$prefix/lib/libmicroslip.a" ]; then
     echo 'Nothing is installed, so the clients cannot be tested.'

@@ -1,0 +1,203 @@
+//! Contacts and arguments, clustered where it hurts.
+
+use crate::call;
+use crate::reference::{Given, Reference};
+use microslip::c_api::mslip_contact;
+use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
+use microslip::{EllipticParameters, Material, Parameters};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+use std::f64::consts::PI;
+
+/// A contact, as the library prepared it and in multi-precision.
+pub struct Case {
+    pub contact: mslip_contact,
+    pub reference: Reference,
+    pub kind: &'static str,
+}
+
+pub const KINDS: [&str; 8] = [
+    "cylinder",
+    "a/b < 1e-3",
+    "a/b < 0.999",
+    "a/b -> 1",
+    "2L -> b, cylinder",
+    "2L -> b, flat",
+    "extreme scales",
+    "ellipse",
+];
+
+pub struct Dice(SmallRng);
+
+impl Dice {
+    pub fn new(seed: u64) -> Dice {
+        Dice(SmallRng::seed_from_u64(seed))
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        self.0.random_range(0..n)
+    }
+
+    pub fn unit(&mut self) -> f64 {
+        self.0.random()
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// 10 to a power between.
+    pub fn power(&mut self, low: f64, high: f64) -> f64 {
+        10f64.powf(self.between(low, high))
+    }
+
+    pub fn chance(&mut self, share: f64) -> bool {
+        self.unit() < share
+    }
+
+    /// A number some units in the last place from another.
+    pub fn near(&mut self, value: f64, units: i64) -> f64 {
+        let step = self.0.random_range(-units..=units);
+        f64::from_bits((value.to_bits() as i64 + step) as u64)
+    }
+
+    fn material(&mut self, modulus: f64) -> Material {
+        let ratio = match self.below(6) {
+            0 => 0.0,
+            1 => 0.5,
+            2 => 0.5 - self.power(-16.0, -1.0),
+            3 => self.power(-300.0, -1.0),
+            _ => self.between(0.0, 0.5),
+        };
+        Material { young_modulus: modulus * self.power(-0.5, 0.5), poisson_ratio: ratio }
+    }
+
+    fn bodies(&mut self, modulus: f64) -> [Material; 2] {
+        let first = self.material(modulus);
+        let second = if self.chance(0.5) { first } else { self.material(modulus) };
+        [first, second]
+    }
+
+    /// Parameters of a kind of contact; not all are allowed.
+    pub fn parameters(&mut self, kind: &str) -> Given {
+        let extreme = kind == "extreme scales";
+        let (lengths, moduli) = if extreme { (self.power(-70.0, 70.0), self.power(-60.0, 60.0)) } else { (1.0, 1.0) };
+        let size = lengths * self.power(-6.0, -2.0);
+        let modulus = moduli * self.power(9.0, 12.0);
+        let mut material = self.bodies(modulus);
+        let friction_coefficient = if extreme { self.power(-60.0, 20.0) } else { self.power(-3.0, 1.0) };
+        if kind == "ellipse" {
+            let ratio = match self.below(4) {
+                0 => 1.0,
+                1 => 1.0 + self.power(-15.0, -1.0),
+                2 => self.power(-8.0, 8.0),
+                _ => self.power(-1.0, 1.0),
+            };
+            return Given::Ellipse(EllipticParameters {
+                semi_axis_x: size,
+                semi_axis_y: size * ratio,
+                normal_force: self.power(-3.0, 5.0),
+                friction_coefficient,
+                material,
+            });
+        }
+        // a and w over b; the share 1 - a/b may be below rounding.
+        let (a, w) = match (kind, self.below(5)) {
+            ("cylinder" | "2L -> b, cylinder", _) => (0.0, 1.0),
+            ("a/b < 1e-3", 0) => (self.power(-300.0, -15.0), 1.0),
+            ("a/b < 1e-3", _) => (self.power(-16.0, -3.0), 1.0),
+            ("a/b -> 1", 0) => (1.0, (2.0 * self.power(-40.0, -15.0)).sqrt()),
+            ("a/b -> 1", _) => {
+                let share = self.power(-15.0, -3.0);
+                (1.0 - share, (share * (2.0 - share)).sqrt())
+            }
+            // The formulas change at ψ = π/3.
+            (_, 0) => {
+                let psi = PI / 3.0 * (1.0 + self.power(-16.0, -2.0) * if self.chance(0.5) { 1.0 } else { -1.0 });
+                (psi.cos(), psi.sin())
+            }
+            _ => {
+                let a = self.between(1e-3, 0.999);
+                (a, ((1.0 - a) * (1.0 + a)).sqrt())
+            }
+        };
+        let psi = w.atan2(a);
+        let g = if w < 1e-3 { 4.0 / 3.0 * w * w * w / a.max(1e-300) } else { 2.0 * psi - 2.0 * a * w };
+        let slenderness = match kind {
+            "2L -> b, cylinder" | "2L -> b, flat" => {
+                if self.chance(0.7) {
+                    material.iter_mut().for_each(|body| body.poisson_ratio = 0.0);
+                }
+                1.0 + self.power(-14.0, -0.3)
+            }
+            _ if self.chance(0.5) => self.power(0.5, 2.5),
+            _ => self.power(0.05, 8.0),
+        };
+        let compliance = |body: &Material| (1.0 - body.poisson_ratio.powi(2)) / body.young_modulus;
+        let composite = 1.0 / (compliance(&material[0]) + compliance(&material[1]));
+        let edge_radius = lengths * self.power(-4.0, 0.0);
+        let length = 0.5 * size * slenderness;
+        Given::Flat(Parameters {
+            flat_half_width: a * size,
+            edge_radius,
+            length,
+            normal_force: size * size * (length / edge_radius) * composite * (0.25 * g),
+            friction_coefficient,
+            material,
+            displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
+            reserved: 0,
+        })
+    }
+
+    /// A contact of a kind, with the number of those that were refused on the way.
+    pub fn case(&mut self, kind: &'static str, refused: &mut u64) -> Case {
+        loop {
+            let given = self.parameters(kind);
+            match call::prepare(&given) {
+                Ok(contact) => return Case { contact, reference: Reference::new(given), kind },
+                Err(_) => *refused += 1,
+            }
+        }
+    }
+
+    /// A share of mu N, and its range.
+    pub fn share_of_force(&mut self) -> (f64, &'static str) {
+        match self.below(8) {
+            0 if self.chance(0.05) => (self.power(-100.0, -12.0), "-> 0"),
+            0 | 1 => (self.power(-12.0, -3.0), "-> 0"),
+            2 | 3 => (1.0 - self.power(-16.0, -3.0), "-> slip"),
+            4 => (self.near(0.5, 64), "switches"),
+            5 if self.chance(0.1) => (1.0, "slip"),
+            _ => (self.between(1e-3, 0.999), "between"),
+        }
+    }
+}
+
+pub fn text(given: &Given) -> String {
+    let bodies = |m: &[Material; 2]| {
+        format!(
+            "E {:e} {:e} nu {:e} {:e}",
+            m[0].young_modulus, m[1].young_modulus, m[0].poisson_ratio, m[1].poisson_ratio
+        )
+    };
+    match given {
+        Given::Flat(p) => format!(
+            "a {:e} R {:e} L {:e} N {:e} mu {:e} {} reference {}",
+            p.flat_half_width,
+            p.edge_radius,
+            p.length,
+            p.normal_force,
+            p.friction_coefficient,
+            bodies(&p.material),
+            p.displacement_reference
+        ),
+        Given::Ellipse(p) => format!(
+            "b {:e} l {:e} N {:e} mu {:e} {}",
+            p.semi_axis_x,
+            p.semi_axis_y,
+            p.normal_force,
+            p.friction_coefficient,
+            bodies(&p.material)
+        ),
+    }
+}

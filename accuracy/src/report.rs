@@ -1,0 +1,150 @@
+//! The tables: a line for each output in the document, and a line for each region in a CSV.
+
+use crate::bounds::BOUNDS;
+use crate::tally::{Cell, Key, Tally};
+use std::fmt::Write;
+use std::path::Path;
+
+fn of<'a>(tally: &'a Tally, output: &'a str) -> impl Iterator<Item = (&'a Key, &'a Cell)> {
+    tally.cells.iter().filter(move |(key, _)| key.0 == output)
+}
+
+/// The region in which an output is worst.
+fn worst<'a>(tally: &'a Tally, output: &'a str) -> Option<(&'a Key, &'a Cell)> {
+    of(tally, output).max_by(|one, two| one.1.worst.total_cmp(&two.1.worst))
+}
+
+/// Outputs that keep their bound, and that do not; those are printed.
+pub fn summary(tally: &Tally) -> (usize, usize) {
+    let (mut passed, mut failed) = (0, 0);
+    for bound in BOUNDS {
+        let Some((key, cell)) = worst(tally, bound.output) else { continue };
+        let broken: u64 = of(tally, bound.output).map(|(_, cell)| cell.broken).sum();
+        if broken == 0 {
+            passed += 1;
+        } else {
+            failed += 1;
+            println!("{}: {broken} of {} beyond {} ε", bound.output, tally.points(bound.output), bound.k);
+            println!("  worst {:.2} ε, error {:.1e}, κ {:.1e}", cell.worst, cell.error, cell.condition);
+            println!("  {}, {}: {}", key.1, key.2, cell.inputs);
+        }
+    }
+    (passed, failed)
+}
+
+fn table(tally: &Tally) -> String {
+    let mut text = String::from(
+        "| output | where | promised k | relative to | κ | worst k | worst error, κ <= 1 | points | why |\n\
+         |---|---|---:|---|---|---:|---:|---:|---|\n",
+    );
+    for bound in BOUNDS {
+        let Some((_, cell)) = worst(tally, bound.output) else { continue };
+        let plain = of(tally, bound.output).map(|(_, cell)| cell.plain).fold(0.0, f64::max);
+        let points = tally.points(bound.output);
+        writeln!(
+            text,
+            "| `{}` | {} | {} | {} | {} | {:.2} | {:.1e} | {:.1e} | {} |",
+            bound.output,
+            bound.domain,
+            bound.k,
+            bound.scale,
+            bound.condition,
+            cell.worst,
+            plain,
+            points as f64,
+            bound.reason
+        )
+        .unwrap();
+    }
+    text
+}
+
+fn places(tally: &Tally) -> String {
+    let mut text = String::new();
+    for bound in BOUNDS {
+        let Some((key, cell)) = worst(tally, bound.output) else { continue };
+        let between: u64 = of(tally, bound.output).map(|(_, cell)| cell.between).sum();
+        let inputs: String = cell.inputs.chars().take(400).collect();
+        writeln!(
+            text,
+            "- `{}`: {}, {}; error {:.1e}, κ {:.1e}; {between} points between neighbours. `{inputs}`",
+            bound.output, key.1, key.2, cell.error, cell.condition
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// Puts text between two marks of a file.
+fn insert(path: &Path, name: &str, text: &str) {
+    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
+    let old = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let (head, rest) = old.split_once(&begin).expect("a mark");
+    let (_, tail) = rest.split_once(&end).expect("a mark");
+    std::fs::write(path, format!("{head}{begin}{text}{end}{tail}")).unwrap();
+}
+
+/// Puts both tables into a document.
+pub fn write_tables(tally: &Tally, document: &Path) {
+    insert(document, "errors", &table(tally));
+    insert(document, "places", &places(tally));
+}
+
+const HEADER: &str = "output,contact,range,points,between,broken,worst_k,error,condition,plain_error,inputs";
+
+/// Every region on a line of its own.
+pub fn write_regions(tally: &Tally, path: &Path) {
+    let mut csv = format!("{HEADER}\n");
+    for (key, cell) in &tally.cells {
+        writeln!(
+            csv,
+            "{},\"{}\",\"{}\",{},{},{},{:.4e},{:.3e},{:.3e},{:.3e},\"{}\"",
+            key.0,
+            key.1,
+            key.2,
+            cell.points,
+            cell.between,
+            cell.broken,
+            cell.worst,
+            cell.error,
+            cell.condition,
+            cell.plain,
+            cell.inputs
+        )
+        .unwrap();
+    }
+    std::fs::write(path, csv).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+}
+
+/// The regions that were written.
+pub fn read_regions(path: &Path) -> Tally {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some(HEADER));
+    let mut tally = Tally::default();
+    for line in lines {
+        // Commas stand in quotes, and quotes only round a field.
+        let mut quoted = false;
+        let fields: Vec<&str> = line
+            .split(|c| {
+                quoted ^= c == '"';
+                c == ',' && !quoted
+            })
+            .map(|field| field.trim_matches('"'))
+            .collect();
+        let name = |i: usize| -> &'static str { Box::leak(fields[i].to_string().into_boxed_str()) };
+        let number = |i: usize| fields[i].parse::<f64>().expect("a number");
+        let cell = Cell {
+            points: number(3) as u64,
+            between: number(4) as u64,
+            broken: number(5) as u64,
+            worst: number(6),
+            error: number(7),
+            condition: number(8),
+            plain: number(9),
+            inputs: fields[10].to_string(),
+        };
+        tally.cells.insert((name(0), name(1), name(2)), cell);
+    }
+    tally
+}

@@ -1,0 +1,127 @@
+//! The worst errors seen, by output, kind of contact and range of the argument.
+
+use crate::bounds::{self, EPSILON};
+use crate::real::Real;
+use std::collections::BTreeMap;
+
+/// Output, kind of contact, range of the argument.
+pub type Key = (&'static str, &'static str, &'static str);
+
+#[derive(Debug, Clone, Default)]
+pub struct Cell {
+    pub points: u64,
+    /// Error over ε (1 + κ), and the error and κ where that was largest.
+    pub worst: f64,
+    pub error: f64,
+    pub condition: f64,
+    pub inputs: String,
+    /// The largest error where κ <= 1.
+    pub plain: f64,
+    /// Points held between the exact results of neighbouring inputs, because κ changes from one to the next.
+    pub between: u64,
+    pub broken: u64,
+}
+
+#[derive(Debug, Default)]
+pub struct Tally {
+    pub cells: BTreeMap<Key, Cell>,
+    /// Contacts that the library refused.
+    pub refused: u64,
+}
+
+impl Tally {
+    pub fn points(&self, output: &str) -> u64 {
+        self.cells.iter().filter(|(key, _)| key.0 == output).map(|(_, cell)| cell.points).sum()
+    }
+
+    /// Compares a result with the exact one, relative to it.
+    pub fn check(&mut self, key: Key, got: f64, exact: &Real, condition: f64, inputs: impl Fn() -> String) {
+        self.check_between(key, got, exact, exact, condition, inputs, || None);
+    }
+
+    /// Compares a result with the exact one, relative to a scale.
+    pub fn check_scaled(
+        &mut self,
+        key: Key,
+        got: f64,
+        exact: &Real,
+        scale: &Real,
+        condition: f64,
+        inputs: impl Fn() -> String,
+    ) {
+        self.check_between(key, got, exact, scale, condition, inputs, || None);
+    }
+
+    /// The same; where the bound does not hold, between the exact results for neighbouring inputs it does.
+    #[allow(clippy::too_many_arguments)]
+    pub fn check_between(
+        &mut self,
+        key: Key,
+        got: f64,
+        exact: &Real,
+        scale: &Real,
+        condition: f64,
+        inputs: impl Fn() -> String,
+        neighbours: impl FnOnce() -> Option<Vec<Real>>,
+    ) {
+        // What is no normal double has fewer digits.
+        if !exact.is_zero() && exact.exponent() < -1000 && exact.exponent() > -100_000 {
+            return;
+        }
+        let k = bounds::find(key.0).k;
+        let off = |exact: &Real| {
+            let difference = (Real::new(exact.bits(), got) - exact).f64();
+            if got == exact.f64() && difference.abs() < f64::MIN_POSITIVE {
+                0.0
+            } else if got.is_infinite() && exact.f64() == got {
+                0.0
+            } else {
+                ((Real::new(exact.bits(), got) - exact) / scale).abs().f64()
+            }
+        };
+        let mut error = off(exact);
+        if error.is_nan() {
+            error = f64::INFINITY;
+        }
+        let mut condition = if condition.is_finite() { condition.abs() } else { f64::INFINITY };
+        let mut ratio = if error == 0.0 { 0.0 } else { error / EPSILON / (1.0 + condition) };
+        let cell = self.cells.entry(key).or_default();
+        cell.points += 1;
+        if ratio > k || condition.is_infinite() || condition > 1e12 {
+            if let Some(around) = neighbours() {
+                let low = around.iter().fold(exact.clone(), |low, one| low.min(one));
+                let high = around.iter().fold(exact.clone(), |high, one| high.max(one));
+                let slack = scale.abs().max(&low.abs()).max(&high.abs()) * (k * EPSILON);
+                let value = Real::new(exact.bits(), got);
+                cell.between += 1;
+                if (value >= &low - &slack && value <= high + slack) || (ratio <= k && condition.is_finite()) {
+                    return;
+                }
+                (ratio, condition) = (f64::INFINITY, 0.0);
+            }
+        }
+        if !(ratio <= k) {
+            cell.broken += 1;
+        }
+        if condition <= 1.0 {
+            cell.plain = cell.plain.max(error);
+        }
+        if ratio > cell.worst || cell.points == 1 {
+            (cell.worst, cell.error, cell.condition, cell.inputs) = (ratio, error, condition, inputs());
+        }
+    }
+
+    pub fn add(&mut self, other: Tally) {
+        self.refused += other.refused;
+        for (key, cell) in other.cells {
+            let mine = self.cells.entry(key).or_default();
+            let (points, between, broken) =
+                (mine.points + cell.points, mine.between + cell.between, mine.broken + cell.broken);
+            let plain = mine.plain.max(cell.plain);
+            if cell.worst > mine.worst || mine.points == 0 {
+                *mine = cell;
+            }
+            (mine.points, mine.between, mine.broken, mine.plain) = (points, between, broken, plain);
+        }
+    }
+}
