@@ -8,8 +8,11 @@ use crate::real::Real;
 use crate::reference::{Law, Point, Shape};
 use crate::tally::Tally;
 
-/// Nodes of the tanh-sinh rule: share of the way from the nearer end, whether that is the upper one, and weight over the step.
-fn nodes(bits: u32, step: f64) -> Vec<(Real, bool, Real)> {
+/// Share of the way from the nearer end, whether that is the upper one, and weight over the step.
+type Node = (Real, bool, Real);
+
+/// Nodes of the tanh-sinh rule.
+fn nodes(bits: u32, step: f64) -> Vec<Node> {
     let half_pi = Real::pi(bits) / 2.0;
     let mut nodes = Vec::new();
     let last = (4.1 / step) as i32;
@@ -27,7 +30,7 @@ fn nodes(bits: u32, step: f64) -> Vec<(Real, bool, Real)> {
 /// The rule at every step that was needed.
 pub struct Quadrature {
     bits: u32,
-    steps: Vec<(f64, Vec<(Real, bool, Real)>)>,
+    steps: Vec<(f64, Vec<Node>)>,
 }
 
 impl Quadrature {

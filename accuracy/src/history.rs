@@ -218,7 +218,7 @@ fn shear(
             // What position, force and half-width bring by their rounding: near each stick zone's edge, and at b.
             let gap = |edge: &Real| (&spot / (&spot - edge)).abs().f64();
             let rate = if point.rest.is_zero() { 0.0 } else { (&point.tau * &point.curvature).f64() };
-            condition = condition.max(gap(&point.size) * (1.0 + rate)).max(rate);
+            condition = condition.max((gap(&point.size) + 1.0 / law.full_stick.f64()) * (1.0 + rate));
         }
         let edge = (&spot / (1.0 - &spot)).abs().f64();
         let range = "any history";

@@ -1,6 +1,6 @@
 //! Measures what the library promises against a reference in multi-precision.
 //!
-//!     accuracy [--check] [--points N] [--minutes N] [--seed N] [--only NAME] [--regions FILE] [--document FILE]
+//!     accuracy [--check] [--points N] [--minutes N] [--seed N] [--only NAMES] [--regions FILE] [--document FILE]
 //!
 //! `--check` is short, with a seed of its own each time; `--minutes` ends a run after the piece of work in hand. Regions go
 //! into a CSV, now and then during the run too; tables into a document, without a run (`--points 0`) those of the CSV.
@@ -144,8 +144,10 @@ fn main() {
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |now| now.as_secs());
     let seed: u64 = seed.unwrap_or(if check { now } else { 1 });
     println!("seed {seed}");
-    let jobs: Vec<Job> =
-        jobs(points).into_iter().filter(|job| only.as_ref().is_none_or(|only| job.what == only)).collect();
+    let jobs: Vec<Job> = jobs(points)
+        .into_iter()
+        .filter(|job| only.as_ref().is_none_or(|only: &String| only.split(',').any(|only| job.what == only)))
+        .collect();
     if points == 0.0 {
         let (regions, document) = (regions.expect("--regions"), document.expect("--document"));
         report::write_tables(&report::read_regions(&regions), &document);

@@ -69,17 +69,8 @@ impl Tally {
             return;
         }
         let k = bounds::find(key.0).k;
-        let off = |exact: &Real| {
-            let difference = (Real::new(exact.bits(), got) - exact).f64();
-            if got == exact.f64() && difference.abs() < f64::MIN_POSITIVE {
-                0.0
-            } else if got.is_infinite() && exact.f64() == got {
-                0.0
-            } else {
-                ((Real::new(exact.bits(), got) - exact) / scale).abs().f64()
-            }
-        };
-        let mut error = off(exact);
+        let both = got == exact.f64() && (exact.is_zero() || got.is_infinite());
+        let mut error = if both { 0.0 } else { ((Real::new(exact.bits(), got) - exact) / scale).abs().f64() };
         if error.is_nan() {
             error = f64::INFINITY;
         }
@@ -87,20 +78,20 @@ impl Tally {
         let mut ratio = if error == 0.0 { 0.0 } else { error / EPSILON / (1.0 + condition) };
         let cell = self.cells.entry(key).or_default();
         cell.points += 1;
-        if ratio > k || condition.is_infinite() || condition > 1e12 {
-            if let Some(around) = neighbours() {
-                let low = around.iter().fold(exact.clone(), |low, one| low.min(one));
-                let high = around.iter().fold(exact.clone(), |high, one| high.max(one));
-                let slack = scale.abs().max(&low.abs()).max(&high.abs()) * (k * EPSILON);
-                let value = Real::new(exact.bits(), got);
-                cell.between += 1;
-                if (value >= &low - &slack && value <= high + slack) || (ratio <= k && condition.is_finite()) {
-                    return;
-                }
-                (ratio, condition) = (f64::INFINITY, 0.0);
+        if (ratio > k || condition.is_infinite() || condition > 1e12)
+            && let Some(around) = neighbours()
+        {
+            let low = around.iter().fold(exact.clone(), |low, one| low.min(one));
+            let high = around.iter().fold(exact.clone(), |high, one| high.max(one));
+            let slack = scale.abs().max(&low.abs()).max(&high.abs()) * (k * EPSILON);
+            let value = Real::new(exact.bits(), got);
+            cell.between += 1;
+            if (value >= &low - &slack && value <= high + slack) || (ratio <= k && condition.is_finite()) {
+                return;
             }
+            (ratio, condition) = (f64::INFINITY, 0.0);
         }
-        if !(ratio <= k) {
+        if ratio.is_nan() || ratio > k {
             cell.broken += 1;
         }
         if condition <= 1.0 {

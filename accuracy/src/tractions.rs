@@ -62,7 +62,8 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
             let near = moved(force, at * (1.0 + 1.0 / rate.max(1e-300))).clamp(0.0, contact.slip_force);
             let (law, point) = reference.at_force_with(near, 130);
             let [low, high] = [-UNITS, UNITS].map(|at| place_of(&law, moved(x, at)));
-            for place in [&low, &high] {
+            let middle = place_of(&law, x);
+            for place in [&low, &((&low + &middle) / 2.0), &middle, &((&middle + &high) / 2.0), &high] {
                 corners.push(f(&law, place, &point));
             }
             if high > law.real(1.0) {
@@ -77,17 +78,20 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
         }
         Some(corners)
     };
+    let rate = if point.rest.is_zero() { 0.0 } else { (&point.tau * &point.curvature).f64() };
     for (i, &(x, range)) in spots.iter().enumerate() {
         let place = || format!("{} T {force:e} x {x:e}", text(&reference.given));
         let spot = place_of(&law, x);
         let p = law.pressure(&spot, None);
+        let from = |edge: &Real| (&spot / (&spot - edge)).abs().f64();
+        let (from_b, from_c) = (from(&law.real(1.0)), (1.0 + rate) * from(&point.size));
         let exact = &pressure_unit * &p;
-        tally.check_between(("pressure", kind, range), pressure[i], &exact, &exact, 0.0, place, || {
+        tally.check_between(("pressure", kind, range), pressure[i], &exact, &exact, from_b, place, || {
             Some([-UNITS, UNITS].map(|at| &pressure_unit * law.pressure(&place_of(&law, moved(x, at)), None)).into())
         });
         let q = if point.rest.is_zero() { p.clone() } else { &p - law.pressure(&spot, Some(&point)) };
         let exact = &shear_unit * q;
-        tally.check_between(("shear", kind, range), shear[i], &exact, &exact, 0.0, place, || {
+        tally.check_between(("shear", kind, range), shear[i], &exact, &exact, from_b + from_c, place, || {
             corners(x, &|law, x, point| &shear_unit * law.shear(x, point))
         });
         if no_slip {
@@ -96,12 +100,12 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
         let outside = spot > law.real(1.0);
         let s = if outside { law.real(0.0) } else { law.slip(&spot, &point) };
         let exact = &slip_unit * &s;
-        tally.check_between(("slip", kind, range), slip[i], &exact, &exact, 0.0, place, || {
+        tally.check_between(("slip", kind, range), slip[i], &exact, &exact, 1.5 * from_c, place, || {
             corners(x, &|law, x, point| &slip_unit * law.slip(x, point))
         });
         let unit = &slip_unit * &shear_unit;
         let exact = &unit * s * p;
-        tally.check_between(("damage", kind, range), damage[i], &exact, &exact, 0.0, place, || {
+        tally.check_between(("damage", kind, range), damage[i], &exact, &exact, from_b + 1.5 * from_c, place, || {
             corners(x, &|law, x, point| &unit * law.slip(x, point) * law.pressure(x, None))
         });
     }
