@@ -141,8 +141,10 @@ fn neighbours(slip: f64) -> History {
 
 /// Steps of every size, from a part in 1e18 of gross slip to the largest displacement allowed.
 fn tiny_and_giant(slip: f64) -> History {
+    let farthest = (FARTHEST / slip).log10();
     Box::new(move |memory, rng| {
-        let exponent = if rng.random_bool(0.02) { rng.random_range(0.0..300.0) } else { rng.random_range(-18.0..0.5) };
+        let exponent =
+            if rng.random_bool(0.02) { rng.random_range(0.0..farthest) } else { rng.random_range(-18.0..0.5) };
         let step = slip * 10f64.powf(exponent) * if rng.random() { 1.0 } else { -1.0 };
         let place = if rng.random_bool(0.02) { 0.0 } else { memory.now().displacement };
         (place + step).clamp(-FARTHEST, FARTHEST)

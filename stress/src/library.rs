@@ -39,12 +39,12 @@ impl Contact {
         let mut prepared = Box::new(MaybeUninit::<mslip_contact>::uninit());
         let contact = prepared.as_mut_ptr();
         // SAFETY: both pointers are valid; a contact is initialised by the call that accepts it.
-        let status = unsafe {
+        let status = trapped(|| unsafe {
             match &given {
                 Given::Flat(parameters) => c_api::mslip_contact_init(parameters, contact),
                 Given::Ellipse(parameters) => c_api::mslip_contact_init_elliptic(parameters, contact),
             }
-        };
+        });
         accepted(status)?;
         Ok(Contact { given, prepared: unsafe { prepared.assume_init() }.into() })
     }
@@ -82,9 +82,9 @@ impl Contact {
     pub fn monotonic(&self, displacement: f64) -> Result<(f64, f64), String> {
         let (mut force, mut stiffness) = (f64::NAN, f64::NAN);
         // SAFETY: pointers to one number each.
-        accepted(unsafe {
+        accepted(trapped(|| unsafe {
             c_api::mslip_monotonic_force(self.as_c(), 1, &displacement, &mut force, &mut stiffness, null_mut())
-        })?;
+        }))?;
         Ok((force, stiffness))
     }
 
@@ -94,10 +94,11 @@ impl Contact {
         let (mut force, mut stiffness, mut energy) = (0.0, 0.0, 0.0);
         let sticks = amplitude.min(self.slip());
         // SAFETY: pointers to one number each.
-        unsafe {
-            accepted(c_api::mslip_monotonic_force(self.as_c(), 1, &sticks, &mut force, &mut stiffness, null_mut()))?;
-            accepted(c_api::mslip_dissipated_energy(self.as_c(), 1, &force, &mut energy))?;
-        }
+        accepted(trapped(|| unsafe {
+            c_api::mslip_monotonic_force(self.as_c(), 1, &sticks, &mut force, &mut stiffness, null_mut())
+        }))?;
+        // SAFETY: as above.
+        accepted(trapped(|| unsafe { c_api::mslip_dissipated_energy(self.as_c(), 1, &force, &mut energy) }))?;
         // At gross slip it is asked for mu N itself.
         let rounding =
             if sticks < self.slip() { 4.0 * (force / stiffness - sticks).abs() * BRANCH_ROUNDING * force } else { 0.0 };
@@ -125,7 +126,7 @@ impl State {
     pub fn new(reversals: usize) -> State {
         let mut state = vec![f64::NAN; c_api::mslip_state_length(reversals)];
         // SAFETY: as long as said.
-        let status = unsafe { c_api::mslip_state_init(state.len(), state.as_mut_ptr()) };
+        let status = trapped(|| unsafe { c_api::mslip_state_init(state.len(), state.as_mut_ptr()) });
         assert_eq!(status, c_api::MSLIP_OK);
         State(state)
     }
@@ -177,10 +178,10 @@ impl State {
         let mut answer = Answer { force: f64::NAN, stiffness: f64::NAN, dissipated: f64::NAN };
         let (state, Answer { force, stiffness, dissipated }) = (self.0.as_mut_ptr(), &mut answer);
         // SAFETY: pointers as long as said; the old state may be the new one.
-        accepted(unsafe {
+        accepted(trapped(|| unsafe {
             let length = self.0.len();
             c_api::mslip_masing_update(contact.as_c(), length, state, displacement, state, force, stiffness, dissipated)
-        })?;
+        }))?;
         Ok(answer)
     }
 
@@ -190,7 +191,7 @@ impl State {
         let mut force = f64::NAN;
         let (state, length) = (self.0.as_mut_ptr(), self.0.len());
         // SAFETY: as above.
-        accepted(unsafe {
+        accepted(trapped(|| unsafe {
             c_api::mslip_masing_update(
                 contact.as_c(),
                 length,
@@ -201,7 +202,7 @@ impl State {
                 null_mut(),
                 null_mut(),
             )
-        })?;
+        }))?;
         Ok(force)
     }
 
@@ -210,7 +211,7 @@ impl State {
         let mut force = f64::NAN;
         let (state, length) = (self.0.as_ptr(), self.0.len());
         // SAFETY: as above.
-        accepted(unsafe {
+        accepted(trapped(|| unsafe {
             c_api::mslip_masing_update(
                 contact.as_c(),
                 length,
@@ -221,7 +222,7 @@ impl State {
                 null_mut(),
                 null_mut(),
             )
-        })?;
+        }))?;
         Ok(force)
     }
 }
@@ -247,8 +248,30 @@ pub fn path(
     let state1 = if kept { state0 } else { null_mut() };
     let (length, path) = (state.0.len(), if n > 0 { displacement.as_ptr() } else { null() });
     // SAFETY: as long as said.
-    let status = unsafe {
+    let status = trapped(|| unsafe {
         c_api::mslip_masing_path(contact.as_c(), length, state0, n, path, state1, force, stiffness, dissipated)
-    };
+    });
     if status == c_api::MSLIP_OK { Ok(Path { outputs }) } else { Err(status) }
 }
+
+/// Calls as a host does that traps invalid operations, divisions by zero and overflows: one of them ends the program.
+#[inline]
+pub fn trapped<T>(call: impl FnOnce() -> T) -> T {
+    /// Control words of SSE: all exceptions masked, or all but those of subnormal, underflowing and inexact numbers.
+    const MASKED: u32 = 0x1f80;
+    const TRAPPED: u32 = 0x1f80 & !(0x080 | 0x200 | 0x400);
+    set_control(TRAPPED);
+    let answer = call();
+    set_control(MASKED);
+    answer
+}
+
+#[cfg(target_arch = "x86_64")]
+fn set_control(word: u32) {
+    // SAFETY: a valid word, which changes nothing but what is trapped.
+    unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack)) }
+}
+
+/// Elsewhere exceptions are not trapped.
+#[cfg(not(target_arch = "x86_64"))]
+fn set_control(_: u32) {}

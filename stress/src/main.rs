@@ -1,5 +1,7 @@
 //! The memory of a contact under stress: long and hostile histories, and all that must hold on every step of them.
 //!
+//! Every call traps invalid operations, divisions by zero and overflows.
+//!
 //! `stress [--scale X] [--seed N] [--only TEXT] [--jobs N]`
 
 mod bank;

@@ -7,7 +7,7 @@
 use crate::bank::{Bank, polygon_error};
 use crate::contacts::Named;
 use crate::family::{CurvePoint, elliptic_curve, flat_curve};
-use crate::library::{Contact, Given, accepted};
+use crate::library::{Contact, Given, accepted, trapped};
 use crate::walk::{BRANCH_ROUNDING, Care, Walk};
 use crate::{Case, Run, contacts, ensure, histories};
 use microslip::c_api;
@@ -62,10 +62,10 @@ fn library_s(named: Named, steps: u64) -> Case {
         let contact = &named.contact;
         let (mut stiffness, mut slip_force, mut error) = (vec![0.0; SLIDERS], vec![0.0; SLIDERS], 0.0);
         // SAFETY: as long as said.
-        accepted(unsafe {
+        accepted(trapped(|| unsafe {
             let (stiffness, slip_force) = (stiffness.as_mut_ptr(), slip_force.as_mut_ptr());
             c_api::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
-        })?;
+        }))?;
         let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
         let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)).collect());
         compare(contact, bank, error * contact.limit(), steps, run)

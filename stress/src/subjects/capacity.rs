@@ -1,7 +1,7 @@
 //! States of every size: what is full refuses and loses nothing, and what fits goes on.
 
 use crate::contacts::Named;
-use crate::library::{Answer, Contact, State, path};
+use crate::library::{Answer, Contact, State, path, trapped};
 use crate::{Case, Outcome, contacts, ensure};
 use microslip::c_api::{self, MSLIP_STATE_FULL};
 use rand::Rng;
@@ -93,7 +93,7 @@ fn step_is_refused(contact: &Contact, state: &State, displacement: f64) -> Outco
     let mut target = State(vec![UNWRITTEN; state.0.len()]);
     let [force, stiffness, dissipated] = &mut outputs;
     // SAFETY: as long as said.
-    let status = unsafe {
+    let status = trapped(|| unsafe {
         c_api::mslip_masing_update(
             contact.as_c(),
             state.0.len(),
@@ -104,7 +104,7 @@ fn step_is_refused(contact: &Contact, state: &State, displacement: f64) -> Outco
             stiffness,
             dissipated,
         )
-    };
+    });
     ensure!(status == MSLIP_STATE_FULL, "a step too deep: {status}");
     ensure!(
         outputs == [UNWRITTEN; 3] && target.0.iter().all(|value| *value == UNWRITTEN),

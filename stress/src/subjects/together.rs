@@ -2,7 +2,7 @@
 //! many contacts at once. Every number has the same bits.
 
 use crate::contacts::Named;
-use crate::library::{State, accepted, path};
+use crate::library::{State, accepted, path, trapped};
 use crate::memory::{Memory, Point};
 use crate::{Case, contacts, ensure, histories};
 use microslip::c_api::{self, mslip_contact};
@@ -129,7 +129,7 @@ fn many_contacts(steps: u64) -> Case {
             let flags = if all_active { null() } else { active.as_ptr() };
             let (items, state) = (together.as_ptr(), states.as_mut_ptr());
             // SAFETY: as long as said.
-            accepted(unsafe {
+            accepted(trapped(|| unsafe {
                 c_api::mslip_interface_masing_update(
                     n,
                     items,
@@ -142,7 +142,7 @@ fn many_contacts(steps: u64) -> Case {
                     stiffness,
                     dissipated,
                 )
-            })?;
+            }))?;
             for (i, named) in contacts.iter().enumerate() {
                 let found = [outputs[0][i], outputs[1][i], outputs[2][i]];
                 let state = State(states[i * length..(i + 1) * length].to_vec());
