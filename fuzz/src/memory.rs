@@ -51,10 +51,12 @@ impl Array {
     }
 }
 
-/// Whether two arrays are one, bit for bit; without a branch for each number, which would be coverage.
+/// Whether two arrays are one, bit for bit; as bytes, which the C library compares at once.
 pub fn same(one: &[f64], two: &[f64]) -> bool {
-    let difference = one.iter().zip(two).fold(0, |bits, (one, two)| bits | (one.to_bits() ^ two.to_bits()));
-    one.len() == two.len() && difference == 0
+    // Doubles are bytes without gaps.
+    let bytes =
+        |numbers: &[f64]| unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast::<u8>(), size_of_val(numbers)) };
+    bytes(one) == bytes(two)
 }
 
 impl Drop for Array {
