@@ -1,4 +1,8 @@
-# find_package(microslip): the target microslip::microslip, and the source of the Fortran module.
+# find_package(microslip): the targets
+#
+#   microslip::microslip   the static library
+#   microslip::shared      the shared one, where it was installed
+#   microslip::fortran     the source of the Fortran module, with the static library; to be linked PRIVATE
 #
 # The paths are relative to this file, so the installed tree may be moved.
 
@@ -13,6 +17,18 @@ if(NOT TARGET microslip::microslip)
     IMPORTED_LOCATION "${_microslip_prefix}/lib/libmicroslip.a"
     INTERFACE_INCLUDE_DIRECTORIES "${_microslip_prefix}/include"
     INTERFACE_LINK_LIBRARIES m)
+
+  add_library(microslip::fortran INTERFACE IMPORTED)
+  set_target_properties(microslip::fortran PROPERTIES
+    INTERFACE_SOURCES "${microslip_FORTRAN_MODULE}"
+    INTERFACE_LINK_LIBRARIES microslip::microslip)
+
+  if(EXISTS "${_microslip_prefix}/lib/libmicroslip.so")
+    add_library(microslip::shared SHARED IMPORTED)
+    set_target_properties(microslip::shared PROPERTIES
+      IMPORTED_LOCATION "${_microslip_prefix}/lib/libmicroslip.so"
+      INTERFACE_INCLUDE_DIRECTORIES "${_microslip_prefix}/include")
+  endif()
 endif()
 
 unset(_microslip_prefix)

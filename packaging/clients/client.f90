@@ -1,0 +1,23 @@
+! A client in Fortran: does the module agree with the library that was linked, and does the library compute?
+program client
+  use microslip
+  implicit none
+  type(mslip_parameters) :: p
+  type(mslip_contact) :: contact
+  real(mslip_real) :: force(1)
+  integer(mslip_int) :: status
+
+  call mslip_parameters_default(p)
+  p%flat_half_width = 0.5e-3_mslip_real; p%edge_radius = 3e-3_mslip_real; p%length = 20e-3_mslip_real
+  p%normal_force = 800; p%friction_coefficient = 0.5_mslip_real
+  p%material = mslip_material(2e11_mslip_real, 0.3_mslip_real)
+  call mslip_contact_init(p, contact, status)
+  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  call mslip_monotonic_force(contact, [2*contact%slip_displacement], status, force)
+  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+
+  ! In gross slip the force is mu N: 0.5 times 800 N, a product without rounding.
+  if (any(force /= 400)) error stop 'the force of gross slip is not mu N'
+  if (mslip_abi_version() /= MSLIP_MODULE_ABI_VERSION) error stop 'module and library have different interfaces'
+  print '(2a)', 'microslip ', mslip_version()
+end program client

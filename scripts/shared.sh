@@ -1,0 +1,29 @@
+#!/bin/sh
+# shared.sh FROM.a HEADER TO.so.VERSION: make a shared library of the localised archive. It exports what the header
+# declares, under the version of the interface, and its soname is its name.
+set -eu
+
+if [ $# -ne 3 ]; then
+    echo "usage: $0 FROM.a HEADER TO.so.VERSION" >&2
+    exit 2
+fi
+from=$1
+header=$2
+to=$3
+: "${CC:=cc}"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+{
+    echo "MSLIP_${to##*.} {"
+    echo 'global:'
+    sed 's,//.*,,' "$header" | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr '(' ';'
+    echo 'local: *;'
+    echo '};'
+} > "$work/exports"
+
+# Nothing may stay undefined but what the mathematical library and the C library have, and all is bound at the start: the
+# first call in a computation takes no longer than the others.
+$CC -shared -o "$to" -Wl,--whole-archive "$from" -Wl,--no-whole-archive -lm -Wl,-soname,"${to##*/}" \
+    -Wl,--version-script="$work/exports" -Wl,-z,defs -Wl,-z,now
