@@ -7,6 +7,8 @@
 #   figures   gnuplot
 #   host      what CalculiX is built with, and gnuplot
 #   fuzz      the C++ compiler
+#   packages  the build tools of clients
+#   docs      what makes the reference from comments
 #   counting  what counts instructions
 #   guest     other compilers, linkers, and what watches memory and threads
 #   accuracy  GMP and MPFR
@@ -72,6 +74,28 @@ figures() {
     need gnuplot-nox gnuplot
 }
 
+# need_venv: what makes Python's environments, for tools that Debian has not.
+need_venv() {
+    need python3 python3
+    python3 -c 'import ensurepip' 2> /dev/null || missing="$missing python3-venv"
+}
+
+packages() {
+    fortran
+    need gcc gcc
+    need make make
+    need cmake cmake
+    need meson meson
+    need ninja-build ninja
+    need pkg-config pkg-config
+    need_venv
+}
+
+docs() {
+    need doxygen doxygen
+    need_venv
+}
+
 host() {
     demo
     need gcc gcc
@@ -111,8 +135,7 @@ tests() {
     guest
     fuzz
     accuracy
-    need cmake cmake
-    need pkg-config pkg-config
+    packages
     need shellcheck shellcheck
     components=
     rust_component rustfmt fmt
@@ -127,10 +150,10 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|accuracy|test..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|accuracy|packages|docs|test..." >&2; exit 2; }
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | host | fuzz | counting | guest | accuracy) "$group" ;;
+        fortran | demo | bench | figures | host | fuzz | counting | guest | accuracy | packages | docs) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

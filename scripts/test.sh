@@ -160,6 +160,8 @@ for source in c_tests/*.cpp; do
 done
 step 'CMake: find_package' cmake_client
 step 'CMake: another version is refused' cmake_refuses_other_version
+step 'packages: source tarball, clients by each tool, shared library' scripts/packages.sh
+step 'packages: fpm' scripts/fpm.sh "$prefix"
 
 wide='-fdefault-real-8 -fdefault-integer-8'
 traps='-ffpe-trap=invalid,zero,overflow'

@@ -1,0 +1,24 @@
+#!/bin/sh
+# fpm.sh PREFIX: a client built by the Fortran package manager, with the module of this repository as its dependency and
+# the installed archive. fpm comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
+set -eu
+
+prefix=$(cd "$1" && pwd)
+cd "$(dirname "$0")/.."
+: "${FC:=gfortran}"
+PATH=$PATH:$PWD/target/tools/fpm/bin
+
+if ! command -v fpm > /dev/null && ! { python3 -m venv target/tools/fpm &&
+    target/tools/fpm/bin/pip install --quiet --disable-pip-version-check fpm==0.12.0; }; then
+    echo 'fpm cannot be installed from PyPI'
+    exit 77
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$work/client/app"
+cp packaging/clients/fpm/fpm.toml "$work/client"
+cp packaging/clients/client.f90 "$work/client/app/main.f90"
+ln -s "$PWD" "$work/microslip"
+cd "$work/client"
+fpm run --compiler "$FC" --link-flag "-L$prefix/lib"

@@ -1,0 +1,190 @@
+#!/bin/sh
+# packages.sh: is the library there for each way in which clients take it? A source tarball is built without a network
+# and installed, and a client in C and one in Fortran are built by each tool. TOLD=1 shows what passes, too.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}" "${CC:=gcc}" "${FC:=gfortran}" "${NM:=nm}" "${TOLD:=}"
+export CARGO CC FC
+unset MAKEFLAGS MFLAGS MAKELEVEL # the make that started this is not the parent of those below
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0
+failed=0
+
+# check SENTENCE COMMAND...; in a function, commands are joined by &&, for a failure does not end the shell there.
+check() {
+    sentence=$1
+    shift
+    if "$@" > "$work/log" 2>&1; then
+        passed=$((passed + 1))
+        [ -z "$TOLD" ] || echo "so: $sentence"
+    else
+        failed=$((failed + 1))
+        echo "not so: $sentence"
+        sed 's/^/    /' "$work/log"
+    fi
+}
+
+version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
+clients=$PWD/packaging/clients
+tree=$work/microslip-$version
+static=$work/static
+
+# Cargo has nothing but what the tarball brings, and where the system lets it, no network either.
+mkdir "$work/cargo"
+offline() {
+    CARGO_HOME="$work/cargo" CARGO_NET_OFFLINE=true $isolated "$@"
+}
+isolated=
+if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
+
+scripts/tarball.sh "$tree.tar.gz"
+tar -xzf "$tree.tar.gz" -C "$work"
+if ! offline make -C "$tree" install PREFIX="$static" > "$work/log" 2>&1; then
+    cat "$work/log"
+    echo 'not so: the tarball can be built and installed without a network'
+    echo '0 passed, 1 failed'
+    exit 1
+fi
+passed=1
+
+# One version, wherever it is written.
+check 'version of fpm.toml' grep -qx "version = \"$version\"" fpm.toml
+check 'version of CITATION.cff' grep -qx "version: $version" CITATION.cff
+check 'CHANGELOG.md tells of this version' grep -q "^## \[$version\]" CHANGELOG.md
+
+# The tarball.
+again() {
+    scripts/tarball.sh "$work/again/microslip-$version.tar.gz" && cmp "$work/again/microslip-$version.tar.gz" "$tree.tar.gz"
+}
+check 'the tarball has the same bytes when made again' again
+locked() { # every package of the tarball's Cargo.lock is in the repository's, at that version
+    awk '/^name = |^version = "/ { line = line $0 } /^checksum = / { print line, $0; line = "" } /^$/ { line = "" }' \
+        "$1" | sort
+}
+same_crates() {
+    locked Cargo.lock > "$work/ours" && locked "$tree/Cargo.lock" > "$work/theirs" && [ -s "$work/theirs" ] &&
+        [ -z "$(comm -13 "$work/ours" "$work/theirs")" ]
+}
+check 'the tarball brings the crates of Cargo.lock' same_crates
+
+# What is installed, and that nothing but this is.
+installed_files() {
+    (cd "$1" && find . ! -type d | sort) > "$work/installed" && printf './%s\n' "$@" | sed 1d | sort | diff - "$work/installed"
+}
+files="include/microslip.f90 include/microslip.h lib/cmake/microslip/microslip-config-version.cmake
+lib/cmake/microslip/microslip-config.cmake lib/libmicroslip.a lib/pkgconfig/microslip.pc"
+# shellcheck disable=SC2086  # a list, split on purpose
+check 'static is the default' installed_files "$static" $files
+
+# Clients of an installed copy.
+needs() { # PROGRAM: the libraries of microslip that it needs when it runs
+    readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(libmicroslip.*\)\]/\1/p'
+}
+make_client() {
+    cp -R "$clients" "$work/clients" && make -C "$work/clients/make" PREFIX="$static" FC="$FC" CC="$CC" &&
+        "$work/clients/make/client_c" && "$work/clients/make/client_fortran" && [ -z "$(needs "$work/clients/make/client_c")" ]
+}
+check 'make: a plain Makefile' make_client
+# shellcheck disable=SC2046  # flags are a list
+pkg_config_client() { # PREFIX
+    export PKG_CONFIG_PATH="$1/lib/pkgconfig" && mkdir -p "$work/pkg" &&
+        [ "$(pkg-config --modversion microslip)" = "$version" ] &&
+        $CC "$clients/client.c" -o "$work/pkg/client_c" $(pkg-config --cflags --libs --static microslip) &&
+        $FC -J "$work/pkg" "$1/include/microslip.f90" "$clients/client.f90" -o "$work/pkg/client_fortran" \
+            $(pkg-config --libs --static microslip) &&
+        LD_LIBRARY_PATH=$1/lib "$work/pkg/client_c" && LD_LIBRARY_PATH=$1/lib "$work/pkg/client_fortran"
+}
+check 'pkg-config' pkg_config_client "$static"
+cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...
+    build=$work/cmake/$1
+    number=$2
+    shift 2
+    cmake -S "$clients/cmake" -B "$build" -DCMAKE_Fortran_COMPILER="$FC" "$@" && offline cmake --build "$build" &&
+        (cd "$build" && ctest --output-on-failure | tee ctest.log) && grep -q "tests passed.* out of $number\$" "$build/ctest.log"
+}
+check 'CMake: find_package' cmake_client find_package 2 -DCMAKE_PREFIX_PATH="$static"
+
+# Clients that build the library with themselves. Cargo's directory is that of the tarball, so that it builds once; by
+# FetchContent all is as by default.
+check 'CMake: add_subdirectory' cmake_client add_subdirectory 2 -DMICROSLIP_SOURCE="$tree" \
+    -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
+check 'CMake: FetchContent' cmake_client FetchContent 2 -DMICROSLIP_URL="$tree.tar.gz"
+meson_client() {
+    mkdir -p "$work/meson/subprojects" && cp "$clients/client.c" "$clients/client.f90" "$clients/meson/meson.build" "$work/meson" &&
+        ln -s "$tree" "$work/meson/subprojects/microslip" &&
+        meson setup "$work/meson/build" "$work/meson" "-Dmicroslip:cargo_target_dir=$tree/target" &&
+        meson test -C "$work/meson/build" --print-errorlogs
+}
+check 'Meson: subproject' meson_client
+
+# The shared library.
+shared=$work/shared
+so=libmicroslip.so.$abi
+check 'the shared library is installed on demand' offline make -C "$tree" install PREFIX="$shared" SHARED=1
+# shellcheck disable=SC2086
+check 'with its link' installed_files "$shared" $files "lib/$so" lib/libmicroslip.so
+check 'its soname has the version of the interface' \
+    sh -c "readelf -d '$shared/lib/libmicroslip.so' | grep -q 'SONAME.*\[$so\]'"
+exports() {
+    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sort > "$work/declared"
+    $NM -D --defined-only "$shared/lib/$so" | awk '$2 != "A" { print $3 }' | sed "s/@@MSLIP_$abi\$//" | sort |
+        diff "$work/declared" -
+}
+check 'it exports what the header declares, under the version of the interface' exports
+needs_no_more() {
+    readelf -d "$shared/lib/$so" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' > "$work/needed" &&
+        ! grep -vE '^(libm|libc|ld-linux.*)\.so\.' "$work/needed"
+}
+check 'it needs the mathematical and the C library only' needs_no_more
+shared_client() {
+    pkg_config_client "$shared" && [ "$(needs "$work/pkg/client_c")" = "$so" ] && [ "$(needs "$work/pkg/client_fortran")" = "$so" ]
+}
+check 'pkg-config: clients of the shared library' shared_client
+check 'CMake: clients of both libraries' cmake_client both 3 -DCMAKE_PREFIX_PATH="$shared"
+uninstall() {
+    make -C "$tree" uninstall PREFIX="$shared" && [ -z "$(find "$shared" ! -type d)" ]
+}
+check 'uninstall leaves no file' uninstall
+
+# The interface and its record: what happens to a header that was changed in one way.
+check 'the interface is the recorded one' scripts/interface.sh
+changed() { # SED-SCRIPT [--record]: of a copy of the header, against a copy of the records
+    rm -rf "$work/abi" && cp -R packaging/abi "$work/abi" && sed "$1" include/microslip.h > "$work/changed.h" &&
+        ! cmp -s include/microslip.h "$work/changed.h" || return 1
+    if [ $# -gt 1 ]; then MSLIP_HEADER="$work/changed.h" MSLIP_RECORDS="$work/abi" scripts/interface.sh "$2" || return 1; fi
+    MSLIP_HEADER="$work/changed.h" MSLIP_RECORDS="$work/abi" scripts/interface.sh
+}
+# refused MESSAGE SED-SCRIPT [--record]
+refused() {
+    message=$1
+    shift
+    if changed "$@" > "$work/answer"; then return 1; fi
+    grep -q "$message" "$work/answer"
+}
+raised="s/^\(#define MSLIP_ABI_VERSION\) .*/\1 $((abi + 1))/"
+next_series='s/^\(#define MSLIP_VERSION_MAJOR\) .*/\1 1000/'
+argument='s/^size_t mslip_state_length(size_t/size_t mslip_state_length(int32_t/'
+gone='/^int32_t mslip_abi_version/d'
+field='s/double half_width;/float half_width;/'
+added='s/^size_t mslip_state_length/void mslip_new(void);\n&/'
+code='s/\(MSLIP_BAD_STATE\) 21/\1 22/; s/\(MSLIP_BAD_WORKSPACE\) 22/\1 21/'
+refused_and_not_recorded() { # WHAT SED-SCRIPT
+    check "$1 is refused" refused 'raise MSLIP_ABI_VERSION' "$2"
+    check "$1 is not recorded" refused 'raise MSLIP_ABI_VERSION' "$2" --record
+}
+refused_and_not_recorded 'another argument' "$argument"
+refused_and_not_recorded 'a missing function' "$gone"
+refused_and_not_recorded 'another member' "$field"
+refused_and_not_recorded 'another status code' "$code"
+check 'what is new is to be recorded' refused 'make interface-record' "$added"
+check 'and is, on demand' changed "$added" --record
+check 'another interface is another series of versions' refused 'Raise the version' "$argument; $raised" --record
+check 'with which it is accepted' changed "$argument; $raised; $next_series" --record
+check 'a status code keeps its name for good' refused 'two names' "$code; $raised; $next_series" --record
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
