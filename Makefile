@@ -77,6 +77,11 @@ demo: demo-dependencies all
 demo-dependencies:
 	@scripts/dependencies.sh demo
 
+## parallel: contacts shared by OpenMP threads and a sweep shared by MPI ranks, and whether they give the same bits
+parallel: all
+	@scripts/dependencies.sh mpi
+	$(MAKE) -C fortran_examples parallel PREFIX=../dist
+
 ## test: every test, in Rust, C, C++ and Fortran
 test:
 	scripts/test.sh

@@ -3,6 +3,7 @@
 #
 #   fortran   the compiler
 #   demo      Fortran with LAPACK, and gnuplot
+#   mpi       Fortran with LAPACK, Open MPI, and zlib
 #   bench     the C compiler, and gnuplot
 #   figures   gnuplot
 #   host      what CalculiX is built with, and gnuplot
@@ -42,6 +43,15 @@ demo() {
     need_library liblapack-dev lapack
     need_library libblas-dev blas
     need gnuplot-nox gnuplot
+}
+
+mpi() {
+    fortran
+    need_library liblapack-dev lapack
+    need_library libblas-dev blas
+    need openmpi-bin mpirun
+    need libopenmpi-dev mpifort
+    need_library zlib1g-dev z
 }
 
 fuzz() {
@@ -131,6 +141,7 @@ rust_component() {
 
 tests() {
     demo
+    mpi
     counting
     guest
     fuzz
@@ -150,10 +161,13 @@ tests() {
     fi
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 fortran|demo|bench|figures|host|fuzz|counting|guest|accuracy|packages|docs|test..." >&2; exit 2; }
+[ $# -gt 0 ] || {
+    echo "usage: $0 fortran|demo|mpi|bench|figures|host|fuzz|counting|guest|accuracy|packages|docs|test..." >&2
+    exit 2
+}
 for group in "$@"; do
     case $group in
-        fortran | demo | bench | figures | host | fuzz | counting | guest | accuracy | packages | docs) "$group" ;;
+        fortran | demo | mpi | bench | figures | host | fuzz | counting | guest | accuracy | packages | docs) "$group" ;;
         test) tests ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac

@@ -190,6 +190,7 @@ calculix_is_current() {
 step 'CalculiX: what it found is what the library finds' calculix_results
 step 'CalculiX: found with this element and these models' calculix_is_current
 step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
+step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
 
 fortran_against_rust() {
     MICROSLIP_PREFIX="$prefix" $CARGO test --release --locked --test harmonic_balance

@@ -1,0 +1,117 @@
+#!/bin/sh
+# Contacts shared by threads, and a sweep shared by ranks of which one is killed: the same bits by any number of them. A line
+# for each check, the counts in the last.
+set -eu
+# As root and with more ranks than cores, for this is a test; in containers, where a process may not read another's memory.
+: "${MPIRUN:=mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none}"
+export OPENBLAS_NUM_THREADS=1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0
+failed=0
+
+# check SENTENCE COMMAND...
+check() {
+    sentence=$1
+    shift
+    if "$@" > "$work/log" 2>&1; then
+        passed=$((passed + 1))
+        echo "holds: $sentence"
+    else
+        failed=$((failed + 1))
+        echo "NOT SO: $sentence"
+        tail -n 20 "$work/log"
+    fi
+}
+
+# sweep RANKS DIRECTORY [CASE...]: each rank leaves its process id beside the results.
+sweep() {
+    ranks=$1
+    directory=$work/$2
+    shift 2
+    [ $# -gt 0 ] || set -- cases/cylinder.nml cases/flat.nml
+    mkdir -p "$directory"
+    # shellcheck disable=SC2086,SC2016  # the command is a list; the rank is known to what is started
+    $MPIRUN -n "$ranks" sh -c 'echo $$ > "$1/rank.$OMPI_COMM_WORLD_RANK" && shift && exec "$@"' sh "$directory" \
+        build/response_sweep "$directory" 5 60 "$@" > "$directory/progress" 2>&1
+}
+
+same() {
+    for file in sweep.dat sweep.csv sweep_peaks.csv; do
+        cmp "$work/one/$file" "$work/$1/$file" || return 1
+    done
+}
+
+# said DIRECTORY PATTERN
+said() {
+    grep -q "$2" "$work/$1/progress" || { cat "$work/$1/progress"; return 1; }
+}
+
+# kill_rank RANK DIRECTORY: started with two ranks, and killed after 20 of the units; others must be left to do.
+kill_rank() {
+    sweep 2 "$2" &
+    run=$!
+    until said "$2" '^unit 20/' > "$work/said" 2>&1; do
+        kill -0 "$run" || return 1
+        sleep 0.05
+    done
+    kill -9 "$(cat "$work/$2/rank.$1")" || return 1
+    ! wait "$run" && ! said "$2" '^solved' > "$work/said"
+}
+
+goes_on() {
+    sweep "$1" "$2" && said "$2" "^130 units, [2-9][0-9] of them found\|^130 units, 1[0-2][0-9] of them found" && same "$2"
+}
+
+# The grid of frequencies is coarse for a sharp resonance, not for a damped one: 1 Hz against several.
+like_continuation() {
+    mkdir "$work/continuation" && build/forced_response cases/cylinder.nml "$work/continuation" &&
+        awk -F, 'FNR == 1 { next }
+                 NR == FNR { peak[$2] = $4; next }
+                 $1 == "cylinder" {
+                     ++loads
+                     part = $4 / peak[$2]
+                     print "load factor", $2, "largest amplitude over the peak", part
+                     if (part > 1 + 1e-8 || part < ($2 > 2 && $2 < 200 ? 0.99 : 0.1)) ++wrong
+                 }
+                 END { exit loads != 13 || wrong }' "$work/continuation/cylinder_peaks.csv" "$work/one/sweep_peaks.csv"
+}
+
+# mended COMMAND...: what remains of a complete file after the command, with one unit lost, becomes the complete file.
+mended() {
+    rm -rf "$work/damaged" && cp -R "$work/one" "$work/damaged" && "$@" && ! cmp "$work/one/sweep.dat" "$work/damaged/sweep.dat" &&
+        sweep 1 damaged && said damaged '^130 units, 129 of them found' && same damaged
+}
+
+cut_short() {
+    dd if="$work/one/sweep.dat" of="$work/damaged/sweep.dat" bs=1 count=$(($(wc -c < "$work/one/sweep.dat") - 7))
+}
+
+change_byte() {
+    printf 'x' | dd of="$work/damaged/sweep.dat" bs=1 seek=100000 conv=notrunc
+}
+
+refused() {
+    cp -R "$work/one" "$work/other" && ! sweep 2 other cases/flat.nml cases/cylinder.nml &&
+        said other 'sweep.dat has the results of other cases' && same other
+}
+
+check 'threads: 1, 2 and 4 have the same bits' build/contact_threads 2000 4
+check 'ranks: 1' sweep 1 one
+check 'control: every point has a balance' sh -c "awk -F, 'NR > 1 && \$5 != 1' '$work/one/sweep.csv' | cmp - /dev/null"
+check 'the largest amplitudes are those of the continuation' like_continuation
+for ranks in 2 4; do
+    check "ranks: $ranks" sweep "$ranks" "by_$ranks"
+    check "ranks: $ranks have the bytes of 1" same "by_$ranks"
+    check "ranks: the last of $ranks had units to solve" said "by_$ranks" ", rank $((ranks - 1)),"
+done
+check 'killed: rank 1 of 2' kill_rank 1 killed
+check 'killed: 4 ranks go on and have the bytes of 1' goes_on 4 killed
+check 'killed: rank 0 of 2' kill_rank 0 killed_first
+check 'killed: 1 rank goes on and has the bytes of 1' goes_on 1 killed_first
+check 'a record cut short is solved again' mended cut_short
+check 'a record with a changed byte is solved again' mended change_byte
+check 'results of other cases are refused, and stay' refused
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
