@@ -98,7 +98,12 @@ pub(crate) struct Indentation {
 impl Indentation {
     pub fn new(flat: f64, w: f64) -> Indentation {
         // A cylinder keeps its right angle down to no width at all.
-        Indentation { flat, w, half_width: (flat * flat + w * w).sqrt(), psi: w.max(TINY).atan2(flat) }
+        Indentation {
+            flat,
+            w,
+            half_width: (flat * flat + w * w).sqrt(),
+            psi: w.max(if flat > 0.0 { 0.0 } else { TINY }).atan2(flat),
+        }
     }
 
     /// χ = tan²(ψ/2), where the series are the way to compute.

@@ -294,6 +294,19 @@ mod tests {
         }
     }
 
+    /// A flat that no digit feels: in gross slip ψ is 0 on it, however small it is.
+    #[test]
+    fn slip_of_the_smallest_flat_is_that_of_the_cylinder() {
+        let cylinder = contact(0.0);
+        let slip = |contact: &Contact, x: f64| contact.curve_at_force(contact.slip_force).unwrap().slip(x).unwrap();
+        for flat in [1e-200, 1e-300, 3e-304, 1e-306] {
+            for x in [0.1, 0.7, 1.0].map(|share| share * cylinder.half_width) {
+                let quotient = slip(&contact(flat), x) / slip(&cylinder, x);
+                assert!((quotient - 1.0).abs() < 1e-15, "{flat} {x}: {quotient}");
+            }
+        }
+    }
+
     /// Edges so sharp that nothing is left of them: the flat punch, `p = P/(π sqrt(a² - x²))`.
     #[test]
     fn the_flattest_contact_has_the_pressure_of_a_flat_punch() {
