@@ -90,7 +90,7 @@ test:
 audit:
 	scripts/audit.sh
 
-## accuracy: every output against multi-precision, about an hour on two cores; POINTS=1e6 for less than the 1e7 of each
+## accuracy: every output against multi-precision, an hour of processor time; POINTS=1e6 for less than the 1e7 of each
 accuracy:
 	@scripts/dependencies.sh accuracy
 	$(CARGO) run --release --locked --manifest-path accuracy/Cargo.toml --target-dir target/accuracy -- \
