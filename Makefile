@@ -21,7 +21,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix $(dist)/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit test accuracy bench instructions instructions-record \
-	counting-dependencies figures host stress fuzz header interface-record dist clean help
+	counting-dependencies figures host stress fuzz header docs interface-record dist clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -135,6 +135,11 @@ fuzz:
 ## header: make include/microslip.h from the Rust source
 header:
 	$(CARGO) run --quiet --package xtask -- header
+
+## docs: the reference of the interfaces in C and Fortran, and of the Rust functions, into target/docs
+docs:
+	@scripts/dependencies.sh docs
+	scripts/docs.sh
 
 ## interface-record: record what is new in the interface of the header, in packaging/abi/
 interface-record:

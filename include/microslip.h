@@ -6,9 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Version of the library that this header belongs to.
+// Version of the library that this header belongs to: its first number.
 #define MSLIP_VERSION_MAJOR 0
+// Its second number.
 #define MSLIP_VERSION_MINOR 1
+// Its third number.
 #define MSLIP_VERSION_PATCH 0
 
 // Raised whenever a name, a meaning or a size of this interface changes.
