@@ -130,9 +130,9 @@ check 'with its link' installed_files "$shared" $files "lib/$so" lib/libmicrosli
 check 'its soname has the version of the interface' \
     sh -c "readelf -d '$shared/lib/libmicroslip.so' | grep -q 'SONAME.*\[$so\]'"
 exports() {
-    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sort > "$work/declared"
-    $NM -D --defined-only "$shared/lib/$so" | awk '$2 != "A" { print $3 }' | sed "s/@@MSLIP_$abi\$//" | sort |
-        diff "$work/declared" -
+    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sed "s/\$/@@MSLIP_$abi/" |
+        sort > "$work/declared"
+    $NM -D --defined-only "$shared/lib/$so" | awk '$2 != "A" { print $3 }' | sort | diff "$work/declared" -
 }
 check 'it exports what the header declares, under the version of the interface' exports
 needs_no_more() {
