@@ -6,19 +6,15 @@ CARGO ?= cargo
 INSTALL ?= install
 SHARED ?=
 
-# Other build systems give these two on the command line, to build outside the source.
-target := target
-dist := dist
-
 version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
-archive := $(target)/release/libmicroslip.a
+archive := target/release/libmicroslip.a
 shared := lib/libmicroslip.so.$(shell sed -n 's/^\#define MSLIP_ABI_VERSION //p' include/microslip.h)
 pcdir := lib/pkgconfig
 cmakedir := lib/cmake/microslip
 files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/microslip.pc \
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
-products := $(addprefix $(dist)/,$(files))
+products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit test accuracy bench instructions instructions-record \
 	counting-dependencies figures host stress fuzz header docs interface-record dist clean help
@@ -29,38 +25,38 @@ all: $(products)
 
 # The sources are named here so that `make install`, as another user, need not run cargo again.
 $(archive): $(sources)
-	$(CARGO) build --release --locked --package microslip --target-dir $(target)
+	$(CARGO) build --release --locked --package microslip --target-dir target
 	@touch $@
 
-$(dist)/lib/libmicroslip.a: $(archive) scripts/localise.sh
+dist/lib/libmicroslip.a: $(archive) scripts/localise.sh
 	scripts/localise.sh $< $@
 
 ## shared: build the shared library besides
-shared: $(dist)/$(shared)
+shared: dist/$(shared)
 
-$(dist)/$(shared): $(dist)/lib/libmicroslip.a include/microslip.h scripts/shared.sh
+dist/$(shared): dist/lib/libmicroslip.a include/microslip.h scripts/shared.sh
 	scripts/shared.sh $< include/microslip.h $@
 
-$(dist)/include/%: include/%
+dist/include/%: include/%
 	@mkdir -p $(@D)
 	cp $< $@
 
-$(dist)/$(pcdir)/%: packaging/%.in Cargo.toml
+dist/$(pcdir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@
 
-$(dist)/$(cmakedir)/%: packaging/%
+dist/$(cmakedir)/%: packaging/%
 	@mkdir -p $(@D)
 	cp $< $@
 
-$(dist)/$(cmakedir)/%: packaging/%.in Cargo.toml
+dist/$(cmakedir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@
 
 ## install: copy dist/ to $(DESTDIR)$(PREFIX); SHARED=1 with the shared library
 install: all $(if $(SHARED),shared)
 	@for file in $(files) $(if $(SHARED),$(shared)); do \
-		$(INSTALL) -D -m 644 "$(dist)/$$file" "$(DESTDIR)$(PREFIX)/$$file" || exit 1; \
+		$(INSTALL) -D -m 644 "dist/$$file" "$(DESTDIR)$(PREFIX)/$$file" || exit 1; \
 	done
 	@$(if $(SHARED),ln -sf $(notdir $(shared)) "$(DESTDIR)$(PREFIX)/lib/libmicroslip.so")
 	@echo "microslip $(version) is in $(DESTDIR)$(PREFIX)"

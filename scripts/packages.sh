@@ -99,25 +99,25 @@ pkg_config_client() { # PREFIX
         LD_LIBRARY_PATH=$1/lib "$work/pkg/client_c" && LD_LIBRARY_PATH=$1/lib "$work/pkg/client_fortran"
 }
 check 'pkg-config' pkg_config_client "$static"
-cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...
+cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...; the directory has a blank in its name, which must not matter
     build=$work/cmake/$1
     number=$2
     shift 2
     cmake -S "$clients/cmake" -B "$build" -DCMAKE_Fortran_COMPILER="$FC" "$@" && offline cmake --build "$build" &&
         (cd "$build" && ctest --output-on-failure | tee ctest.log) && grep -q "tests passed.* out of $number\$" "$build/ctest.log"
 }
-check 'CMake: find_package' cmake_client find_package 2 -DCMAKE_PREFIX_PATH="$static"
+check 'CMake: find_package' cmake_client "find package" 2 -DCMAKE_PREFIX_PATH="$static"
 
 # Clients that build the library with themselves. Cargo's directory is that of the tarball, so that it builds once; by
 # FetchContent all is as by default.
-check 'CMake: add_subdirectory' cmake_client add_subdirectory 2 -DMICROSLIP_SOURCE="$tree" \
+check 'CMake: add_subdirectory' cmake_client "add subdirectory" 2 -G Ninja -DMICROSLIP_SOURCE="$tree" \
     -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
-check 'CMake: FetchContent' cmake_client FetchContent 2 -DMICROSLIP_URL="$tree.tar.gz"
+check 'CMake: FetchContent' cmake_client "fetch content" 2 -DMICROSLIP_URL="$tree.tar.gz"
 meson_client() {
     mkdir -p "$work/meson/subprojects" && cp "$clients/client.c" "$clients/client.f90" "$clients/meson/meson.build" "$work/meson" &&
         ln -s "$tree" "$work/meson/subprojects/microslip" &&
-        meson setup "$work/meson/build" "$work/meson" "-Dmicroslip:cargo_target_dir=$tree/target" &&
-        meson test -C "$work/meson/build" --print-errorlogs
+        meson setup "$work/meson build" "$work/meson" "-Dmicroslip:cargo_target_dir=$tree/target" &&
+        meson test -C "$work/meson build" --print-errorlogs
 }
 check 'Meson: subproject' meson_client
 
@@ -144,7 +144,7 @@ shared_client() {
     pkg_config_client "$shared" && [ "$(needs "$work/pkg/client_c")" = "$so" ] && [ "$(needs "$work/pkg/client_fortran")" = "$so" ]
 }
 check 'pkg-config: clients of the shared library' shared_client
-check 'CMake: clients of both libraries' cmake_client both 3 -DCMAKE_PREFIX_PATH="$shared"
+check 'CMake: clients of both libraries' cmake_client "both libraries" 3 -DCMAKE_PREFIX_PATH="$shared"
 uninstall() {
     make -C "$tree" uninstall PREFIX="$shared" && [ -z "$(find "$shared" ! -type d)" ]
 }
