@@ -1,6 +1,7 @@
 //! A contact, prepared once and then only read: the family it belongs to, and the units that turn its numbers into forces
 //! and displacements.
 
+use crate::curve::check_displacement;
 use crate::cycle_rules::GAUSS;
 use crate::elliptic::Elliptic;
 use crate::error::Error;
@@ -180,7 +181,9 @@ impl Contact {
         if !slip_energy.is_normal() {
             return Err(Error::OutOfRange);
         }
+        // One that could not be asked for would never be reached.
         let slip_displacement = displacement_unit * family.slip_approach();
+        check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
         let (from_origin, rest) = if self.is_elliptic() { (1.0, 1.0) } else { (FROM_ORIGIN, 1.0 - FROM_ORIGIN) };
         Ok(Contact {
             slip_force,
@@ -579,5 +582,30 @@ pub(crate) mod tests {
             reserved: 0,
         };
         assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
+    }
+
+    #[test]
+    fn a_displacement_of_gross_slip_that_no_call_takes_is_refused() {
+        let (mut accepted, mut refused) = (0, 0);
+        for decade in 130..150 {
+            let rough = EllipticParameters {
+                semi_axis_x: 6.25e-6,
+                semi_axis_y: 2e-4,
+                normal_force: 100.0,
+                friction_coefficient: 10f64.powi(decade),
+                material: [TITANIUM; 2],
+            };
+            match Contact::elliptic(&rough) {
+                Ok(contact) => {
+                    accepted += 1;
+                    assert!(contact.curve_at_displacement(contact.slip_displacement).is_ok());
+                }
+                Err(error) => {
+                    refused += 1;
+                    assert_eq!(error, Error::OutOfRange);
+                }
+            }
+        }
+        assert!(accepted > 0 && refused > 0);
     }
 }
