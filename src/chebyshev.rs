@@ -178,4 +178,30 @@ mod tests {
         }
         assert!(!Interpolant::<20>::through(f64::abs).is_resolved(1e-15));
     }
+
+    #[test]
+    fn cosines_go_round_the_circle() {
+        for quarter in [1, 3, 16, 20] {
+            for m in 0..=9 * quarter {
+                let exact = (core::f64::consts::FRAC_PI_2 * m as f64 / quarter as f64).cos();
+                // The argument of the exact one is rounded, at up to two turns and a quarter.
+                assert!((cosine(m, quarter) - exact).abs() < 3e-15, "{m} {quarter}");
+            }
+        }
+    }
+
+    #[test]
+    fn powers_make_chebyshev_polynomials() {
+        for (shift, scale) in [(0.0, 1.0), (-1.0, 2.0)] {
+            for (n, row) in powers_in(shift, scale).iter().enumerate() {
+                for z in [-1.0, -0.4, 0.3, 0.9_f64] {
+                    let x = (z - shift) / scale;
+                    let value = row.iter().rev().fold(0.0, |sum, power| sum * x + power);
+                    // The powers' coefficients grow with the polynomial's value outside of -1 to 1.
+                    let size = row.iter().rev().fold(0.0, |sum, power| sum * x.abs() + power.abs());
+                    assert!((value - (n as f64 * z.acos()).cos()).abs() < 2e-14 + 4e-15 * size, "{n} {z}");
+                }
+            }
+        }
+    }
 }

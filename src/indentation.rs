@@ -267,4 +267,16 @@ mod tests {
         assert_eq!(Indentation::of_load(1.0, 0.0).w, 0.0);
         assert_eq!(Indentation::of_load(0.0, PI).w, 1.0);
     }
+
+    #[test]
+    fn series_and_closed_forms_meet() {
+        // At ψ = π/3: a = 1, w = √3, c = 2.
+        let (w, psi, chi) = (3f64.sqrt(), PI / 3.0, 1.0 / 3.0);
+        let load = 2.0 * (4.0 * psi - w);
+        let mean_load = (6.0 * psi - 3.0 * w) / load;
+        let series = chi * sum(&mean_over_family(1.0), chi);
+        // Both lose a bit or two.
+        assert!((series / mean_load - 1.0).abs() < 2e-15, "{series} {mean_load}");
+        assert_eq!(mean_over_family(2.0), MEAN_SQUARE);
+    }
 }

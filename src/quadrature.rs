@@ -151,4 +151,16 @@ mod tests {
         let log: f64 = TANH_SINH.iter().map(|n| n.weight * n.from_0 * n.from_0.ln()).sum();
         assert!((log * -4.0 - 1.0).abs() < 2e-15, "{log}");
     }
+
+    #[test]
+    fn functions_for_the_compiler_are_those_of_the_library() {
+        for k in 0..=64 {
+            let angle = core::f64::consts::PI * f64::from(k) / 64.0;
+            // Terms of up to 9 add up.
+            assert!((cos(angle) - angle.cos()).abs() < 4e-15, "{k}");
+            let x = -40.0 + 0.7 * f64::from(k);
+            // A unit of rounding for each power of two in it.
+            assert!((exp(x) / x.exp() - 1.0).abs() < 64.0 * f64::EPSILON, "{x}");
+        }
+    }
 }
