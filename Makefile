@@ -16,7 +16,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all shared install uninstall demo demo-dependencies audit test accuracy bench instructions instructions-record \
+.PHONY: all shared install uninstall demo demo-dependencies audit coverage test accuracy bench instructions instructions-record \
 	counting-dependencies figures host stress fuzz header docs interface-record dist clean help
 .DELETE_ON_ERROR:
 
@@ -81,6 +81,10 @@ parallel: all
 ## test: every test, in Rust, C, C++ and Fortran
 test:
 	scripts/test.sh
+
+## coverage: which lines of src/ the tests run; 98 % at least
+coverage:
+	scripts/coverage.sh
 
 ## audit: licences, duplicates and sources of the dependencies, and advisories against them
 audit:

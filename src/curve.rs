@@ -423,6 +423,8 @@ mod tests {
             // A quotient, a root and a product.
             assert!((end.stick_half_width() - flat).abs() <= 4e-16 * flat, "{flat} {}", end.stick_half_width());
             assert_eq!(end.compliance().is_infinite(), flat == 0.0);
+            let half = 0.5 * contact.slip_displacement;
+            assert_eq!(contact.curve_at_displacement(-half).unwrap().displacement(), -half);
             let beyond = contact.curve_at_displacement(-2.0 * contact.slip_displacement).unwrap();
             assert_eq!((beyond.force(), beyond.stiffness()), (-contact.slip_force, 0.0));
             assert_eq!((beyond.displacement(), beyond.stick_half_width()), (-contact.slip_displacement, 0.0));

@@ -142,3 +142,15 @@ impl core::fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_shown_as_its_sentence() {
+        for error in Error::ALL {
+            assert_eq!(std::format!("{error}").as_bytes(), error.sentence().to_bytes());
+        }
+    }
+}

@@ -49,6 +49,10 @@ fn drive(name: &str) {
     let mut build = compiler.to_command();
     build.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]).arg("-I").arg(root().join("include"));
     build.arg(root().join("c_tests").join(name).with_extension("c")).arg(archive).args(libraries).arg("-lm");
+    if std::env::var_os("LLVM_PROFILE_FILE").is_some() {
+        // Counters of coverage in the archive are written at the end by what this name brings along.
+        build.arg("-Wl,-u,__llvm_profile_runtime");
+    }
     run(build.arg("-o").arg(&program));
     for arguments in [&[][..], &["--trap"]] {
         let text = run(Command::new(&program).args(arguments).current_dir(root()));
