@@ -28,8 +28,9 @@ export LLVM_PROFILE_FILE="$build/profiles/%m-%p.profraw"
 # The test programs, and the C drivers that one of them has built; each by itself, for a function that was compiled twice is
 # lost where both are looked at together.
 for program in $(sed -n 's/^ *Running .*(\(.*\))$/\1/p' "$build/log") "$build"/tmp/c_drivers/*; do
-    [ -f "$program" ] && [ -x "$program" ] || continue
-    "$tools/llvm-cov" export --format=lcov --instr-profile "$build/merged.profdata" "$program" --sources src
+    if [ -f "$program" ] && [ -x "$program" ]; then
+        "$tools/llvm-cov" export --format=lcov --instr-profile "$build/merged.profdata" "$program" --sources src
+    fi
 done > "$build/lcov"
 
 # Tests stand at the end of a file.
