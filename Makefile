@@ -16,7 +16,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all shared install uninstall demo demo-dependencies audit coverage test accuracy bench instructions instructions-record \
+.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions instructions-record \
 	counting-dependencies figures host stress fuzz header docs interface-record dist clean help
 .DELETE_ON_ERROR:
 
@@ -85,6 +85,10 @@ test:
 ## coverage: which lines of src/ the tests run; 98 % at least
 coverage:
 	scripts/coverage.sh
+
+## miri: the C interface under Miri, which finds undefined behaviour
+miri:
+	scripts/miri.sh
 
 ## audit: licences, duplicates and sources of the dependencies, and advisories against them
 audit:

@@ -26,7 +26,9 @@ step() {
     shift
     printf '%-68s' "$name"
     status=0
+    begun=$(date +%s)
     "$@" > "$work/log" 2>&1 || status=$?
+    seconds=$(($(date +%s) - begun))
     if [ "$status" -eq 77 ]; then
         echo "SKIPPED: $(tail -n 1 "$work/log")"
         return
@@ -47,7 +49,7 @@ step() {
     passed=$((passed + good))
     failed=$((failed + bad))
     if [ "$bad" -eq 0 ]; then
-        echo "$good passed"
+        echo "$good passed, $seconds s"
     else
         echo "FAILED ($good passed, $bad failed)"
         sed 's/^/    /' "$work/log"
@@ -117,7 +119,6 @@ step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warn
 step 'Rust: documentation' env RUSTDOCFLAGS='-D warnings' "$CARGO" doc --no-deps --locked --package microslip
 step 'shell: lints' sh -c 'find . -name target -prune -o -name "*.sh" -print | xargs shellcheck .ci/run'
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
-step 'C interface under Miri' scripts/miri.sh
 step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
 step 'memory under stress, a hundredth of it' "$CARGO" run --quiet --release --locked --package stress -- --scale 0.01
