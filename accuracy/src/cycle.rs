@@ -275,7 +275,8 @@ impl Cycles {
         let exact = unit * &imaginary;
         // Beyond gross slip E = E_slip + 4 (x - x_s), where x_s is known to what is promised for it.
         let slips = amplitude > contact.slip_displacement;
-        let slip = if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
+        let slip =
+            if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
         tally.check(("k_imag", kind, range), got[1], &exact, 3.0 * soft + slip, place);
         let (real, real_rate) = match self.real(&x.at(128)) {
             Some(found) => found,
