@@ -98,10 +98,15 @@ impl<const N: usize> Interpolant<N> {
         Interpolant(coefficients)
     }
 
-    /// Whether the last two coefficients are rounding, or as small as is asked for.
+    /// Whether the last two coefficients are as small as is asked for.
     pub fn is_resolved(&self, tolerance: f64) -> bool {
-        let &[first, .., last_but_one, last] = self.0.as_slice() else { return false };
-        last_but_one.abs().max(last.abs()) <= tolerance * first.abs()
+        let &[.., last_but_one, last] = self.0.as_slice() else { return false };
+        last_but_one.abs().max(last.abs()) <= tolerance
+    }
+
+    /// The coefficient of T_0: the mean over the points.
+    pub fn mean(&self) -> f64 {
+        self.0.first().copied().unwrap_or(0.0)
     }
 
     /// Coefficients of the powers of z from those of the first `used` Chebyshev polynomials.

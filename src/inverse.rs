@@ -5,7 +5,7 @@
 //! gross slip, `ρ = (x_s - x)/(3/5 x_s)`, goes with its root v: the curve is singular at v = 0, where it may have any power of
 //! ρ^(1/3) or a logarithm, and seen from the octave 2⁻ʲ⁻¹ < v < 2⁻ʲ that is three half-lengths away, so that every octave needs
 //! the same few terms. What is interpolated is the tangent stiffness, of which the force is the integral: both keep their
-//! digits. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
+//! digits; and of the stiffness only what it falls by, so that rounding is felt no more than the curve bends. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
 
 use crate::chebyshev::{Interpolant, Polynomial, TERMS};
 use crate::family::{Member, Split};
@@ -49,35 +49,35 @@ impl Inverse {
     /// The inverse of the curve on which `at_approach` finds members, whose compliance is Λ + λ.
     pub fn new(slip_approach: f64, compliance: f64, mut at_approach: impl FnMut(Split) -> Member) -> Inverse {
         let (first, rest) = (FROM_ORIGIN * slip_approach, (1.0 - FROM_ORIGIN) * slip_approach);
-        let stiffness = |member: &Member| 1.0 / (compliance + member.excess);
-        let from_origin = Interpolant::<TERMS>::through(|z| {
+        let fall = Interpolant::<TERMS>::through(|z| {
             let lost = 0.5 * (1.0 + z) * first;
-            compliance * stiffness(&at_approach(Split { lost, rest: slip_approach - lost }))
+            let excess = at_approach(Split { lost, rest: slip_approach - lost }).excess;
+            excess / (compliance + excess)
         });
-        let mut resolved = from_origin.is_resolved(1e-15);
+        let mut resolved = fall.is_resolved(1e-15);
+        let mut origin = fall.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
+        if let Some([first, ..]) = origin.first_mut() {
+            *first = 1.0;
+        }
         let mut octaves = [[[0.0; 4]; _]; OCTAVES];
         let mut scale = 0.25;
         for (j, octave) in octaves.iter_mut().enumerate() {
-            let mut at_rate = |z: f64| {
+            let at = |z: f64| {
                 let v = scale * (3.0 + z);
                 let left = rest * v * v;
-                let member = at_approach(Split { lost: slip_approach - left, rest: left });
-                (member.load.rest, 2.0 * rest * scale * v * stiffness(&member))
+                at_approach(Split { lost: slip_approach - left, rest: left })
             };
+            let unit = 2.0 * rest * scale * scale;
             // What the stiffness can be known to grows by four from octave to octave: the later ones need fewer points.
             let tolerance = 1e-15 * (1.0 / (16.0 * scale * scale));
             let (polynomial, fine) = if j < 2 {
-                interpolate::<TERMS>(&mut at_rate, tolerance)
+                interpolate::<TERMS>(compliance, unit, at, tolerance)
             } else {
-                interpolate::<16>(&mut at_rate, tolerance)
+                interpolate::<16>(compliance, unit, at, tolerance)
             };
             *octave = polynomial;
             resolved &= fine;
             scale *= 0.5;
-        }
-        let mut origin = from_origin.mean_from_end();
-        if let Some([first, ..]) = origin.first_mut() {
-            *first = 1.0;
         }
         Inverse { origin, octaves, resolved: if resolved { 1.0 } else { 0.0 } }
     }
@@ -112,25 +112,37 @@ impl Inverse {
     }
 }
 
-/// The integral of a rate, placed by its own values, which come with it; and whether the rate is resolved.
-fn interpolate<const N: usize>(mut at: impl FnMut(f64) -> (f64, f64), tolerance: f64) -> (Polynomial, bool) {
+/// 1 - τ over an octave, and whether it is resolved: the integral of `unit (3+z)/(Λ + λ)`, placed by its own values. The
+/// compliance at the first point makes a parabola of it, and what is interpolated is the way from there.
+fn interpolate<const N: usize>(
+    compliance: f64,
+    unit: f64,
+    mut at: impl FnMut(f64) -> Member,
+    tolerance: f64,
+) -> (Polynomial, bool) {
     let mut values = [0.0; N];
     let mut places = values.iter_mut();
-    let rate = Interpolant::<N>::through(|z| {
-        let (value, rate) = at(z);
+    let mut first = None;
+    let fall = Interpolant::<N>::through(|z| {
+        let member = at(z);
         if let Some(place) = places.next() {
-            *place = value;
+            *place = member.load.rest;
         }
-        rate
+        (3.0 + z) * ((member.excess - *first.get_or_insert(member.excess)) / (compliance + member.excess))
     });
-    let mut integral = rate.integral();
+    let stiffness = unit / (compliance + first.unwrap_or(0.0));
+    let mut integral = fall.integral().map(|row| row.map(|coefficient| -stiffness * coefficient));
+    if let Some([_, linear, square, _]) = integral.first_mut() {
+        *linear += 3.0 * stiffness;
+        *square += 0.5 * stiffness;
+    }
     let points = const { &Interpolant::<N>::POINTS };
     let off = points.iter().zip(values).map(|(&z, value)| value - value_and_slope(&integral, z).0);
     let constant = off.sum::<f64>() / N as f64;
     if let Some([first, ..]) = integral.first_mut() {
         *first = constant;
     }
-    (integral, rate.is_resolved(tolerance))
+    (integral, fall.is_resolved(tolerance * (3.0 - fall.mean())))
 }
 
 #[cfg(test)]
