@@ -5,24 +5,7 @@ set -eu
 # As root and with more ranks than cores, for this is a test; in containers, where a process may not read another's memory.
 : "${MPIRUN:=mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none}"
 export OPENBLAS_NUM_THREADS=1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
-
-# check SENTENCE COMMAND...
-check() {
-    sentence=$1
-    shift
-    if "$@" > "$work/log" 2>&1; then
-        passed=$((passed + 1))
-        echo "holds: $sentence"
-    else
-        failed=$((failed + 1))
-        echo "NOT SO: $sentence"
-        tail -n 20 "$work/log"
-    fi
-}
+. "$(dirname "$0")/../scripts/checks.sh"
 
 # sweep RANKS DIRECTORY [CASE...]: each rank leaves its process id beside the results.
 sweep() {
@@ -113,5 +96,4 @@ check 'a record cut short is solved again' mended cut_short
 check 'a record with a changed byte is solved again' mended change_byte
 check 'results of other cases are refused, and stay' refused
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts

@@ -11,29 +11,19 @@ PATH=$PATH:$PWD/target/tools/bin
 command -v cargo-deny > /dev/null 2>&1 ||
     "$CARGO" install --quiet --locked --root target/tools --target-dir target/tools/build cargo-deny
 
-passed=0
-failed=0
-check() { # CHECK MANIFEST
-    if cargo-deny --manifest-path "$2" --locked --config deny.toml check "$1"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-    fi
-}
+. scripts/checks.sh
 
-checks='licenses bans sources'
+subjects='licenses bans sources'
 if cargo-deny fetch db > /dev/null 2>&1; then
-    checks="$checks advisories"
+    subjects="$subjects advisories"
 else
     echo 'The database of advisories cannot be reached: advisories and withdrawn versions are NOT checked.'
 fi
 for manifest in Cargo.toml */Cargo.toml; do
     grep -q '^\[workspace\]' "$manifest" || continue # a member is checked with its workspace
-    echo "$manifest"
-    for check in $checks; do
-        check "$check" "$manifest"
+    for subject in $subjects; do
+        check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --locked --config deny.toml check "$subject"
     done
 done
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts

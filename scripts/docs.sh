@@ -9,26 +9,13 @@ MSLIP_VERSION=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 export MSLIP_VERSION
 out=target/docs
 ford=target/tools/ford
-passed=0
-failed=0
-
-# made NAME COMMAND...
-made() {
-    name=$1
-    shift
-    if "$@" > "$out/$name.log" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        cat "$out/$name.log"
-        echo "The reference of $name is not made, or not complete."
-    fi
-}
+. scripts/checks.sh
 
 fortran() {
     $ford/bin/python -c 'import ford' 2> /dev/null ||
         { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13; } || return 1
-    $ford/bin/python docs/reference/fortran.py docs/reference/ford.md && ! grep -q 'Warning' $out/Fortran.log
+    $ford/bin/python docs/reference/fortran.py docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
+    ! grep 'Warning' "$work/ford"
 }
 
 rust() {
@@ -38,9 +25,9 @@ rust() {
 
 rm -rf $out
 mkdir -p $out
-made C doxygen docs/reference/Doxyfile
-made Fortran fortran
-made Rust rust
+check 'C: every function has its reference' doxygen docs/reference/Doxyfile
+check 'Fortran: every procedure has its reference' fortran
+check 'Rust: every item has its reference' rust
 rm -rf $out/rust-build
 
 cat > $out/index.html << END
@@ -58,5 +45,4 @@ cat > $out/index.html << END
 </html>
 END
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts

@@ -18,27 +18,10 @@ prefix=$(cd "$1" && pwd)
 shift
 cd "$(dirname "$0")/.."
 : "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}" "${VALGRIND:=valgrind}" "${NM:=nm}"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. scripts/checks.sh
 archive=$prefix/lib/libmicroslip.a
 unprocessed=target/release/libmicroslip.a
 here=guest_tests
-passed=0
-failed=0
-
-# check SENTENCE COMMAND...: commands of several steps are functions, which join them by &&.
-check() {
-    sentence=$1
-    shift
-    if "$@" > "$work/log" 2>&1; then
-        passed=$((passed + 1))
-        echo "holds: $sentence"
-    else
-        failed=$((failed + 1))
-        echo "NOT SO: $sentence"
-        tail -n 40 "$work/log"
-    fi
-}
 
 # Products and sums of the host stay apart, so that all compilers make the same inputs.
 strict='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off'
@@ -412,5 +395,4 @@ for group in "$@"; do
     esac
 done
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts

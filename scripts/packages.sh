@@ -1,31 +1,14 @@
 #!/bin/sh
 # packages.sh: is the library there for each way in which clients take it? A source tarball is built without a network
-# and installed, and a client in C and one in Fortran are built by each tool. TOLD=1 shows what passes, too.
+# and installed, and a client in C and one in Fortran are built by each tool.
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${CC:=gcc}" "${FC:=gfortran}" "${NM:=nm}" "${TOLD:=}"
+: "${CARGO:=cargo}" "${CC:=gcc}" "${FC:=gfortran}" "${NM:=nm}"
 export CARGO CC FC
 unset MAKEFLAGS MFLAGS MAKELEVEL # the make that started this is not the parent of those below
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
-
-# check SENTENCE COMMAND...; in a function, commands are joined by &&, for a failure does not end the shell there.
-check() {
-    sentence=$1
-    shift
-    if "$@" > "$work/log" 2>&1; then
-        passed=$((passed + 1))
-        [ -z "$TOLD" ] || echo "so: $sentence"
-    else
-        failed=$((failed + 1))
-        echo "not so: $sentence"
-        sed 's/^/    /' "$work/log"
-    fi
-}
+. scripts/checks.sh
 
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
@@ -43,13 +26,8 @@ if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 
 scripts/tarball.sh "$tree.tar.gz"
 tar -xzf "$tree.tar.gz" -C "$work"
-if ! offline make -C "$tree" install PREFIX="$static" > "$work/log" 2>&1; then
-    cat "$work/log"
-    echo 'not so: the tarball can be built and installed without a network'
-    echo '0 passed, 1 failed'
-    exit 1
-fi
-passed=1
+check 'the tarball can be built and installed without a network' offline make -C "$tree" install PREFIX="$static"
+[ "$failed" -eq 0 ] || { counts; exit; }
 
 # One version, wherever it is written.
 check 'version of fpm.toml' grep -qx "version = \"$version\"" fpm.toml
@@ -186,5 +164,4 @@ check 'another interface is another series of versions' refused 'Raise the versi
 check 'with which it is accepted' changed "$argument; $raised; $next_series" --record
 check 'a status code keeps its name for good' refused 'two names' "$code; $raised; $next_series" --record
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts

@@ -5,23 +5,7 @@ set -eu
 prefix=$1
 archive=$prefix/lib/libmicroslip.a
 : "${CC:=cc}" "${NM:=nm}" "${OBJDUMP:=objdump}" "${CARGO:=cargo}"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
-
-# check SENTENCE COMMAND...
-check() {
-    sentence=$1
-    shift
-    if "$@" > "$work/log" 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "not so: $sentence"
-        cat "$work/log"
-    fi
-}
+. "$(dirname "$0")/checks.sh"
 
 none() {
     [ ! -s "$1" ] || { cat "$1"; false; }
@@ -88,5 +72,4 @@ sed -n 's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' "$pr
     sort > "$work/fortran_constants"
 check 'the Fortran module has the constants of the header' diff "$work/c_constants" "$work/fortran_constants"
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+counts
