@@ -185,6 +185,14 @@ impl Case {
         state
     }
 
+    /// Q/μP after displacements in their unit.
+    pub fn force_after(&self, displacements: &[f64]) -> f64 {
+        let (last, before) = displacements.split_last().expect("a displacement");
+        let state = self.state_after(before);
+        let step = masing::step(&self.contact, &state, last * self.displacement_unit()).expect("a step");
+        step.force() / self.contact.slip_force
+    }
+
     /// Stiffness a little after a reversal at Q/μP, in its unit.
     pub fn stiffness_after_reversal(&self, reversal: f64, little: f64) -> f64 {
         let turn = self.displacement(reversal);
