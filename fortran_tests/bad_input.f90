@@ -20,6 +20,7 @@ program bad_input
   call test_batches()
   call test_contact_bits()
   call test_state_bits()
+  call test_restart_file()
   call test_workspace_bits()
   call report()
 
@@ -271,6 +272,26 @@ contains
     end do
     call check('every bit of a contact counts', refusals == 64*size(words) .and. is_untouched([force]))
   end subroutine test_contact_bits
+
+  subroutine test_restart_file()
+    ! A contact and a state as they are in memory, written and read.
+    type(mslip_contact) :: contact
+    real(wp) :: state(mslip_state_length(4_mslip_size)), read_state(mslip_state_length(4_mslip_size)), force(2)
+    integer(mslip_int) :: status
+    integer :: file
+
+    call mslip_state_init(state, status)
+    call mslip_masing_update(flat, state, 1.0e-7_wp, status)
+    open (newunit=file, status='scratch', form='unformatted')
+    write (file) flat, state
+    rewind (file)
+    read (file) contact, read_state
+    close (file)
+    call mslip_masing_update(flat, state, 0.5e-7_wp, status, force(1))
+    call mslip_masing_update(contact, read_state, 0.5e-7_wp, status, force(2))
+    call check_status('a step from a restart file', status, MSLIP_OK)
+    call check_same('a step from a restart file', force(2:), force(:1))
+  end subroutine test_restart_file
 
   subroutine test_state_bits()
     real(wp) :: state(mslip_state_length(1_mslip_size)), changed(mslip_state_length(1_mslip_size)), force

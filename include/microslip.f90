@@ -20,7 +20,7 @@ module microslip
   !!
   !! **Threads.** Nothing is kept between calls: any thread may call anything on its own data, and contacts, once
   !! prepared, may be shared. A call takes at most 40 kB of stack (`OMP_STACKSIZE`).
-  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_loc, &
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_loc, &
     c_null_ptr, c_ptr, c_size_t
   implicit none
   private
@@ -137,7 +137,7 @@ module microslip
     real(mslip_real) :: slip_displacement = 0  !! Displacement at which gross slip starts, m.
     real(mslip_real) :: initial_stiffness = 0  !! Derivative of the force by the displacement at 0, N/m.
     real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip, J (Eq. 16).
-    real(mslip_real), private :: reserved(reserved_numbers) = 0
+    real(mslip_real) :: reserved(reserved_numbers) = 0  !! Not to be changed; public, for `write` takes no private component.
   end type mslip_contact
 
   ! A workspace begins with numbers of this module, by which the sizes of the arrays can be checked: the mark of an
@@ -146,7 +146,7 @@ module microslip
   integer(c_int64_t), parameter :: workspace_mark = transfer(-5.7238113e286_mslip_real, 0_c_int64_t)
 
   ! Where an array without elements lies: c_loc is defined for arrays with elements only.
-  real(mslip_real), target, save :: no_elements(1) = 0
+  real(mslip_real), target :: no_elements(1) = 0
 
   interface mslip_monotonic_displacement
     !! Displacement under a force grown monotonically from 0.
@@ -228,12 +228,12 @@ module microslip
       integer(c_size_t) :: length
     end function c_strlen
 
-    function c_version() bind(c, name='mslip_version') result(text)
+    pure function c_version() bind(c, name='mslip_version') result(text)
       import :: c_ptr
       type(c_ptr) :: text
     end function c_version
 
-    function c_status_text(status) bind(c, name='mslip_status_text') result(text)
+    pure function c_status_text(status) bind(c, name='mslip_status_text') result(text)
       import :: c_ptr, mslip_int
       integer(mslip_int), value, intent(in) :: status
       type(c_ptr) :: text
@@ -462,7 +462,7 @@ contains
 
   function mslip_version() result(text)
     !! Version of the linked library, such as "1.2.3".
-    character(len=:), allocatable :: text  !! The text, without blanks around it.
+    character(len=c_strlen(c_version())) :: text  !! The text, without blanks around it.
 
     text = text_of(c_version())
   end function mslip_version
@@ -470,7 +470,7 @@ contains
   function mslip_status_text(status) result(text)
     !! What a status code means: what is wrong and what is allowed, in one sentence. Any number may be asked for.
     integer(mslip_int), intent(in) :: status  !! A status code.
-    character(len=:), allocatable :: text  !! The text, without blanks around it.
+    character(len=c_strlen(c_status_text(status))) :: text  !! The text, without blanks around it.
 
     text = text_of(c_status_text(status))
   end function mslip_status_text
@@ -856,11 +856,8 @@ contains
     integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
     integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_EQUIDISTANT` (the default) or `MSLIP_BETWEEN_REVERSALS`.
     integer(mslip_size) :: needed  !! Numbers that the workspace has to have.
-    integer(mslip_int) :: chosen
 
-    chosen = MSLIP_EQUIDISTANT
-    if (present(rule)) chosen = rule
-    needed = c_harmonic_workspace_length(harmonics, samples, chosen)
+    needed = c_harmonic_workspace_length(harmonics, samples, chosen(rule))
     ! A C length beyond the largest integer of this kind arrives negative.
     if (needed > 0 .and. needed <= huge(needed) - workspace_header) then
       needed = needed + workspace_header
@@ -881,18 +878,14 @@ contains
       !! `MSLIP_EQUIDISTANT`: samples at equal distances from t = 0 (the default). `MSLIP_BETWEEN_REVERSALS`: about as many
       !! nodes between the instants at which the displacement turns, a loop closes or gross slip starts; far more accurate.
 
-    integer(mslip_int) :: chosen
-
-    chosen = MSLIP_EQUIDISTANT
-    if (present(rule)) chosen = rule
     if (size(workspace) > workspace_header) then
-      status = c_harmonic_workspace_init(harmonics, samples, chosen, &
+      status = c_harmonic_workspace_init(harmonics, samples, chosen(rule), &
         size(workspace, kind=mslip_size) - workspace_header, c_loc(workspace(workspace_header + 1)))
     else
-      status = c_harmonic_workspace_init(harmonics, samples, chosen, 0_mslip_size, c_loc(no_elements))
+      status = c_harmonic_workspace_init(harmonics, samples, chosen(rule), 0_mslip_size, c_loc(no_elements))
     end if
     if (status /= MSLIP_OK) return
-    call mark_workspace(workspace, int(mslip_harmonic_workspace_length(harmonics, samples, chosen), c_int64_t), &
+    call mark_workspace(workspace, int(mslip_harmonic_workspace_length(harmonics, samples, rule), c_int64_t), &
       int(2*harmonics + 1, c_int64_t))
   end subroutine mslip_harmonic_workspace_init
 
@@ -1092,23 +1085,28 @@ contains
   ! Between Fortran and C
 
   function text_of(text) result(copy)
-    ! A C string as Fortran text.
+    ! A C string as Fortran text. Its length is not deferred: with -fno-automatic gfortran 12 returns such a text empty.
     type(c_ptr), intent(in) :: text
-    character(len=:), allocatable :: copy
+    character(len=c_strlen(text)) :: copy
 
     character(kind=c_char), pointer :: characters(:)
-    integer(c_size_t) :: i, n
+    integer :: i
 
-    copy = ''
-    if (.not. c_associated(text)) return
-    n = c_strlen(text)
-    call c_f_pointer(text, characters, [n])
-    deallocate (copy)
-    allocate (character(len=n) :: copy)
-    do i = 1, n
+    call c_f_pointer(text, characters, [len(copy)])
+    do i = 1, len(copy)
       copy(i:i) = characters(i)
     end do
   end function text_of
+
+  pure function chosen(rule)
+    ! The rule that is given, or the default. A function, because a pure procedure with a local variable is refused where a
+    ! compiler is told to keep all of them (-fno-automatic).
+    integer(mslip_int), intent(in), optional :: rule
+    integer(mslip_int) :: chosen
+
+    chosen = MSLIP_EQUIDISTANT
+    if (present(rule)) chosen = rule
+  end function chosen
 
   pure subroutine mark_workspace(workspace, needed, m)
     ! What a workspace begins with: a seal, its length and its number of coefficients, which must agree when they are read.

@@ -167,11 +167,11 @@ step 'packages: fpm' scripts/fpm.sh "$prefix"
 wide='-fdefault-real-8 -fdefault-integer-8'
 traps='-ffpe-trap=invalid,zero,overflow'
 for standard in f2008 f2018; do
-    for kinds in '' "$wide"; do
+    for kinds in '' "$wide" -fno-automatic; do
         step "Fortran module: $standard $kinds" fortran_module "-std=$standard -Wall -Wextra -pedantic -Werror $kinds"
     done
 done
-for kinds in '' "$wide"; do
+for kinds in '' "$wide" -fno-automatic; do
     for program in test_microslip bad_input; do
         step "Fortran: $program $kinds" fortran_tests "$kinds" "$program"
         step "Fortran: $program, floating-point traps $kinds" fortran_tests "$traps $kinds" "$program"
