@@ -33,22 +33,34 @@ fn parse(source: impl Read, column: Option<&str>, units: Units) -> Result<Vec<Ro
     let mut place = None;
     for (record, number) in reader.records().zip(1..) {
         let record = record.map_err(|error| error.to_string())?;
+        // With these, a comma may be that of a number.
+        if record.iter().any(|cell| cell.contains(';')) {
+            return Err(format!("row {number}: columns are separated by commas, not by semicolons"));
+        }
         let place = match place {
             Some(place) => place,
             None => *place.insert(find(&record, column, units)?),
         };
         let cell = record.get(place).ok_or(format!("row {number} has no column {}", place + 1))?;
-        match cell.parse() {
-            Ok(displacement) => rows.push(Row { number, displacement }),
-            Err(_) if number == 1 && is_header(&record) => {}
-            Err(_) => return Err(format!("row {number}: {cell:?} is not a number")),
+        match number_in(cell) {
+            Some(displacement) => rows.push(Row { number, displacement }),
+            None if number == 1 && is_header(&record) => {}
+            None => return Err(format!("row {number}: {cell:?} is not a number; columns are separated by commas")),
         }
     }
     Ok(rows)
 }
 
+/// A number, with the exponent that Fortran writes too: 1.0D-06.
+fn number_in(cell: &str) -> Option<f64> {
+    cell.replace(['d', 'D'], "e").parse().ok()
+}
+
+/// A first row of names. What begins as a number does is a number that cannot be read.
 fn is_header(record: &StringRecord) -> bool {
-    record.iter().all(|cell| cell.parse::<f64>().is_err())
+    let begins_as_number =
+        |cell: &str| cell.starts_with(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
+    record.iter().all(|cell| !begins_as_number(cell) && number_in(cell).is_none())
 }
 
 /// The column to take, from the first row.
@@ -93,6 +105,7 @@ mod tests {
         assert_eq!(displacements("# c\ntime [s], displacement [m]\n0,1e-6\n1, -2e-6\n", None), two);
         assert_eq!(displacements("t,u\n0,1e-6\n1,-2e-6\n", Some("u")), two);
         assert_eq!(displacements("0,1e-6\n1,-2e-6\n", Some("2")), two);
+        assert_eq!(displacements(" 1.0D-06\n-2.0d-06\n", None), two);
         let rows = parse(
             "x
 1
@@ -111,7 +124,10 @@ mod tests {
     fn what_cannot_be_read_is_named() {
         for (text, column, reason) in [
             ("1\nx\n", None, "row 2: \"x\" is not a number"),
-            ("1;2\n", None, "no displacements"),
+            ("1.0-300\n1\n", None, "row 1: \"1.0-300\" is not a number"),
+            ("0.0 1e-6\n0.1 2e-6\n", None, "columns are separated by commas"),
+            ("0;1,0E-06\n", Some("2"), "row 1: columns are separated by commas, not by semicolons"),
+            ("u\n", None, "no displacements"),
             ("t,u\n0,1\n", None, "which of the 2 columns"),
             ("t,u\n0,1\n", Some("w"), "there is no column w; columns are t, u"),
             ("0,1\n", Some("3"), "there is no column 3; columns are 1 to 2"),
