@@ -373,12 +373,20 @@ pub fn history(arguments: &History) -> Outcome<Answer> {
     // No path has more reversals than points.
     let mut state = vec![0.0; state_length(path.len())];
     state_init(&mut state).map_err(|error| Refusal::in_file(&arguments.displacements, error))?;
-    let mut rows = Vec::new();
+    // Between the rows the picture follows the law, and no chord.
+    let between = u32::try_from(2000 / path.len()).unwrap_or(1).max(1);
+    let (mut rows, mut points) = (Vec::new(), vec![(0.0, 0.0)]);
     for Row { number, displacement } in path {
         let refuse = |error| Refusal::in_file(&arguments.displacements, format!("row {number}: {error}"));
         let displacement = if arguments.relative { displacement * contact.slip_displacement } else { displacement };
+        let from = rows.last().map_or(0.0, |row: &Vec<f64>| row[0]);
+        for part in 1..between {
+            let on_the_way = from + (displacement - from) * f64::from(part) / f64::from(between);
+            points.push((on_the_way, step(contact, &state, on_the_way).map_err(refuse)?.force()));
+        }
         let step = step(contact, &state, displacement).map_err(refuse)?;
         let dissipated = step.dissipated(&state).map_err(refuse)?;
+        points.push((displacement, step.force()));
         rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
         step.write(&mut state);
     }
@@ -396,7 +404,6 @@ pub fn history(arguments: &History) -> Outcome<Answer> {
         ("dissipated", Quantity::Energy),
     ];
     let table = Table::of_numbers(&columns, units, &rows);
-    let points = [vec![(0.0, 0.0)], pairs(&rows, 0, 1)].concat();
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
     Ok(Answer::new("history", described, &options, table, panels).with_remark("dissipated: energy of each step"))
 }
