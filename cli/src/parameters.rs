@@ -47,7 +47,7 @@ pub struct Given {
     /// Where the displacement is taken [default: centre_point]
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
-    /// Units of all numbers, given and computed [default: si]
+    /// Units of all numbers, given and computed; a parameter file must not name others [default: si]
     #[arg(long, value_name = "NAME")]
     units: Option<Units>,
     #[arg(skip)]
@@ -177,6 +177,10 @@ impl Given {
                 _ => return usage("a contact has two bodies: give one number for both, or two"),
             };
             to.into_iter().zip(values).for_each(|(to, value)| *to = Some(value));
+        }
+        // Nothing is converted: the file's numbers would be taken for others.
+        if self.units.zip(file.units).is_some_and(|(asked, written)| asked != written) {
+            return input("--units: the parameter file names other units, and its numbers would not be converted");
         }
         Ok(Given {
             flat_half_width: self.flat_half_width.or(file.flat_half_width),

@@ -456,6 +456,8 @@ fn what_is_wrong_in_a_file_is_said_with_its_name() {
         assert!(code == 1 && error.contains(sentence) && error.contains("contact.toml: "), "{to}: {code} {error}");
     }
     fs::write(&file, &example).unwrap();
+    let (code, error) = refusal("", &format!("contact {} --units mm", file.display()));
+    assert!(code == 1 && error.contains("the parameter file names other units"), "{code} {error}");
     for (path, sentence) in [
         ("1e-6\n1e-6m", "standard input: row 2: \"1e-6m\" is not a number"),
         ("u\n1e-6\ninf", &format!("row 3: {}", Error::BadDisplacement)),
@@ -522,6 +524,16 @@ fn every_command_draws() {
     let table = stdout_with(b"1e-6\n", &format!("history {} --plot {}", flat().1, png.display()));
     assert_eq!(numbers(&table).len(), 1);
     assert_picture(&png);
+
+    // From one row to the next a history is drawn as the law goes, not along a chord.
+    let svg = picture("history.svg");
+    stdout_with(b"1e-6\n-1e-6\n", &format!("history {} --plot {}", flat().1, svg.display()));
+    assert_picture(&svg);
+    let text = fs::read_to_string(&svg).unwrap();
+    assert!(
+        text.split("points=\"").any(|rest| rest.split('"').next().unwrap().split_whitespace().count() > 100),
+        "{text}"
+    );
 
     // The words and the lines of one of them.
     let svg = picture("loop.svg");
