@@ -514,8 +514,9 @@ impl Walk<'_> {
     fn begin(&mut self, displacement: f64) {
         let slip = self.contact.slip_displacement;
         let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
-        self.branch = Branch { direction, slides: displacement.abs() > slip, ..Branch::VIRGIN };
-        if self.branch.slides {
+        let slides = displacement.abs() > slip;
+        self.branch = Branch { slides, ..Branch::newest(&[], 0, self.virgin.origin, direction, slip) };
+        if slides {
             self.virgin = Virgin { origin: displacement - direction * slip, slid: direction };
         }
         self.now = self.response(displacement);
@@ -1035,6 +1036,22 @@ mod tests {
             let coefficients = motion(by);
             let walked = Motion { constant: 0.0, pairs: coefficients[1..].as_chunks().0 };
             assert_eq!(workspace.find_turns(&walked), (4, false), "{by}");
+        }
+    }
+
+    /// Turning points at the top, all equally far to rounding: what comes after the first of them has not turned.
+    #[test]
+    fn a_flat_top_is_where_the_walk_begins() {
+        let contact = contact(50e-6);
+        let size = 0.3 * contact.slip_displacement;
+        for (distance, by) in (6..14).flat_map(|tenths| [0.0, 1.1, 2.2].map(|by| (f64::from(tenths) / 10.0, by))) {
+            // cos t - (1/9 + part) cos 3t turns three times within so many steps of the grid, and ε⁴ is below rounding.
+            let step = 2.0 * PI / f64::from(1 << 17);
+            let part = (distance * step) * (distance * step) / 6.75;
+            let motion = turn(&[0.0, size, 0.0, 0.0, 0.0, -(1.0 / 9.0 + part) * size, 0.0], by);
+            let (one, two) = (all(&contact, 1 << 17, &motion), all(&contact, 256, &motion));
+            assert!(off(&one.0, &two.0) < 1e-9 * contact.slip_force, "{distance} {by}");
+            assert!((one.2 / two.2 - 1.0).abs() < 1e-12, "{distance} {by}: {} {}", one.2, two.2);
         }
     }
 
