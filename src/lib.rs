@@ -33,12 +33,8 @@ pub mod masing;
 
 mod cycle_rules;
 pub mod harmonic;
-mod waves;
-mod workspace;
 
 pub mod harmonic_force;
-
-pub mod between_reversals;
 
 pub mod equivalent;
 

@@ -1,6 +1,6 @@
 //! Every row of the reference tables (inputs exact doubles, outputs 25 digits) through the Rust interface.
 
-use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
+use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::masing;
 use microslip::memory::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
@@ -286,8 +286,8 @@ fn harmonic_forces() {
     for row in table("harmonic_force") {
         let (_, contact) = &contacts[row["contact"] as usize];
         let samples = row["samples"] as usize;
-        let mut memory = vec![0.0; workspace_length(3, samples)];
-        workspace_init(3, samples, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(3, samples)];
+        Rule::Equidistant.workspace_init(3, samples, &mut memory).unwrap();
         let mut workspace = Workspace::new(&mut memory).unwrap();
         let displacement: Vec<f64> = (0..7).map(|k| row[&format!("u{k}")]).collect();
         let mut force = vec![0.0; 7];

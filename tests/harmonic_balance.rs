@@ -5,7 +5,7 @@
 //! step through the period, and the Jacobian from central differences. Both are to give the same motion, and both that of
 //! time marching.
 
-use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
+use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::masing;
 use microslip::memory::{state_init, state_length};
 use microslip::{Contact, Material, Parameters};
@@ -206,8 +206,8 @@ struct Library<'a> {
 
 impl Library<'_> {
     fn new(contact: &Contact, harmonics: usize, samples: usize) -> Library<'_> {
-        let mut memory = vec![0.0; workspace_length(harmonics, samples)];
-        workspace_init(harmonics, samples, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(harmonics, samples)];
+        Rule::Equidistant.workspace_init(harmonics, samples, &mut memory).unwrap();
         Library { contact, memory }
     }
 }

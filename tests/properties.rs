@@ -1,7 +1,6 @@
 //! What holds for every contact and every history: Coulomb's bound, dissipation, memory, symmetry, tangents.
 
-use microslip::between_reversals;
-use microslip::harmonic_force::{HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length};
+use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::masing;
 use microslip::memory::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
@@ -241,8 +240,8 @@ proptest! {
     fn the_complex_stiffness_is_the_first_harmonic(contact in contact(), amplitude in 0.02..2.5f64) {
         let amplitude = amplitude * contact.slip_displacement;
         let n = 512;
-        let mut memory = vec![0.0; workspace_length(1, n)];
-        workspace_init(1, n, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(1, n)];
+        Rule::Equidistant.workspace_init(1, n, &mut memory).unwrap();
         let mut workspace = Workspace::new(&mut memory).unwrap();
         let mut force = [0.0; 3];
         let mut energy = 0.0;
@@ -263,14 +262,14 @@ proptest! {
     ) {
         let amplitude = amplitude * contact.slip_displacement;
         let n = 2 * harmonics + 1;
-        let mut memory = vec![0.0; between_reversals::workspace_length(harmonics, 64)];
-        between_reversals::workspace_init(harmonics, 64, &mut memory).unwrap();
-        let mut workspace = between_reversals::Workspace::new(&mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::BetweenReversals.workspace_length(harmonics, 64)];
+        Rule::BetweenReversals.workspace_init(harmonics, 64, &mut memory).unwrap();
+        let mut workspace = Workspace::new(&mut memory).unwrap();
         let (mut force, mut displacement, mut energy) = (vec![0.0; n], vec![0.0; n], 0.0);
         let (sine, cosine) = phase.sin_cos();
         (displacement[1], displacement[2]) = (amplitude * cosine, amplitude * sine);
         let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
-        between_reversals::harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
+        harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
         let stiffness = contact.complex_stiffness(amplitude).unwrap();
         let real = (cosine * force[1] + sine * force[2]) / amplitude;
         let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
@@ -309,8 +308,8 @@ proptest! {
         let displacement: Vec<f64> = (0..9)
             .map(|k| if wanted(k) { size * shape[k] / 3.0 * contact.slip_displacement } else { 0.0 })
             .collect();
-        let mut memory = vec![0.0; workspace_length(4, samples)];
-        workspace_init(4, samples, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(4, samples)];
+        Rule::Equidistant.workspace_init(4, samples, &mut memory).unwrap();
         let (mut force, mut energy) = ([0.0; 9], 0.0);
         let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
         harmonic_force(&contact, &mut Workspace::new(&mut memory).unwrap(), &displacement, output).unwrap();
@@ -347,8 +346,8 @@ proptest! {
     fn the_jacobian_is_exact(contact in contact(), shape in prop::collection::vec(-1.0..1.0f64, 7), size in 0.1..1.5f64) {
         let n = 48;
         let slip = contact.slip_displacement;
-        let mut memory = vec![0.0; workspace_length(3, n)];
-        workspace_init(3, n, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(3, n)];
+        Rule::Equidistant.workspace_init(3, n, &mut memory).unwrap();
         let mut workspace = Workspace::new(&mut memory).unwrap();
         let displacement: Vec<f64> = shape.iter().map(|c| c * size * slip).collect();
         let mut evaluate = |displacement: &[f64], jacobian: Option<&mut [f64]>| {

@@ -5,7 +5,7 @@ use microslip::c_api::{
     mslip_complex_stiffness, mslip_contact, mslip_harmonic_force, mslip_harmonic_workspace_init, mslip_masing_path,
     mslip_monotonic_force, mslip_state_init,
 };
-use microslip::harmonic_force::{self, HarmonicOutput, Workspace, workspace_length};
+use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::masing::{self, PathOutput};
 use microslip::memory::state_length;
 use microslip::{Contact, Material, Parameters};
@@ -120,7 +120,7 @@ fn the_harmonic_force_has_the_same_bits() {
                     even.for_each(|(_, coefficient)| *coefficient = 0.0);
                 }
                 let run = |wide: bool| {
-                    let mut memory = vec![0.0; workspace_length(harmonics, samples)];
+                    let mut memory = vec![0.0; Rule::Equidistant.workspace_length(harmonics, samples)];
                     let (workspace, length) = (memory.as_mut_ptr(), memory.len());
                     // SAFETY: arrays of the lengths that are said.
                     assert_eq!(unsafe { mslip_harmonic_workspace_init(harmonics, samples, length, workspace) }, 0);
@@ -136,7 +136,7 @@ fn the_harmonic_force_has_the_same_bits() {
                         let (force, jacobian) = (Some(force.as_mut_slice()), Some(jacobian.as_mut_slice()));
                         let output = HarmonicOutput { force, jacobian, dissipated: Some(&mut energy) };
                         let mut workspace = Workspace::new(&mut memory).unwrap();
-                        harmonic_force::harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
+                        harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
                     }
                     [bits(&force), bits(&jacobian), bits(&[energy])]
                 };

@@ -1,15 +1,14 @@
 //! One contact in cycles: loops, energy, complex stiffness, harmonic force, and the spring-sliders that stand in for it.
 
 use super::mslip_contact;
-use super::pointer::{self, HarmonicWorkspace, check_length, input, output, outputs, set, status};
+use super::pointer::{self, check_length, input, output, outputs, set, status};
 use super::widest::on_widest;
 use super::{MSLIP_BETWEEN_REVERSALS, MSLIP_EQUIDISTANT};
-use crate::between_reversals;
 use crate::contact::Contact;
 use crate::equivalent;
 use crate::error::Error;
 use crate::harmonic::{ComplexStiffness, check_amplitude};
-use crate::harmonic_force::{self, HarmonicOutput};
+use crate::harmonic_force::{self, HarmonicOutput, Rule, Workspace};
 use libc::size_t;
 
 /// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n equidistant instants of one
@@ -147,7 +146,7 @@ fn imaginary_and_slope(stiffness: &ComplexStiffness) -> (f64, f64) {
 /// is MSLIP_EQUIDISTANT.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: size_t) -> size_t {
-    harmonic_force::workspace_length(harmonics, samples)
+    Rule::Equidistant.workspace_length(harmonics, samples)
 }
 
 /// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread. The rule is
@@ -164,26 +163,23 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
-    let init = || {
-        check_length::<f64>(workspace_length)?;
-        if workspace.is_null() {
-            return Err(Error::NullPointer);
-        }
-        // SAFETY: what the caller was asked for above.
-        let workspace = unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []);
-        harmonic_force::workspace_init(harmonics, samples, workspace)
-    };
-    status(init())
+    // SAFETY: what the caller was asked for above.
+    unsafe { mslip_harmonic_workspace_init_rule(harmonics, samples, MSLIP_EQUIDISTANT, workspace_length, workspace) }
+}
+
+/// The rule of that number.
+fn rule_of(number: i32) -> Result<Rule, Error> {
+    match number {
+        MSLIP_EQUIDISTANT => Ok(Rule::Equidistant),
+        MSLIP_BETWEEN_REVERSALS => Ok(Rule::BetweenReversals),
+        _ => Err(Error::BadRule),
+    }
 }
 
 /// mslip_harmonic_workspace_length for a rule, MSLIP_EQUIDISTANT or MSLIP_BETWEEN_REVERSALS; 0 for another.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_harmonic_workspace_length_rule(harmonics: size_t, samples: size_t, rule: i32) -> size_t {
-    match rule {
-        MSLIP_EQUIDISTANT => harmonic_force::workspace_length(harmonics, samples),
-        MSLIP_BETWEEN_REVERSALS => between_reversals::workspace_length(harmonics, samples),
-        _ => 0,
-    }
+    rule_of(rule).map_or(0, |rule| rule.workspace_length(harmonics, samples))
 }
 
 /// mslip_harmonic_workspace_init for a rule. MSLIP_EQUIDISTANT samples a period at equal distances: its error falls with the
@@ -204,65 +200,31 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init_rule(
     workspace: *mut f64,
 ) -> i32 {
     let init = || {
-        let workspace_init = match rule {
-            MSLIP_EQUIDISTANT => harmonic_force::workspace_init,
-            MSLIP_BETWEEN_REVERSALS => between_reversals::workspace_init,
-            _ => return Err(Error::BadRule),
-        };
+        let rule = rule_of(rule)?;
         check_length::<f64>(workspace_length)?;
         if workspace.is_null() {
             return Err(Error::NullPointer);
         }
         // SAFETY: what the caller was asked for above.
-        workspace_init(harmonics, samples, unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []))
+        let memory = unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []);
+        rule.workspace_init(harmonics, samples, memory)
     };
     status(init())
 }
 
-fn widest_equidistant(
+pub(super) fn widest_harmonic_force(
     contact: &Contact,
-    workspace: &mut harmonic_force::Workspace,
+    workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     on_widest!(
         harmonic_force::harmonic_force,
         contact: &Contact,
-        workspace: &mut harmonic_force::Workspace,
+        workspace: &mut Workspace,
         displacement: &[f64],
         output: HarmonicOutput => Result<(), Error>
     )
-}
-
-fn widest_between_reversals(
-    contact: &Contact,
-    workspace: &mut between_reversals::Workspace,
-    displacement: &[f64],
-    output: HarmonicOutput,
-) -> Result<(), Error> {
-    on_widest!(
-        between_reversals::harmonic_force,
-        contact: &Contact,
-        workspace: &mut between_reversals::Workspace,
-        displacement: &[f64],
-        output: HarmonicOutput => Result<(), Error>
-    )
-}
-
-/// The harmonic force by the workspace's rule.
-#[inline(always)]
-pub(super) fn widest_harmonic_force(
-    contact: &Contact,
-    workspace: &mut HarmonicWorkspace,
-    displacement: &[f64],
-    output: HarmonicOutput,
-) -> Result<(), Error> {
-    match workspace {
-        HarmonicWorkspace::Equidistant(workspace) => widest_equidistant(contact, workspace, displacement, output),
-        HarmonicWorkspace::BetweenReversals(workspace) => {
-            widest_between_reversals(contact, workspace, displacement, output)
-        }
-    }
 }
 
 /// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin

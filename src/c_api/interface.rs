@@ -149,13 +149,18 @@ pub unsafe extern "C" fn mslip_interface_harmonic_force(
         items.clone().try_for_each(|(_, _, displacement)| harmonic_force::check_coefficients(displacement))?;
         for (i, contact, displacement) in items {
             let output = HarmonicOutput {
-                force: force.as_mut().and_then(|force| force.get_mut(i * one..(i + 1) * one)),
-                jacobian: jacobian.as_mut().and_then(|jacobian| jacobian.get_mut(i * one * one..(i + 1) * one * one)),
-                dissipated: dissipated.as_mut().and_then(|dissipated| dissipated.get_mut(i)),
+                force: part(&mut force, i, one),
+                jacobian: part(&mut jacobian, i, one * one),
+                dissipated: part(&mut dissipated, i, 1).and_then(<[f64]>::first_mut),
             };
             widest_harmonic_force(contact, &mut workspace, displacement, output)?;
         }
         Ok(())
     };
     status(compute())
+}
+
+/// What an output of so many numbers an item holds of item i.
+fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, numbers: usize) -> Option<&'a mut [f64]> {
+    output.as_mut()?.get_mut(i * numbers..(i + 1) * numbers)
 }

@@ -4,7 +4,8 @@ use super::widest::on_widest;
 use super::{MSLIP_OK, mslip_contact};
 use crate::contact::Contact;
 use crate::error::Error;
-use crate::{between_reversals, harmonic_force, seal};
+use crate::harmonic_force::{self, Workspace};
+use crate::seal;
 use core::{mem, ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
@@ -130,52 +131,25 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
     }
 }
 
-/// A workspace of either rule.
-pub enum HarmonicWorkspace<'a> {
-    Equidistant(harmonic_force::Workspace<'a>),
-    BetweenReversals(between_reversals::Workspace<'a>),
-}
-
-impl HarmonicWorkspace<'_> {
-    /// 2H + 1.
-    #[inline(always)]
-    pub fn coefficients(&self) -> usize {
-        match self {
-            HarmonicWorkspace::Equidistant(workspace) => workspace.coefficients(),
-            HarmonicWorkspace::BetweenReversals(workspace) => workspace.coefficients(),
-        }
-    }
-}
-
 /// A workspace that was initialised.
 ///
 /// # Safety
 /// `pointer` is NULL or points to four numbers at least, and to a whole workspace where these begin one.
 #[inline(always)]
-pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<HarmonicWorkspace<'a>, Error> {
+pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
     check_alignment(pointer)?;
     // SAFETY: aligned, and four numbers by the caller's word.
     let header = unsafe { pointer.cast::<[f64; 4]>().read() };
+    let extent = harmonic_force::workspace_extent(&header)?;
     // SAFETY: they begin a workspace of that extent, by the caller's word.
-    let whole = |extent: usize| unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace);
-    Ok(match between_reversals::workspace_extent(&header) {
-        Some(extent) => HarmonicWorkspace::BetweenReversals(between_reversals_workspace(whole(extent?)?)?),
-        None => {
-            let extent = harmonic_force::workspace_extent(&header)?;
-            HarmonicWorkspace::Equidistant(equidistant_workspace(whole(extent)?)?)
-        }
-    })
+    open(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
 
-fn equidistant_workspace(memory: &mut [f64]) -> Result<harmonic_force::Workspace<'_>, Error> {
-    on_widest!(harmonic_force::Workspace::new, memory: &mut [f64] => Result<harmonic_force::Workspace<'_>, Error>)
-}
-
-fn between_reversals_workspace(memory: &mut [f64]) -> Result<between_reversals::Workspace<'_>, Error> {
-    on_widest!(between_reversals::Workspace::new, memory: &mut [f64] => Result<between_reversals::Workspace<'_>, Error>)
+fn open(workspace: &mut [f64]) -> Result<Workspace<'_>, Error> {
+    on_widest!(Workspace::new, workspace: &mut [f64] => Result<Workspace<'_>, Error>)
 }
 
 #[cfg(test)]

@@ -2,18 +2,19 @@
 
 use core::f64::consts::PI;
 
-/// cos and sin of an order at a sample; the turn is reduced before it meets π.
-pub(crate) fn wave(order: usize, sample: usize, samples: usize) -> (f64, f64) {
+/// The angle of an order at a sample; the turn is reduced before it meets π.
+pub(super) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     let turn = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;
-    ((2.0 * PI * turn).cos(), (2.0 * PI * turn).sin())
+    2.0 * PI * turn
 }
 
 /// Columns over half a period of samples, or over all of it where it has no middle: 1, cos t, sin t, cos 2t, ...
-pub(crate) fn fill_columns(columns: &mut [f64], samples: usize, half: usize) {
+pub(super) fn fill_columns(columns: &mut [f64], samples: usize, half: usize) {
     for (column, values) in columns.chunks_exact_mut(half.max(1)).enumerate() {
+        let (order, is_sine) = (column.div_ceil(2), column % 2 == 0 && column > 0);
         for (sample, value) in values.iter_mut().enumerate() {
-            let (cosine, sine) = wave(column.div_ceil(2), sample, samples);
-            *value = if column % 2 == 1 || column == 0 { cosine } else { sine };
+            let angle = angle(order, sample, samples);
+            *value = if is_sine { angle.sin() } else { angle.cos() };
         }
     }
 }
@@ -36,7 +37,7 @@ fn add_wave(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[f64]
 /// A sum of waves at the samples, from the columns of half a period; whether it has odd harmonics only, on an even number of
 /// samples.
 #[inline(always)]
-pub(crate) fn sample(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
+pub(super) fn sample(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
     let half = half.max(1);
     let folds = half < values.len();
     let Some((constant, pairs)) = coefficients.split_first() else { return false };
@@ -65,7 +66,7 @@ pub(crate) fn sample(columns: &[f64], half: usize, values: &mut [f64], coefficie
 
 /// From sums to coefficients: the mean, and twice the mean for waves.
 #[inline(always)]
-pub(crate) fn scale(sums: &mut [f64], mean: f64) {
+pub(super) fn scale(sums: &mut [f64], mean: f64) {
     sums.iter_mut().for_each(|sum| *sum *= 2.0 * mean);
     if let Some(constant) = sums.first_mut() {
         *constant *= 0.5;
@@ -74,7 +75,7 @@ pub(crate) fn scale(sums: &mut [f64], mean: f64) {
 
 /// In the sum of half a period and its mirror image, what couples even with odd orders cancels.
 #[inline(always)]
-pub(crate) fn clear_other_parity(c: usize, column: &mut [f64]) {
+pub(super) fn clear_other_parity(c: usize, column: &mut [f64]) {
     for (i, value) in column.iter_mut().enumerate() {
         if (c.div_ceil(2) + i.div_ceil(2)) % 2 == 1 {
             *value = 0.0;
@@ -85,7 +86,7 @@ pub(crate) fn clear_other_parity(c: usize, column: &mut [f64]) {
 /// Adds `Σ k φ ⊗ φ`, from the sums of k with cos and sin of every order up to 2H: products of waves are waves of the sum and
 /// of the difference of their orders.
 #[inline(always)]
-pub(crate) fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> (f64, f64)) {
+fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> (f64, f64)) {
     let mut columns = jacobian.chunks_exact_mut((2 * harmonics + 1).max(1));
     for q in 0..=harmonics {
         let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
@@ -108,6 +109,24 @@ pub(crate) fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn
                 add(by_cosine, 2 * p, s_sum + s_difference);
                 add(by_sine, 2 * p, c_difference - c_sum);
             }
+        }
+    }
+}
+
+/// The Jacobian from what reversals gave it and the sums of the stiffness; of a half and its mirror image, if `mirrored`.
+#[inline(always)]
+pub(super) fn complete_jacobian(
+    jacobian: &mut [f64],
+    harmonics: usize,
+    sums: impl Fn(usize) -> (f64, f64),
+    mean: f64,
+    mirrored: bool,
+) {
+    add_products(jacobian, harmonics, sums);
+    for (c, column) in jacobian.chunks_exact_mut((2 * harmonics + 1).max(1)).enumerate() {
+        scale(column, mean);
+        if mirrored {
+            clear_other_parity(c, column);
         }
     }
 }
