@@ -98,7 +98,7 @@ pub(crate) static RULES: [Rule; 3] = [
 ];
 
 /// Nodes and weights of 40-point Gauss-Legendre on (0, 1).
-pub(crate) const GAUSS: [(f64, f64); 40] = [
+pub(crate) static GAUSS: [(f64, f64); 40] = [
     (0.0008811451447203998, 0.0022606385492665955),
     (0.004636880650271497, 0.005249142265576406),
     (0.011370025008112869, 0.008210529190953945),

@@ -31,7 +31,7 @@
 
 use crate::contact::Contact;
 use crate::curve::LARGEST_DISPLACEMENT;
-use crate::cycle_rules::{GAUSS, RULES};
+use crate::cycle_rules::{GAUSS, RULES, Rule};
 use crate::error::Error;
 use crate::family::{ContactFamily, Member, Station, integrate};
 use crate::number::is_from_0_to;
@@ -224,24 +224,31 @@ impl ComplexStiffness<'_> {
             return (initial * real, (initial * contact.origin_scale * slope).min(0.0));
         }
         let share = amplitude * contact.per_slip_displacement();
-        if contact.bends_within(0.75) {
-            // Singular near the origin too.
-        } else if let Some(rule) =
-            RULES.iter().skip(usize::from(contact.bends_within(1.5))).find(|rule| share <= rule.largest)
-        {
-            let responder = contact.responder();
-            let (mut real, mut slope) = (0.0, 0.0);
-            for (t, weight, slope_weight) in rule.nodes {
-                let stiffness = responder.at(amplitude * t).stiffness;
-                real += weight * stiffness;
-                slope += slope_weight * stiffness;
+        // A curve that bends more sharply is singular near the origin too.
+        if !contact.bends_within(0.75) {
+            let mut rules = RULES.iter().skip(usize::from(contact.bends_within(1.5)));
+            if let Some(rule) = rules.find(|rule| share <= rule.largest) {
+                return self.real_by_rule(rule);
             }
-            return (real, (slope / amplitude).min(0.0));
-        } else if share >= SLIP_NODES_FROM {
-            return self.real_in_slip();
+            if share >= SLIP_NODES_FROM {
+                return self.real_in_slip();
+            }
         }
         let slope = contact.stiffness_unit / contact.displacement_unit * self.real_part_slope();
         (contact.stiffness_unit * self.real_part(), slope)
+    }
+
+    /// Both by a rule that knows where gross slip begins.
+    #[inline(always)]
+    fn real_by_rule(&self, rule: &Rule) -> (f64, f64) {
+        let (responder, amplitude) = (self.contact.responder(), self.amplitude_not_zero());
+        let (mut real, mut slope) = (0.0, 0.0);
+        for (t, weight, slope_weight) in rule.nodes {
+            let stiffness = responder.at(amplitude * t).stiffness;
+            real += weight * stiffness;
+            slope += slope_weight * stiffness;
+        }
+        (real, (slope / amplitude).min(0.0))
     }
 
     /// Both in gross slip, from the nodes that the contact keeps.

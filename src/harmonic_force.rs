@@ -129,7 +129,7 @@ pub fn harmonic_force(
     displacement: &[f64],
     mut output: HarmonicOutput,
 ) -> Result<(), Error> {
-    if output.is_trivial(contact, workspace.coefficients(), displacement)? {
+    if output.begin(contact, workspace.coefficients(), displacement)? {
         return Ok(());
     }
     match &mut workspace.0 {
@@ -164,12 +164,13 @@ impl HarmonicOutput<'_> {
         Wanted { force: self.force.is_some(), stiffness: self.jacobian.is_some() }
     }
 
-    /// Checks all lengths and coefficients, and clears the Jacobian; whether nothing is wanted, or all of it is zero and done.
+    /// Checks all lengths and coefficients, and clears the Jacobian; whether that was all: nothing else is wanted, or there is no
+    /// friction and all of it is zero.
     ///
     /// # Errors
     /// `BadDisplacement`, `BadArraySize`.
     #[inline(always)]
-    fn is_trivial(&mut self, contact: &Contact, n: usize, displacement: &[f64]) -> Result<bool, Error> {
+    fn begin(&mut self, contact: &Contact, n: usize, displacement: &[f64]) -> Result<bool, Error> {
         let HarmonicOutput { force, jacobian, dissipated } = self;
         let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
         if displacement.len() != n || !fits(force, n) || !fits(jacobian, n * n) {

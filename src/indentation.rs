@@ -30,7 +30,7 @@ pub(crate) const TINY: f64 = 1e-300;
 type Table = Rows<{ TERMS / 4 }>;
 
 /// `g = 8 w³/(a+c) Σ l_k χ^k`; from `(1+χ)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √χ.
-const LOAD: Table = {
+static LOAD: Table = {
     let mut table = [0.0; TERMS];
     let mut sign = -1.0;
     let mut k = 0;
@@ -77,8 +77,8 @@ const fn mean_over_family(order: f64) -> Table {
     rows(&table)
 }
 
-const MEAN_LOAD: Table = mean_over_family(1.0);
-const MEAN_SQUARE: Table = mean_over_family(2.0);
+static MEAN_LOAD: Table = mean_over_family(1.0);
+static MEAN_SQUARE: Table = mean_over_family(2.0);
 
 fn sum(table: &Table, chi: f64) -> f64 {
     series::sum(table.iter().copied().take(series::rows_for(chi, TERMS / 4)), chi)

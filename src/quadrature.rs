@@ -2,7 +2,7 @@
 //! the ends. Both have positive weights, so that a positive integrand is summed without cancellation.
 
 /// Nodes and weights of 16-point Gauss-Legendre on (0, 1).
-pub(crate) const GAUSS: [(f64, f64); 16] = [
+pub(crate) static GAUSS: [(f64, f64); 16] = [
     (0.005299532504175033, 0.013576229705877046),
     (0.02771248846338371, 0.031126761969323947),
     (0.06718439880608412, 0.04757925584124639),
@@ -25,7 +25,7 @@ pub(crate) const GAUSS: [(f64, f64); 16] = [
 pub(crate) const GAUSS_FOURS: usize = 8;
 
 /// Nodes and weights of Gauss-Legendre on (0, 1) with 4, 8, 12, ... nodes, one rule after the other.
-const GAUSS_RULES: [[[f64; 4]; 2]; GAUSS_FOURS * (GAUSS_FOURS + 1) / 2] = {
+static GAUSS_RULES: [[[f64; 4]; 2]; GAUSS_FOURS * (GAUSS_FOURS + 1) / 2] = {
     let mut table = [[[0.0; 4]; 2]; _];
     let (mut fours, mut start) = (1, 0);
     while fours <= GAUSS_FOURS {
@@ -110,7 +110,7 @@ const fn exp(x: f64) -> f64 {
 }
 
 /// `p = 1/(1 + exp(-π sinh t))`, t in steps of [`STEP`].
-pub(crate) const TANH_SINH: [Node; 2 * HALF + 1] = {
+pub(crate) static TANH_SINH: [Node; 2 * HALF + 1] = {
     let mut table = [Node { from_0: 0.5, weight: 0.0 }; 2 * HALF + 1];
     let mut k = 0;
     while k <= HALF {

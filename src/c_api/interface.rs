@@ -142,22 +142,42 @@ pub unsafe extern "C" fn mslip_interface_harmonic_force(
         let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
         let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
         // SAFETY: as above.
-        let (displacement, mut force, mut jacobian, mut dissipated) = unsafe {
-            (input(displacement, all)?, output(force, all)?, output(jacobian, square)?, output(dissipated, n)?)
+        let (displacement, mut outputs) = unsafe {
+            let outputs = Outputs {
+                force: output(force, all)?,
+                jacobian: output(jacobian, square)?,
+                dissipated: output(dissipated, n)?,
+            };
+            (input(displacement, all)?, outputs)
         };
         let items = items.filter_map(|(i, contact)| Some((i, contact, displacement.get(i * one..(i + 1) * one)?)));
         items.clone().try_for_each(|(_, _, displacement)| harmonic_force::check_coefficients(displacement))?;
         for (i, contact, displacement) in items {
-            let output = HarmonicOutput {
-                force: part(&mut force, i, one),
-                jacobian: part(&mut jacobian, i, one * one),
-                dissipated: part(&mut dissipated, i, 1).and_then(<[f64]>::first_mut),
-            };
-            widest_harmonic_force(contact, &mut workspace, displacement, output)?;
+            widest_harmonic_force(contact, &mut workspace, displacement, outputs.of_item(i, one))?;
         }
         Ok(())
     };
     status(compute())
+}
+
+/// Outputs of many harmonic forces, item after item.
+struct Outputs<'a> {
+    force: Option<&'a mut [f64]>,
+    jacobian: Option<&'a mut [f64]>,
+    dissipated: Option<&'a mut [f64]>,
+}
+
+impl Outputs<'_> {
+    /// Those of item i with so many coefficients. Apart from the loop over the items, which is short where they rest.
+    #[inline(never)]
+    fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
+        let Outputs { force, jacobian, dissipated } = self;
+        HarmonicOutput {
+            force: part(force, i, coefficients),
+            jacobian: part(jacobian, i, coefficients * coefficients),
+            dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
+        }
+    }
 }
 
 /// What an output of so many numbers an item holds of item i.
