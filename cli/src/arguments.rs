@@ -37,21 +37,21 @@ For example:
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Half-width, slip force and displacement, initial stiffness, slip energy, largest pressure
-    Contact(Contact),
+    Contact(About<Itself>),
     /// Pressure, shear, slip and frictional damage along the width, under a force
-    Tractions(Tractions),
+    Tractions(About<Tractions>),
     /// The monotonic curve: force, stiffness and stick zone over the displacement
-    Curve(Curve),
+    Curve(About<Curve>),
     /// Hysteresis loops between +amplitude and -amplitude, and the energy they dissipate
-    Loop(Loop),
+    Loop(About<Loop>),
     /// Complex stiffness K' + iK'' over the displacement amplitude
-    Stiffness(Stiffness),
+    Stiffness(About<Amplitudes>),
     /// Force, stiffness and dissipated energy along any history of displacements
-    History(History),
+    History(About<History>),
     /// Jenkins' spring-slider of the same complex stiffness, over the displacement amplitude
-    Jenkins(Jenkins),
+    Jenkins(About<Amplitudes>),
     /// Iwan's model: parallel spring-sliders with the contact's monotonic curve
-    Iwan(Iwan),
+    Iwan(About<Iwan>),
     /// Print a parameter file with comments
     Example {
         /// Of an elliptical contact, in mm, N, MPa
@@ -59,6 +59,21 @@ pub enum Command {
         elliptic: bool,
     },
 }
+
+/// A question about a contact: what is asked, where the contact comes from, and where the answer goes.
+#[derive(Debug, Args)]
+pub struct About<Question: Args> {
+    #[command(flatten)]
+    pub question: Question,
+    #[command(flatten)]
+    pub source: Source,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Nothing but the contact itself.
+#[derive(Debug, Args)]
+pub struct Itself {}
 
 /// Where the contact comes from.
 #[derive(Debug, Args)]
@@ -86,14 +101,6 @@ const RELATIVE: &str =
     "Read forces as multiples of the slip force, displacements as multiples of the slip displacement";
 
 #[derive(Debug, Args)]
-pub struct Contact {
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
-}
-
-#[derive(Debug, Args)]
 pub struct Tractions {
     /// Tangential forces, at most mu N [default: half of mu N]
     #[arg(long, value_name = "N", value_delimiter = ',', allow_hyphen_values = true)]
@@ -106,10 +113,6 @@ pub struct Tractions {
     pub points: u32,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
 }
 
 #[derive(Debug, Args)]
@@ -129,10 +132,6 @@ pub struct Curve {
     pub force: Vec<f64>,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
 }
 
 #[derive(Debug, Args)]
@@ -145,10 +144,6 @@ pub struct Loop {
     pub points: u32,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
 }
 
 /// Displacement amplitudes, on a logarithmic grid or one by one.
@@ -171,16 +166,6 @@ pub struct Amplitudes {
 }
 
 #[derive(Debug, Args)]
-pub struct Stiffness {
-    #[command(flatten)]
-    pub amplitudes: Amplitudes,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
-}
-
-#[derive(Debug, Args)]
 pub struct History {
     /// Table of displacements, one a row, from the first loading on; - is standard input
     #[arg(long, value_name = "FILE.csv", default_value = "-")]
@@ -190,20 +175,6 @@ pub struct History {
     pub column: Option<String>,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
-}
-
-#[derive(Debug, Args)]
-pub struct Jenkins {
-    #[command(flatten)]
-    pub amplitudes: Amplitudes,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
 }
 
 #[derive(Debug, Args)]
@@ -211,10 +182,6 @@ pub struct Iwan {
     /// Number of spring-sliders
     #[arg(long, value_name = "COUNT", default_value_t = 5)]
     pub count: u32,
-    #[command(flatten)]
-    pub source: Source,
-    #[command(flatten)]
-    pub output: Output,
 }
 
 /// A grid has its two ends; a million points are more than a picture can show.

@@ -1,8 +1,8 @@
 //! What each command computes: a table, a picture, and the command that repeats both.
 
-use crate::arguments::{self, Amplitudes, Curve, History, Iwan, Jenkins, Loop, Source, Stiffness, Tractions};
+use crate::arguments::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
 use crate::digits::{digits, list};
-use crate::parameters::{Described, Shape, describe};
+use crate::parameters::{Described, Shape};
 use crate::path::{self, Row};
 use crate::picture::{Axis, Line, Panel, Picture, rounded};
 use crate::refusal::{Outcome, Refusal, input, usage};
@@ -13,7 +13,6 @@ use microslip::masing::step;
 use microslip::memory::{state_init, state_length};
 use microslip::{Contact, Error};
 use std::f64::consts::PI;
-use std::path::Path;
 
 /// The result of a command.
 pub struct Answer {
@@ -66,10 +65,6 @@ impl Answer {
     }
 }
 
-fn described(source: &Source) -> Outcome<Described> {
-    describe(source.file.as_deref(), &source.given)
-}
-
 /// What was given, in units of the contact's own where the user wants that.
 fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     let factor = if relative { unit } else { 1.0 };
@@ -114,8 +109,7 @@ const ACROSS: Axis = Axis::linear("x", Quantity::Length);
 const STIFFNESS: Axis = Axis::linear("stiffness", Quantity::Stiffness);
 const FORCE: Axis = Axis::linear("force", Quantity::Force);
 
-pub fn contact(arguments: &arguments::Contact) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn contact(described: Described) -> Answer {
     let contact = &described.contact;
     let rows = [
         ("composite_modulus", contact.composite_modulus, Quantity::Pressure),
@@ -130,7 +124,7 @@ pub fn contact(arguments: &arguments::Contact) -> Outcome<Answer> {
     let table = Table::of_text(["quantity", "value", "unit"], &rows);
     let pressure = across(&described, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
     let panels = vec![panel(ACROSS, Axis::linear("pressure", Quantity::Pressure), pressure)];
-    Ok(Answer::new("contact", described, "", table, panels))
+    Answer::new("contact", described, "", table, panels)
 }
 
 /// The largest pressure, in the middle of a cylinder and of an ellipse. On a flat the pressure grows up to its end, where its
@@ -169,8 +163,7 @@ fn refused_amplitude(amplitude: f64, error: Error) -> Refusal {
     Refusal::of_flag("--amplitude", digits(amplitude), error)
 }
 
-pub fn tractions(arguments: &Tractions) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn tractions(arguments: &Tractions, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
     let mut forces = scaled(&arguments.force, arguments.relative, contact.slip_force);
     if forces.is_empty() {
@@ -226,8 +219,7 @@ pub fn tractions(arguments: &Tractions) -> Outcome<Answer> {
     Ok(Answer::new("tractions", described, &options, table, panels))
 }
 
-pub fn curve(arguments: &Curve) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn curve(arguments: &Curve, described: Described) -> Outcome<Answer> {
     let (contact, units, relative) = (&described.contact, described.units, arguments.relative);
     let forces = scaled(&arguments.force, relative, contact.slip_force);
     let mut displacements = scaled(&arguments.displacement, relative, contact.slip_displacement);
@@ -268,8 +260,7 @@ pub fn curve(arguments: &Curve) -> Outcome<Answer> {
     Ok(Answer::new("curve", described, &options, table, panels))
 }
 
-pub fn hysteresis_loop(arguments: &Loop) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn hysteresis_loop(arguments: &Loop, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
     let (given, relative) = match arguments.amplitude[..] {
         [] => (&[0.5, 1.0, 1.5][..], true),
@@ -331,10 +322,9 @@ impl Amplitudes {
     }
 }
 
-pub fn stiffness(arguments: &Stiffness) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn stiffness(arguments: &Amplitudes, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
-    let (amplitudes, options) = arguments.amplitudes.values(contact)?;
+    let (amplitudes, options) = arguments.values(contact)?;
     let row = |amplitude: f64| {
         let complex = contact.complex_stiffness(amplitude).map_err(|error| refused_amplitude(amplitude, error))?;
         Ok(vec![
@@ -362,12 +352,7 @@ pub fn stiffness(arguments: &Stiffness) -> Outcome<Answer> {
     Ok(answer.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
 }
 
-pub fn history(arguments: &History) -> Outcome<Answer> {
-    let from_stdin = |file: &Path| file == Path::new("-");
-    if from_stdin(&arguments.displacements) && arguments.source.file.as_deref().is_some_and(from_stdin) {
-        return usage("standard input cannot be both the parameter file and the displacements");
-    }
-    let described = described(&arguments.source)?;
+pub fn history(arguments: &History, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
     let path = path::read(&arguments.displacements, arguments.column.as_deref(), units)?;
     // No path has more reversals than points.
@@ -418,10 +403,9 @@ fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-pub fn jenkins_equivalent(arguments: &Jenkins) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn jenkins_equivalent(arguments: &Amplitudes, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
-    let (amplitudes, options) = arguments.amplitudes.values(contact)?;
+    let (amplitudes, options) = arguments.values(contact)?;
     let row = |amplitude: f64| {
         let slider = jenkins(contact, amplitude).map_err(|error| refused_amplitude(amplitude, error))?;
         Ok(vec![amplitude, slider.stiffness, slider.slip_force])
@@ -437,8 +421,7 @@ pub fn jenkins_equivalent(arguments: &Jenkins) -> Outcome<Answer> {
     Ok(Answer::new("jenkins", described, &options, table, panels))
 }
 
-pub fn iwan_equivalent(arguments: &Iwan) -> Outcome<Answer> {
-    let described = described(&arguments.source)?;
+pub fn iwan_equivalent(arguments: &Iwan, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
     let mut sliders = Vec::new();
     let error = iwan(contact, arguments.count as usize, |slider| sliders.push(slider))

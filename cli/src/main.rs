@@ -14,10 +14,11 @@ mod refusal;
 mod table;
 mod units;
 
-use arguments::{Arguments, Command, Output, Source};
+use arguments::{About, Arguments, Command};
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
+use clap::{Args, CommandFactory, Parser};
 use commands::Answer;
+use parameters::{Described, describe};
 use picture::Format;
 use refusal::{Outcome, Refusal, usage};
 use std::fmt::Display;
@@ -39,32 +40,36 @@ fn main() -> ExitCode {
 
 fn run(command: &Command) -> Outcome<()> {
     match command {
-        Command::Contact(a) => give(&a.source, None, &a.output, || commands::contact(a)),
-        Command::Tractions(a) => give(&a.source, None, &a.output, || commands::tractions(a)),
-        Command::Curve(a) => give(&a.source, None, &a.output, || commands::curve(a)),
-        Command::Loop(a) => give(&a.source, None, &a.output, || commands::hysteresis_loop(a)),
-        Command::Stiffness(a) => give(&a.source, None, &a.output, || commands::stiffness(a)),
-        Command::History(a) => give(&a.source, Some(&a.displacements), &a.output, || commands::history(a)),
-        Command::Jenkins(a) => give(&a.source, None, &a.output, || commands::jenkins_equivalent(a)),
-        Command::Iwan(a) => give(&a.source, None, &a.output, || commands::iwan_equivalent(a)),
+        Command::Contact(about) => give(about, None, |_, contact| Ok(commands::contact(contact))),
+        Command::Tractions(about) => give(about, None, commands::tractions),
+        Command::Curve(about) => give(about, None, commands::curve),
+        Command::Loop(about) => give(about, None, commands::hysteresis_loop),
+        Command::Stiffness(about) => give(about, None, commands::stiffness),
+        Command::History(about) => give(about, Some(&about.question.displacements), commands::history),
+        Command::Jenkins(about) => give(about, None, commands::jenkins_equivalent),
+        Command::Iwan(about) => give(about, None, commands::iwan_equivalent),
         Command::Example { elliptic: false } => output::to_stdout(include_bytes!("../example.toml")),
         Command::Example { elliptic: true } => output::to_stdout(include_bytes!("../example_elliptic.toml")),
     }
 }
 
 /// Computes the answer and writes it where the user wants it, all of it or nothing.
-fn give(
-    source: &Source,
-    other_input: Option<&Path>,
-    output: &Output,
-    answer: impl FnOnce() -> Outcome<Answer>,
+fn give<Question: Args>(
+    about: &About<Question>,
+    displacements: Option<&Path>,
+    answer: impl FnOnce(&Question, Described) -> Outcome<Answer>,
 ) -> Outcome<()> {
-    let inputs: Vec<_> = source.file.as_deref().into_iter().chain(other_input).collect();
+    let About { question, source, output } = about;
+    let parameters = source.file.as_deref();
+    let inputs: Vec<_> = parameters.into_iter().chain(displacements).collect();
     let outputs: Vec<_> = output.out.as_deref().into_iter().chain(output.plot.as_deref()).collect();
     output::keep_apart(&inputs, &outputs)?;
     let plot = output.plot.as_deref().map(|path| Ok((path, format_of(path)?))).transpose()?;
+    if [parameters, displacements] == [Some(Path::new("-")); 2] {
+        return usage("standard input cannot be both the parameter file and the displacements");
+    }
 
-    let answer = answer()?;
+    let answer = answer(question, describe(parameters, &source.given)?)?;
     let not_made = |error: &dyn Display| Refusal::Input(format!("the result cannot be written: {error}"));
     let table = answer.table().map_err(|error| not_made(&error))?;
     if let Some((path, format)) = plot {
