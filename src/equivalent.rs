@@ -6,6 +6,7 @@
 use crate::contact::Contact;
 use crate::error::Error;
 use crate::family::{ContactFamily, Split};
+use crate::harmonic::check_amplitude;
 use core::f64::consts::PI;
 
 /// A spring of some stiffness that slips at some force.
@@ -26,10 +27,13 @@ pub struct SpringSlider {
 /// # Errors
 /// `BadAmplitude`.
 pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error> {
-    let complex = contact.complex_stiffness(amplitude)?;
+    check_amplitude(amplitude)?;
     if contact.is_frictionless() {
         return Ok(SpringSlider { stiffness: 0.0, slip_force: 0.0 });
     }
+    // The slider of a cycle so large is that of all larger ones, whose K' would underflow.
+    let amplitude = amplitude.min(1e100 * contact.slip_displacement);
+    let complex = contact.complex_stiffness(amplitude)?;
     let (real, imaginary) = (complex.real(), complex.imaginary());
     let ratio = imaginary / real.max(f64::MIN_POSITIVE);
     if amplitude <= 0.0 || ratio < f64::MIN_POSITIVE {
@@ -242,7 +246,7 @@ fn root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::contact::tests::{FLATS, contact, ellipse, parameters};
-    use crate::parameters::Parameters;
+    use crate::parameters::{EllipticParameters, Material, Parameters};
     use std::vec::Vec;
 
     fn sliders(contact: &Contact, n: usize) -> (Vec<SpringSlider>, f64) {
@@ -282,6 +286,25 @@ mod tests {
                     large.slip_force
                 );
             }
+        }
+    }
+
+    /// Stiff and hardly pressed: displacements of gross slip so small that amplitudes are 10²²⁰ of them.
+    #[test]
+    fn the_largest_cycles_have_one_spring_slider() {
+        let contact = Contact::elliptic(&EllipticParameters {
+            semi_axis_x: 1e-3,
+            semi_axis_y: 1e-3,
+            normal_force: 1e-10,
+            friction_coefficient: 1e-10,
+            material: [Material { young_modulus: 1e60, poisson_ratio: 0.3 }; 2],
+        })
+        .unwrap();
+        let of = |times: f64| jenkins(&contact, times * contact.slip_displacement).unwrap();
+        let large = of(1e40);
+        for larger in [1e100, 1e150, 1e205, 1e210, 1e216, 1e222].map(of) {
+            assert!((larger.stiffness / large.stiffness - 1.0).abs() < 1e-14, "{larger:?} {large:?}");
+            assert!((larger.slip_force / contact.slip_force - 1.0).abs() < 1e-14, "{larger:?}");
         }
     }
 
