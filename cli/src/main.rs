@@ -83,9 +83,10 @@ fn give<Question: Args>(
 }
 
 fn format_of(path: &Path) -> Outcome<Format> {
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => Ok(Format::Svg),
-        Some("png") => Ok(Format::Png),
+    let ends_with = |wanted| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted));
+    match [ends_with("svg"), ends_with("png")] {
+        [true, _] => Ok(Format::Svg),
+        [_, true] => Ok(Format::Png),
         _ => usage(format!("--plot {}: the name must end with .svg or .png", path.display())),
     }
 }

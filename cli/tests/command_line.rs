@@ -472,7 +472,7 @@ fn what_is_wrong_in_a_file_is_said_with_its_name() {
 /// Whether a picture is one, by its first bytes.
 fn assert_picture(path: &Path) {
     let bytes = fs::read(path).unwrap();
-    if path.extension().unwrap() == "svg" {
+    if path.extension().unwrap().eq_ignore_ascii_case("svg") {
         let text = String::from_utf8(bytes).unwrap();
         assert!(text.starts_with("<svg width=\"860\"") && text.trim_end().ends_with("</svg>"), "{text}");
         // Every corner of every line is inside.
@@ -526,7 +526,7 @@ fn every_command_draws() {
     assert_picture(&png);
 
     // From one row to the next a history is drawn as the law goes, not along a chord.
-    let svg = picture("history.svg");
+    let svg = picture("history.SVG");
     stdout_with(b"1e-6\n-1e-6\n", &format!("history {} --plot {}", flat().1, svg.display()));
     assert_picture(&svg);
     let text = fs::read_to_string(&svg).unwrap();
