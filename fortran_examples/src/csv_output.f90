@@ -1,5 +1,6 @@
 !> Comma-separated tables with a header.
 module csv_output
+  use, intrinsic :: iso_fortran_env, only: int64
   use kinds, only: wp
   use messages, only: fail, text
   implicit none
@@ -7,7 +8,8 @@ module csv_output
 
   type, public :: csv_file
     integer, private :: unit = 0
-    character(len=:), allocatable, private :: line
+    integer(int64), private :: bytes = 0                   !! of all rows
+    character(len=:), allocatable, private :: path, line
   contains
     procedure :: open => open_csv
     procedure, private :: add_text, add_integer, add_real, add_reals
@@ -26,7 +28,9 @@ contains
 
     open (newunit=self%unit, file=path, status='replace', action='write', iostat=status, iomsg=message)
     if (status /= 0) call fail(path//': cannot be written: '//trim(message))
+    self%path = path
     self%line = ''
+    self%bytes = 0
   end subroutine open_csv
 
   subroutine add_text(self, field)
@@ -66,11 +70,17 @@ contains
     class(csv_file), intent(inout) :: self
 
     write (self%unit, '(a)') self%line
+    self%bytes = self%bytes + len(self%line) + 1
     self%line = ''
   end subroutine end_row
 
+  !> Not every Fortran library tells of a disk that is full: what the system has is counted.
   subroutine close_csv(self)
     class(csv_file), intent(inout) :: self
+    integer(int64) :: bytes
+
     close (self%unit)
+    inquire (file=self%path, size=bytes)
+    if (bytes < self%bytes) call fail(self%path//': could not be written, for want of room')
   end subroutine close_csv
 end module csv_output

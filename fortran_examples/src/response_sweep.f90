@@ -50,7 +50,7 @@ program response_sweep
   allocate (record(sweep%record_length()))
 
   if (rank == 0) call prepare_contacts(sweep)
-  call MPI_Bcast(sweep%contacts, size(sweep%contacts) * storage_size(sweep%contacts) / 8, MPI_BYTE, 0, MPI_COMM_WORLD)
+  call MPI_Bcast(sweep%contacts, storage_size(sweep%contacts) / 8 * size(sweep%contacts), MPI_BYTE, 0, MPI_COMM_WORLD)
   if (rank == 0) then
     call lead()
   else

@@ -49,21 +49,37 @@ contains
     integer, intent(in) :: units, record_length
     character(len=len(mark)) :: found_mark
     integer(int64) :: found(3)
-    character(len=200) :: message
-    integer :: status
+    integer(int64) :: bytes
+    integer :: status, unit
 
     self%key = key
-    open (newunit=self%file, file=path, access='stream', form='unformatted', action='readwrite', status='unknown', &
-          iostat=status, iomsg=message)
-    if (status /= 0) call fail(path//': cannot be opened: '//trim(message))
+    call connect()
     read (self%file, pos=1, iostat=status) found_mark, found
     if (status /= 0) then
       ! A new file, or one whose writer came no farther than this.
       write (self%file, pos=1) mark, key, int(units, int64), int(record_length, int64)
-      flush (self%file)
     else if (found_mark /= mark .or. any(found /= [key, int(units, int64), int(record_length, int64)])) then
       call fail(path//' has the results of other cases: remove it, or name another directory')
     end if
+    ! The room for all records is taken now, for not every Fortran library tells of a disk that is full.
+    inquire (self%file, size=bytes)
+    do unit = int((bytes - header_bytes) / record_bytes(record_length)) + 1, units
+      write (self%file, pos=place(unit, record_length)) spread(0_int64, 1, record_length + 1)
+    end do
+    close (self%file)
+    inquire (file=path, size=bytes)
+    if (bytes < place(units + 1, record_length) - 1) call fail(path//': there is no room for all records')
+    call connect()
+
+  contains
+
+    subroutine connect()
+      character(len=200) :: message
+
+      open (newunit=self%file, file=path, access='stream', form='unformatted', action='readwrite', status='unknown', &
+            iostat=status, iomsg=message)
+      if (status /= 0) call fail(path//': cannot be opened: '//trim(message))
+    end subroutine connect
   end subroutine open_results
 
   !> Whether the record of a unit is there and whole.
@@ -96,6 +112,12 @@ contains
 
   pure integer(int64) function place(unit, record_length)
     integer, intent(in) :: unit, record_length
-    place = 1 + header_bytes + (unit - 1) * number_bytes * (record_length + 1)
+    place = 1 + header_bytes + (unit - 1) * record_bytes(record_length)
   end function place
+
+  !> With the checksum.
+  pure integer(int64) function record_bytes(record_length)
+    integer, intent(in) :: record_length
+    record_bytes = number_bytes * (record_length + 1)
+  end function record_bytes
 end module sweep_results
