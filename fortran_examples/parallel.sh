@@ -79,7 +79,26 @@ refused() {
         said other 'sweep.dat has the results of other cases' && same other
 }
 
+fewer_threads() {
+    ! OMP_THREAD_LIMIT=1 build/contact_threads 100 2 2> "$work/said" && grep 'no 2 threads' "$work/said"
+}
+
+# Where the launcher does not end the ranks that wait for one that has ended: 1 is the status of the program, not of timeout.
+ends_all() {
+    status=0
+    # shellcheck disable=SC2086
+    timeout 60 $MPIRUN --mca orte_abort_on_non_zero_status 0 -n 3 build/response_sweep "$work/nowhere" 5 60 cases/flat.nml \
+        2> "$work/said" || status=$?
+    grep 'nowhere/sweep.dat: cannot be opened' "$work/said" && [ "$status" -eq 1 ]
+}
+
+disk_full() {
+    cp -R "$work/one" "$work/full" && ln -sf /dev/full "$work/full/sweep.csv" && ! sweep 1 full &&
+        said full 'sweep.csv: could not be written'
+}
+
 check 'threads: 1, 2 and 4 have the same bits' build/contact_threads 2000 4
+check 'threads: fewer than were asked for are not taken for them' fewer_threads
 check 'ranks: 1' sweep 1 one
 check 'control: every point has a balance' sh -c "awk -F, 'NR > 1 && \$5 != 1' '$work/one/sweep.csv' | cmp - /dev/null"
 check 'the largest amplitudes are those of the continuation' like_continuation
@@ -95,5 +114,7 @@ check 'killed: 1 rank goes on and has the bytes of 1' goes_on 1 killed_first
 check 'a record cut short is solved again' mended cut_short
 check 'a record with a changed byte is solved again' mended change_byte
 check 'results of other cases are refused, and stay' refused
+check 'a rank that fails ends all' ends_all
+check 'a table on a full disk is no success' disk_full
 
 counts

@@ -9,7 +9,7 @@ program contact_threads
   use kinds, only: pi, wp
   use messages, only: fail, progress, text
   use microslip
-  use omp_lib, only: omp_get_wtime, omp_sched_dynamic, omp_sched_kind, omp_sched_static, omp_set_schedule
+  use omp_lib, only: omp_get_num_threads, omp_get_wtime, omp_sched_dynamic, omp_sched_kind, omp_sched_static, omp_set_schedule
   implicit none
 
   integer(mslip_size), parameter :: harmonics = 5, samples = 128, nodes = 32, reversals = 8
@@ -233,7 +233,9 @@ contains
     integer(mslip_int) :: status
     integer :: first, last, n, step, i
 
-    !$omp parallel num_threads(threads) private(workspace, jacobian, states, force, stiffness, status, first, last, n, step, i)
+    !$omp parallel num_threads(threads) default(none) shared(threads, most_contacts, contacts, displacement, answer) &
+    !$omp private(workspace, jacobian, states, force, stiffness, status, first, last, n, step, i)
+    if (omp_get_num_threads() /= threads) call fail('there are no '//text(threads)//' threads to be had')
     call new_workspace(samples, MSLIP_EQUIDISTANT, workspace)
     allocate (jacobian(m, m, chunk), force(chunk), stiffness(chunk))
     !$omp do schedule(runtime)

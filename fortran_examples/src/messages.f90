@@ -12,6 +12,9 @@ module messages
     module procedure text_of_integer, text_of_real
   end interface text
 
+  !> What `fail` calls before it ends the process: where others wait for this one, it ends them too.
+  procedure(), pointer, public :: end_others => null()
+
   interface
     ! STOP would print the pending floating-point flags after the message, which says nothing to a user.
     subroutine c_exit(code) bind(c, name='exit')
@@ -29,6 +32,7 @@ contains
     flush (output_unit)
     write (error_unit, '(2a)') 'error: ', message
     flush (error_unit)
+    if (associated(end_others)) call end_others()
     call c_exit(1_c_int)
   end subroutine fail
 

@@ -15,7 +15,7 @@ program response_sweep
   use, intrinsic :: iso_fortran_env, only: int64, output_unit
   use csv_output, only: csv_file
   use kinds, only: path_length, wp
-  use messages, only: fail, progress, text
+  use messages, only: end_others, fail, progress, text
   use microslip, only: MSLIP_OK, mslip_int, mslip_masing_tractions, mslip_status_text
   use mpi_f08
   use sweep_results, only: checksum, results_file
@@ -38,6 +38,7 @@ program response_sweep
   real(wp) :: start
 
   call MPI_Init()
+  end_others => abort_all
   call MPI_Comm_rank(MPI_COMM_WORLD, rank)
   call MPI_Comm_size(MPI_COMM_WORLD, ranks)
   if (command_argument_count() < 4) call fail('usage: response_sweep DIRECTORY BLOCKS POINTS CASE...')
@@ -60,11 +61,17 @@ program response_sweep
 
 contains
 
+  !> Not every launcher ends the other ranks where one has ended.
+  subroutine abort_all()
+    call MPI_Abort(MPI_COMM_WORLD, 1)
+  end subroutine abort_all
+
   integer function positive_argument(place) result(number)
     integer, intent(in) :: place
     character(len=path_length) :: argument
     integer :: status
 
+    number = 0
     call get_command_argument(place, argument)
     read (argument, *, iostat=status) number
     if (status /= 0) number = 0
