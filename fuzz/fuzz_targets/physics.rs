@@ -478,6 +478,13 @@ fn units(given: &Given, contact: &Contact, source: &mut Source) {
     let [l, f] = [(); 2].map(|()| 2f64.powi(source.byte() as i8 as i32 / 2));
     let other = given.scaled(l, f);
     tell!("length {l:e} force {f:e} {other:?}");
+    // A flat that is subnormal in one of both has as many digits as the unit leaves it, or none.
+    if let (Given::Flat(one), Given::Flat(other)) = (given, &other) {
+        let flats = [one.flat_half_width, other.flat_half_width];
+        if flats.iter().any(|&flat| flat > 0.0) && !flats.iter().all(|flat| flat.is_normal()) {
+            return;
+        }
+    }
     // Out of range in one of both, or with numbers that are not normal.
     let Ok(bits) = other.prepare() else { return };
     let scaled = Contact(&bits);
