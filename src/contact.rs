@@ -1,16 +1,23 @@
 //! A contact, prepared once and then only read: the family it belongs to, and the units that turn its numbers into forces
 //! and displacements.
 
-use crate::curve::check_displacement;
 use crate::cycle_rules::GAUSS;
 use crate::elliptic::Elliptic;
 use crate::error::Error;
 use crate::family::ContactFamily;
 use crate::indentation::Indentation;
 use crate::inverse::{FROM_ORIGIN, Inverse};
+use crate::number::is_within;
 use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Pair, Parameters};
 use crate::rounded_flat::RoundedFlat;
 use core::f64::consts::{LN_2, PI};
+
+/// The bound keeps products with forces and energies representable.
+pub(crate) const LARGEST_DISPLACEMENT: f64 = 1e150;
+
+pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
+    if is_within(displacement, LARGEST_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
+}
 
 /// A prepared contact: plain data of fixed size that may be copied, stored and sent.
 ///

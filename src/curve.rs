@@ -3,7 +3,7 @@
 //!
 //! The curve is odd; its points below are those of its positive half, with the sign kept beside them.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, check_displacement};
 use crate::error::Error;
 use crate::family::{Member, Place, Split};
 use crate::inverse::Inverse;
@@ -254,13 +254,6 @@ impl Responder<'_> {
         let force = self.slip_force * if load > 1.0 { 1.0 } else { load };
         Response { force, stiffness: self.initial_stiffness * size }
     }
-}
-
-/// The bound keeps products with forces and energies representable.
-pub(crate) const LARGEST_DISPLACEMENT: f64 = 1e150;
-
-pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
-    if is_within(displacement, LARGEST_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
 }
 
 fn sign_of(value: f64) -> f64 {

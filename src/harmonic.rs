@@ -29,8 +29,7 @@
 //!
 //! is a sum of one sign; in gross slip the upper limit is fixed and K' is differentiated as it stands.
 
-use crate::contact::Contact;
-use crate::curve::LARGEST_DISPLACEMENT;
+use crate::contact::{Contact, LARGEST_DISPLACEMENT};
 use crate::cycle_rules::{GAUSS, RULES, Rule};
 use crate::error::Error;
 use crate::family::{ContactFamily, Member, Station, integrate};

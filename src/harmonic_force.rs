@@ -27,8 +27,7 @@ mod sums;
 mod waves;
 mod workspace;
 
-use crate::contact::Contact;
-use crate::curve::check_displacement;
+use crate::contact::{Contact, check_displacement};
 use crate::error::Error;
 use crate::seal::is_of;
 use workspace::{HEADER, WorkspaceLayout};

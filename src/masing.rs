@@ -6,8 +6,8 @@
 //! An update is found from the old state ([`step`]) before anything is written ([`Step::write`]): the old state may be
 //! read-only, a refused step leaves nothing behind, and both may be one array.
 
-use crate::contact::Contact;
-use crate::curve::{Response, check_displacement};
+use crate::contact::{Contact, check_displacement};
+use crate::curve::Response;
 use crate::error::Error;
 use crate::memory::{
     Course, PER_REVERSAL, Reversal, State, Stretch, Track, Virgin, course, follow, seal_of, state_length,

@@ -235,7 +235,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             let outputs = outputs([force, stiffness, stick_half_width], n);
             (pointer::contact(contact)?, input(displacement, n)?, outputs?)
         };
-        displacement.iter().try_for_each(|&displacement| crate::curve::check_displacement(displacement))?;
+        displacement.iter().try_for_each(|&displacement| crate::contact::check_displacement(displacement))?;
         responses(contact, displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
             for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
