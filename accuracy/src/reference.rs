@@ -339,6 +339,9 @@ impl Law {
         let Shape::Flat(flat) = &self.shape else {
             return self.elliptic((left / self.slip_approach.clone()).sqrt());
         };
+        if approach.is_zero() {
+            return self.at_w(&flat.w);
+        }
         let share = approach / &self.slip_approach;
         let start = if share.f64() > 0.5 {
             self.real(self.rest_roughly(flat, left.f64()))
