@@ -142,11 +142,19 @@ impl RoundedFlat {
     /// What the formulas above make of a stick zone.
     fn inner(&self, inner: &Indentation) -> Member {
         let load = inner.load();
-        let (rest, excess) = (load / self.load, self.excess(inner));
-        let left = rest * (self.origin.compliance + excess + inner.mean_load(load));
+        self.inner_of_load(inner, load, load / self.load)
+    }
+
+    /// The same for a stick zone whose load is known, and over that of b. Written as Λ τ + h, what is lost is not the difference of
+    /// two large numbers where the curve is nearly straight.
+    fn inner_of_load(&self, inner: &Indentation, load: f64, rest: f64) -> Member {
+        let (full_stick, excess, mean) = (self.origin.compliance, self.excess(inner), inner.mean_load(load));
         Member {
             load: Split { lost: 1.0 - rest, rest },
-            approach: Split { lost: self.slip_approach - left, rest: left },
+            approach: Split {
+                lost: full_stick * (1.0 - rest) + ((self.mean_load - rest * mean) - rest * excess),
+                rest: rest * (full_stick + excess + mean),
+            },
             excess,
             measure: Some(inner.w / self.w),
         }
@@ -193,10 +201,10 @@ impl ContactFamily for RoundedFlat {
     }
 
     fn at_load_rest(&self, rest: f64) -> Member {
-        let inner = Indentation::of_load(self.flat, rest * self.load);
-        let member = self.inner(&inner);
+        let load = rest * self.load;
+        let member = self.inner_of_load(&Indentation::of_load(self.flat, load), load, rest);
         let excess = if rest > 0.0 || self.flat > 0.0 { member.excess } else { f64::INFINITY };
-        Member { load: Split { lost: 1.0 - rest, rest }, excess, ..member }
+        Member { excess, ..member }
     }
 
     fn at_approach_rest(&self, rest: f64) -> Member {
