@@ -47,7 +47,7 @@ pub const BOUNDS: &[Bound] = &[
     bound("contact_init_like", 0.0, "bits", "0",
         "every contact but the ellipse", "the tables are those that would be made: every double of the contact is compared"),
     bound("displacement", 10.0, "value", "τ/x",
-        "0 <= T <= mu N", "up to τ = 1/2 a polynomial of positive curvature, beyond it x_s less what rests"),
+        "0 <= T <= mu N", "up to τ = 1/2 a polynomial of positive curvature, beyond it Λτ and what the curve bends by"),
     bound("compliance", 5.0, "value", "(1 + τ h'')/(Λ+λ)",
         "0 <= T <= mu N", "Λ + λ, both positive; λ changes with the rounding of T"),
     bound("stick_half_width", 5.0, "value", "τ h''",
