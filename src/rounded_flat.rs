@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! compliance       dx/dτ = Λ + λ,             λ = ln(b/c),   Λ = ln(2L/b) + ν/(1-ν)          Eq. 8-10
-//! until gross slip  rest = s (Λ + λ + β_c)                    x = Λ + β_b - rest
+//! until gross slip  rest = s (Λ + λ + β_c)                    x = Λ τ + β_b - s (λ + β_c)
 //! energy               e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                      Eq. 13-16
 //! ```
 //!
