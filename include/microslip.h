@@ -1,4 +1,22 @@
-/* microslip.h: the C interface of microslip (C99 and C++11). Made from the Rust source by `make header`. */
+/* microslip.h: the C interface of microslip (C99 and C++11). Generated from the Rust source by `make header`.
+ *
+ * Conventions
+ *
+ * Units       One consistent set; the text names SI. Forces are totals (N), not per unit length.
+ * Signs       A positive displacement gives a positive force: the internal force of the contact.
+ * Errors      Every function that can fail returns MSLIP_OK (0) or a positive status code; mslip_status_text has the message. On an
+ *             error no output is modified. Infinite and NaN inputs are rejected.
+ * Outputs     An output that is NULL is not computed.
+ * Aliasing    Output buffers must not alias any other argument, except where stated.
+ * Ownership   All memory is the caller's: contacts, states and workspaces are plain data that may be copied, stored in restart files
+ *             and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call recognises memory that
+ *             was never initialised, is too short, or belongs to another version of this interface; the _check functions validate
+ *             memory from outside the process in full.
+ * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts are only read and may be
+ *             shared; each thread needs a workspace of its own.
+ * Harmonics   Coefficients of a periodic quantity are [c0, cos1, sin1, cos2, sin2, ...], 2H+1 for H harmonics.
+ * Jacobians   Column-major: element (i, j) is at i + j * rows. A default (row-major) NumPy array holds the transpose.
+ */
 
 #ifndef MICROSLIP_H
 #define MICROSLIP_H
@@ -6,15 +24,109 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Version of the library that this header belongs to: its first number.
+// Version of the library that this header belongs to.
 #define MSLIP_VERSION_MAJOR 0
-// Its second number.
 #define MSLIP_VERSION_MINOR 1
-// Its third number.
 #define MSLIP_VERSION_PATCH 0
 
-// Raised whenever a name, a meaning or a size of this interface changes.
-#define MSLIP_ABI_VERSION 2
+// a required pointer is NULL
+#define MSLIP_NULL_POINTER 1
+
+// flat_half_width must be finite and >= 0
+#define MSLIP_BAD_FLAT_HALF_WIDTH 2
+
+// edge_radius must be finite and > 0
+#define MSLIP_BAD_EDGE_RADIUS 3
+
+// length must be finite and > 0
+#define MSLIP_BAD_LENGTH 4
+
+// normal_force must be finite and >= 0
+#define MSLIP_BAD_NORMAL_FORCE 5
+
+// friction_coefficient must be finite and >= 0
+#define MSLIP_BAD_FRICTION_COEFFICIENT 6
+
+// each young_modulus must be finite and > 0
+#define MSLIP_BAD_YOUNG_MODULUS 7
+
+// each poisson_ratio must be between 0 and 0.5
+#define MSLIP_BAD_POISSON_RATIO 8
+
+// displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP
+#define MSLIP_BAD_DISPLACEMENT_REFERENCE 9
+
+// semi_axis_x must be finite and > 0
+#define MSLIP_BAD_SEMI_AXIS_X 10
+
+// semi_axis_y must be finite and > 0
+#define MSLIP_BAD_SEMI_AXIS_Y 11
+
+// length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness
+#define MSLIP_LENGTH_TOO_SHORT 12
+
+// parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
+#define MSLIP_OUT_OF_RANGE 13
+
+// invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
+#define MSLIP_BAD_CONTACT 20
+
+// invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library
+#define MSLIP_BAD_STATE 21
+
+// invalid workspace: uninitialised, or created by an incompatible version of the library
+#define MSLIP_BAD_WORKSPACE 22
+
+// state_length must be at least mslip_state_length(0)
+#define MSLIP_STATE_TOO_SHORT 23
+
+// workspace_length must be at least the value of mslip_harmonic_workspace_length
+#define MSLIP_WORKSPACE_TOO_SHORT 25
+
+// a force must be finite
+#define MSLIP_BAD_FORCE 30
+
+// a force must not exceed mu N in magnitude
+#define MSLIP_FORCE_EXCEEDS_SLIP 31
+
+// a displacement must be finite and at most 1e150 in magnitude
+#define MSLIP_BAD_DISPLACEMENT 32
+
+// a position x must be finite
+#define MSLIP_BAD_POSITION 33
+
+// a displacement amplitude must be between 0 and 1e150
+#define MSLIP_BAD_AMPLITUDE 34
+
+// a force amplitude must be finite and >= 0
+#define MSLIP_BAD_FORCE_AMPLITUDE 35
+
+// the number of harmonics must be between 1 and 2^24
+#define MSLIP_BAD_HARMONICS 36
+
+// the number of samples must exceed twice the number of harmonics and be at most 2^24
+#define MSLIP_BAD_SAMPLES 37
+
+// the number of sliders must be between 1 and 65536
+#define MSLIP_BAD_COUNT 38
+
+// rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
+#define MSLIP_BAD_RULE 39
+
+// not available for this kind of contact
+#define MSLIP_NOT_AVAILABLE 40
+
+// an index must refer to one of the n_contacts contacts
+#define MSLIP_BAD_INDEX 41
+
+// an array is too long to be addressed, or (in Fortran) array sizes do not agree
+#define MSLIP_BAD_ARRAY_SIZE 90
+
+// misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
+#define MSLIP_BAD_ALIGNMENT 91
+
+// Version of this interface: incremented whenever a name, a meaning or a size changes.
+#define MSLIP_ABI_VERSION 3
 
 // Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
 #define MSLIP_CENTRE_POINT 0
@@ -22,112 +134,14 @@
 // Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
 #define MSLIP_RIGID_STRIP 1
 
-// Harmonic force from equidistant samples of a period.
-#define MSLIP_EQUIDISTANT 0
+// Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
+#define MSLIP_UNIFORM_SAMPLING 0
 
-// Harmonic force from Gauss-Legendre nodes between the instants at which the displacement turns, a loop closes or gross slip
-// starts.
-#define MSLIP_BETWEEN_REVERSALS 1
+// Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
+#define MSLIP_EVENT_DRIVEN 1
 
-// All went well.
+// Success.
 #define MSLIP_OK 0
-
-// A required pointer is NULL.
-#define MSLIP_NULL_POINTER 1
-
-// flat_half_width is not a finite number >= 0.
-#define MSLIP_BAD_FLAT_HALF_WIDTH 2
-
-// edge_radius is not a finite number > 0.
-#define MSLIP_BAD_EDGE_RADIUS 3
-
-// length is not a finite number > 0.
-#define MSLIP_BAD_LENGTH 4
-
-// normal_force is not a finite number >= 0.
-#define MSLIP_BAD_NORMAL_FORCE 5
-
-// friction_coefficient is not a finite number >= 0.
-#define MSLIP_BAD_FRICTION_COEFFICIENT 6
-
-// A young_modulus is not a finite number > 0.
-#define MSLIP_BAD_YOUNG_MODULUS 7
-
-// A poisson_ratio is not in 0 <= nu <= 0.5.
-#define MSLIP_BAD_POISSON_RATIO 8
-
-// displacement_reference is neither MSLIP_CENTRE_POINT nor MSLIP_RIGID_STRIP.
-#define MSLIP_BAD_DISPLACEMENT_REFERENCE 9
-
-// semi_axis_x is not a finite number > 0.
-#define MSLIP_BAD_SEMI_AXIS_X 10
-
-// semi_axis_y is not a finite number > 0.
-#define MSLIP_BAD_SEMI_AXIS_Y 11
-
-// 2 length <= half-width, or the initial stiffness would not be positive.
-#define MSLIP_LENGTH_TOO_SHORT 12
-
-// Half-width, force, displacement or energy would be beyond about 1e-150 to 1e150.
-#define MSLIP_OUT_OF_RANGE 13
-
-// The contact was never prepared, belongs to another version, or its memory was changed.
-#define MSLIP_BAD_CONTACT 20
-
-// The state was never initialised, is cut short, or its memory was changed.
-#define MSLIP_BAD_STATE 21
-
-// The workspace was never initialised, or its memory was changed.
-#define MSLIP_BAD_WORKSPACE 22
-
-// state_length is below mslip_state_length(0).
-#define MSLIP_STATE_TOO_SHORT 23
-
-// The state holds no further reversal.
-#define MSLIP_STATE_FULL 24
-
-// workspace_length is below mslip_harmonic_workspace_length.
-#define MSLIP_WORKSPACE_TOO_SHORT 25
-
-// A force is not finite.
-#define MSLIP_BAD_FORCE 30
-
-// |force| exceeds mu N.
-#define MSLIP_FORCE_EXCEEDS_SLIP 31
-
-// A displacement is not finite, or beyond 1e150.
-#define MSLIP_BAD_DISPLACEMENT 32
-
-// A position x is not finite.
-#define MSLIP_BAD_POSITION 33
-
-// A displacement amplitude is not finite, negative, or beyond 1e150.
-#define MSLIP_BAD_AMPLITUDE 34
-
-// A force amplitude is not finite, or negative.
-#define MSLIP_BAD_FORCE_AMPLITUDE 35
-
-// The number of harmonics is 0, or beyond 2^24.
-#define MSLIP_BAD_HARMONICS 36
-
-// The number of samples does not exceed twice the number of harmonics, or is beyond 2^24.
-#define MSLIP_BAD_SAMPLES 37
-
-// The number of sliders is 0, or beyond 65536.
-#define MSLIP_BAD_COUNT 38
-
-// rule is neither MSLIP_EQUIDISTANT nor MSLIP_BETWEEN_REVERSALS.
-#define MSLIP_BAD_RULE 39
-
-// Slip is not available for an elliptical contact.
-#define MSLIP_NOT_AVAILABLE 40
-
-// An array is too long to be addressed, which every function with a length may answer; in Fortran also: too short, or of a
-// size that does not agree with the others.
-#define MSLIP_BAD_ARRAY_SIZE 90
-
-// A pointer is not a multiple of 8 bytes, for flags of 4, which every function with pointers may answer.
-#define MSLIP_BAD_ALIGNMENT 91
 
 // Isotropic, linearly elastic material of one body.
 typedef struct mslip_material {
@@ -171,8 +185,8 @@ typedef struct mslip_elliptic_parameters {
     struct mslip_material material[2];
 } mslip_elliptic_parameters;
 
-// A contact: prepared once, then only read. Plain data of fixed size that may be copied, stored and sent.
-// An open contact (N = 0) has zero width, force and stiffness.
+// A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be copied,
+// stored and sent. An open contact (N = 0) has zero width, force and stiffness.
 typedef struct mslip_contact {
     // E*, Eq. 2 [Pa].
     double composite_modulus;
@@ -180,14 +194,14 @@ typedef struct mslip_contact {
     double half_width;
     // mu N [N].
     double slip_force;
-    // Displacement at which gross slip starts on the monotonic curve [m].
+    // Displacement at the onset of gross slip on the monotonic curve [m].
     double slip_displacement;
     // dT/d(displacement) at 0 [N/m].
     double initial_stiffness;
     // Dissipated per cycle at incipient gross slip [J].
     double slip_energy;
-    // Prepared coefficients and marks: not to be read or written.
-    double reserved[243];
+    // Tables: neither to be read nor to be written.
+    double reserved[241];
 } mslip_contact;
 
 #ifdef __cplusplus
@@ -200,54 +214,52 @@ const char *mslip_version(void);
 // Version of this interface: equals MSLIP_ABI_VERSION of the header that belongs to the library.
 int32_t mslip_abi_version(void);
 
-// What a status says is wrong, and what is allowed: a static sentence.
+// Message of a status, a static string: what is wrong and what is allowed.
 const char *mslip_status_text(int32_t status);
 
-// Parameters with every number unset (NaN), so that a forgotten one is refused by name; the centre point as reference.
+// Parameters with every number unset (NaN), so that a forgotten one is rejected by name; the centre point as reference.
 // NULL is ignored.
 //
-// Memory: `p` is NULL or points to parameters.
+// Memory: `p` is NULL or valid for parameters.
 void mslip_parameters_default(struct mslip_parameters *p);
 
 // Elliptical parameters with every number unset (NaN). NULL is ignored.
 //
-// Memory: `p` is NULL or points to parameters.
+// Memory: `p` is NULL or valid for parameters.
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
-// Prepares the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
+// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 //
 // Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
-// MSLIP_OUT_OF_RANGE; then the contact is unchanged.
+// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 //
-// Memory: `p` and `contact` are NULL or point to what their types say.
+// Memory: `p` and `contact` are NULL or valid for their types.
 int32_t mslip_contact_init(const struct mslip_parameters *p,
                            struct mslip_contact *contact);
 
-// Prepares a contact as mslip_contact_init does, with the same numbers in it, but faster where `like` has the same shape: it
-// differs in the friction coefficient only, or in scale by powers of 2. Otherwise it takes as long. contact may be like.
+// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 //
-// Returns what mslip_contact_init returns, or MSLIP_BAD_CONTACT; then the contact is unchanged.
+// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; the contact is
+// unchanged then.
 //
-// Memory: All pointers are NULL or point to what their types say.
-int32_t mslip_contact_init_like(const struct mslip_parameters *p,
-                                const struct mslip_contact *like,
-                                struct mslip_contact *contact);
-
-// Prepares an elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
-//
-// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; then the contact
-// is unchanged.
-//
-// Memory: `p` and `contact` are NULL or point to what their types say.
+// Memory: `p` and `contact` are NULL or valid for their types.
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
-// Tractions [Pa] at x[n] [m] along the width, under a monotonically grown force [N] (Eq. 17, 21-24); 0 outside the
+// Validates a contact that was read from a file or a message: it is bit for bit what initialisation wrote. Other calls compare a
+// tag only.
+//
+// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
+//
+// Memory: `contact` is NULL or valid for a contact.
+int32_t mslip_contact_check(const struct mslip_contact *contact);
+
+// Tractions [Pa] at x[n] [m] along the width, under a monotonically increased force [N] (Eq. 17, 21-24); 0 outside the
 // contact. Elliptical: on the x axis.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_tractions(const struct mslip_contact *contact,
                         double force,
                         size_t n,
@@ -256,12 +268,12 @@ int32_t mslip_tractions(const struct mslip_contact *contact,
                         double *shear);
 
 // Relative slip [m] (Eq. 15) and frictional damage parameter mu p |s| [N/m] (section 3.5) at x[n] [m], under a
-// monotonically grown force [N]; 0 in the stick zone and outside the contact.
+// monotonically increased force [N]; 0 in the stick zone and outside the contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 // MSLIP_NOT_AVAILABLE for an elliptical contact.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_slip(const struct mslip_contact *contact,
                    double force,
                    size_t n,
@@ -274,7 +286,7 @@ int32_t mslip_slip(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      size_t n,
                                      const double *force,
@@ -287,7 +299,7 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               size_t n,
                               const double *displacement,
@@ -295,48 +307,66 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *stiffness,
                               double *stick_half_width);
 
-// Doubles of a state that holds that many nested reversals.
+// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2. A state is never full:
+// beyond that number, the pair of neighbouring reversals whose removal changes later forces least is merged away.
 size_t mslip_state_length(size_t reversals);
 
-// Makes a virgin state: no force, no displacement. A state goes on wherever its numbers are copied: one that is full at the
-// beginning of a longer array, one with room to spare in a shorter, as long as that holds its reversals.
+// Initialises a state: unloaded, no force, no displacement.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 //
-// Memory: `state` is NULL or points to state_length numbers.
-int32_t mslip_state_init(size_t state_length,
-                         double *state);
+// Memory: `state` is NULL or valid for state_length doubles.
+int32_t mslip_state_init(size_t state_length, double *state);
 
-// Leads a contact from a state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated by this
-// step [J] (Eq. 11, 12). state1 may be state0; where it is NULL the new state is not kept.
+// Validates a state that was read from a file or a message: all values are finite, and the reversals are nested. Other calls
+// compare a tag and the number of reversals only.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
-// MSLIP_STATE_FULL where a further reversal would have to be remembered than the state holds.
+// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 //
-// Memory: Pointers are NULL or point to state_length numbers (states) or one; state1 is state0 or overlaps nothing.
+// Memory: `state` is NULL or valid for state_length doubles.
+int32_t mslip_state_check(size_t state_length,
+                          const double *state);
+
+// Bound on the error [N] of the force that merged reversals have caused: 0 while nothing was merged, and again once gross slip
+// has erased the memory.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+//
+// Memory: `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
+int32_t mslip_state_error(size_t state_length,
+                          const double *state,
+                          double *force_error);
+
+// Advances the contact from a state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated by this
+// step [J] (Eq. 11, 12). state_new may be state_old; if NULL, the new state is discarded.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
+//
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or one; state_new is state_old or, like the outputs, does not
+// alias any other argument.
 int32_t mslip_masing_update(const struct mslip_contact *contact,
                             size_t state_length,
-                            const double *state0,
+                            const double *state_old,
                             double displacement,
-                            double *state1,
+                            double *state_new,
                             double *force,
                             double *stiffness,
                             double *dissipated);
 
-// Leads a contact through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those of
-// each step. state1 holds the last state and may be state0; where it is NULL the last state is not kept.
+// Advances the contact through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those of
+// each step. state_new receives the last state and may be state_old. If NULL, the path runs in a copy of the state that holds
+// 128 nested reversals at most, and the new state is discarded.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, or
-// MSLIP_STATE_FULL where the path nests more reversals than the state holds. A path with more turning points than the
-// state has room for, or one whose state is not kept, may nest 2048 at most, and takes 40 kB of stack.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //
-// Memory: Pointers are NULL or point to state_length numbers (states) or n; state1 is state0 or overlaps nothing.
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or n; state_new is state_old or, like the outputs, does not
+// alias any other argument.
 int32_t mslip_masing_path(const struct mslip_contact *contact,
                           size_t state_length,
-                          const double *state0,
+                          const double *state_old,
                           size_t n,
                           const double *displacement,
-                          double *state1,
+                          double *state_new,
                           double *force,
                           double *stiffness,
                           double *dissipated);
@@ -346,7 +376,7 @@ int32_t mslip_masing_path(const struct mslip_contact *contact,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 // MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
 //
-// Memory: Pointers are NULL or point to state_length numbers (the state) or n; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                size_t state_length,
                                const double *state,
@@ -355,12 +385,12 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                double *pressure,
                                double *shear);
 
-// Closed loop between +amplitude and -amplitude [m]: displacement[n] [m] and force[n] [N] at n equidistant instants of one
-// period of amplitude cos(t), from t = 0.
+// Closed loop between +amplitude and -amplitude [m]: displacement[n] [m] and force[n] [N] at n uniformly spaced instants of
+// one period of amplitude cos(t), from t = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
                               double amplitude,
                               size_t n,
@@ -371,18 +401,18 @@ int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *force_amplitude,
                                 double *energy);
 
-// Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude[n] >= 0 [m] and its derivatives by the amplitude
-// [N/m^2] (section 3.4); an amplitude of 0 gives the initial stiffness.
+// Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude[n] >= 0 [m] and its derivatives with respect to
+// the amplitude [N/m^2] (section 3.4); an amplitude of 0 gives the initial stiffness.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
-// Memory: Pointers are NULL or point to n numbers; outputs overlap nothing.
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *amplitude,
@@ -391,51 +421,72 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *dk_real,
                                 double *dk_imag);
 
-// Doubles of a workspace for so many harmonics H >= 1 and samples > 2H a period; 0 where these are not allowed. The rule
-// is MSLIP_EQUIDISTANT.
-size_t mslip_harmonic_workspace_length(size_t harmonics,
-                                       size_t samples);
+// The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
+// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+//
+// Memory: Each pointer is NULL or valid for one item; outputs must not alias any other argument.
+int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
+                                 double amplitude,
+                                 double *stiffness,
+                                 double *slip_force);
 
-// Prepares a workspace: tables for one pair of harmonics and samples, and scratch memory. One for each thread. The rule is
-// MSLIP_EQUIDISTANT.
+// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n sliders allow: stiffness[n] [N/m],
+// slip_force[n] [N], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
+// that carries no force.
 //
-// Returns MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
 //
-// Memory: `workspace` is NULL or points to workspace_length numbers.
+// Memory: Each pointer is NULL or valid for n doubles (force_error: one); outputs must not alias any other argument.
+int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
+                              size_t n,
+                              double *stiffness,
+                              double *slip_force,
+                              double *force_error);
+
+// Number of doubles in a workspace for the given number of harmonics H >= 1, samples > 2H a period, and rule,
+// MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
+size_t mslip_harmonic_workspace_length(size_t harmonics,
+                                       size_t samples,
+                                       int32_t rule);
+
+// Initialises a workspace: tables for one (harmonics, samples, rule), and scratch memory; one for each thread.
+//
+// MSLIP_UNIFORM_SAMPLING takes `samples` uniformly spaced instants of a period; its error falls with the square of their number.
+// MSLIP_EVENT_DRIVEN finds the instants of reversals, loop closures and the onset of gross slip, and places about `samples`
+// Gauss-Legendre nodes a period between them, 8 at least between two; its error falls exponentially, and the energy is exact.
+// It searches for the events on a grid of `samples` instants, 16 H at least.
+//
+// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+//
+// Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t samples,
+                                      int32_t rule,
                                       size_t workspace_length,
                                       double *workspace);
 
-// mslip_harmonic_workspace_length for a rule, MSLIP_EQUIDISTANT or MSLIP_BETWEEN_REVERSALS; 0 for another.
-size_t mslip_harmonic_workspace_length_rule(size_t harmonics,
-                                            size_t samples,
-                                            int32_t rule);
-
-// mslip_harmonic_workspace_init for a rule. MSLIP_EQUIDISTANT samples a period at equal distances: its error falls with the
-// square of their number. MSLIP_BETWEEN_REVERSALS finds the instants at which the displacement turns, a loop closes or gross
-// slip starts, and puts about as many Gauss-Legendre nodes as there are samples between them, 8 at least between two: its
-// error falls exponentially, and the energy is exact. It looks for the instants on a grid of `samples`, at least 16 H.
+// What a workspace was initialised for; an output that is NULL is not written.
 //
-// Returns MSLIP_BAD_RULE or the codes of mslip_harmonic_workspace_init.
+// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
 //
-// Memory: `workspace` is NULL or points to workspace_length numbers.
-int32_t mslip_harmonic_workspace_init_rule(size_t harmonics,
-                                           size_t samples,
-                                           int32_t rule,
-                                           size_t workspace_length,
-                                           double *workspace);
+// Memory: `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
+int32_t mslip_harmonic_workspace_size(const double *workspace,
+                                      size_t *harmonics,
+                                      size_t *samples,
+                                      int32_t *rule);
 
-// Harmonic force by alternating between frequency and time, in steady state (the second of two periods from the virgin
+// Harmonic force by alternating frequency/time (AFT), in steady state (the second of two periods from the initial, unloaded
 // state), by the rule of the workspace. Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m],
-// force [N]; jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major, exact for this definition;
-// where two samples are equally far at a turning point, or one is just at gross slip, it is that of one side. With
-// MSLIP_BETWEEN_REVERSALS it is the rule applied to the exact derivative of the integrals, and as good as the force.
+// force [N]; jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major. With MSLIP_UNIFORM_SAMPLING it is
+// exact for this discretisation, and one-sided if two samples are equally far at a reversal or one is at the onset of gross slip;
+// with MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the integrals, and as accurate as the force.
 // dissipated [J] is per period.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
-// Memory: `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
+// Memory: `workspace` is NULL or was initialised; the others are NULL or of the lengths above; outputs must not alias any other argument.
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -443,75 +494,63 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
-// The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
-// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
+// mslip_complex_stiffness of n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
+// active is not NULL and active[i] is 0, item i is skipped.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; no item has written anything then.
 //
-// Memory: Pointers are NULL or point to one item; outputs overlap nothing.
-int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
-                                 double amplitude,
-                                 double *stiffness,
-                                 double *slip_force);
-
-// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n allow: stiffness[n] [N/m],
-// slip_force[n] [N], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
-// that carries no force.
-//
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
-//
-// Memory: Pointers are NULL or point to n numbers (force_error: one); outputs overlap nothing.
-int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
-                              size_t n,
-                              double *stiffness,
-                              double *slip_force,
-                              double *force_error);
-
-// mslip_complex_stiffness of n contacts, one amplitude each. Items whose active flag is 0 are skipped.
-//
-// Returns the codes of mslip_complex_stiffness; then no item has written anything.
-//
-// Memory: Pointers are NULL or point to n items; outputs overlap nothing.
-int32_t mslip_interface_complex_stiffness(size_t n,
-                                          const struct mslip_contact *contacts,
-                                          const int32_t *active,
-                                          const double *amplitude,
-                                          double *k_real,
-                                          double *k_imag,
-                                          double *dk_real,
-                                          double *dk_imag);
-
-// mslip_masing_update of n contacts: states hold state_length numbers an item, item after item; displacement, force,
-// stiffness and dissipated one. Items whose active flag is 0 are skipped, their states too. states1 may be states0.
-//
-// Returns the codes of mslip_masing_update; then no item has written anything.
-//
-// Memory: Pointers are NULL or as long as said; states1 is states0 or overlaps nothing.
-int32_t mslip_interface_masing_update(size_t n,
+// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
+// argument.
+int32_t mslip_batch_complex_stiffness(size_t n,
+                                      size_t n_contacts,
                                       const struct mslip_contact *contacts,
+                                      const int32_t *index,
                                       const int32_t *active,
-                                      size_t state_length,
-                                      const double *states0,
-                                      const double *displacement,
-                                      double *states1,
-                                      double *force,
-                                      double *stiffness,
-                                      double *dissipated);
+                                      const double *amplitude,
+                                      double *k_real,
+                                      double *k_imag,
+                                      double *dk_real,
+                                      double *dk_imag);
 
-// mslip_harmonic_force of n contacts through one workspace: displacement and force hold 2H+1 numbers an item, jacobian
-// (2H+1)^2, dissipated one. Items whose active flag is 0 are skipped.
+// mslip_masing_update of n items: states hold state_length doubles an item, item after item; displacement, force, stiffness and
+// dissipated one. states_new may be states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is
+// not NULL and active[i] is 0, item i is skipped, its state too.
 //
-// Returns the codes of mslip_harmonic_force; then no item has written anything.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; no item has written anything then.
 //
-// Memory: `workspace` is NULL or was initialised; the others are NULL or as long as said; outputs overlap nothing.
-int32_t mslip_interface_harmonic_force(size_t n,
-                                       const struct mslip_contact *contacts,
-                                       const int32_t *active,
-                                       double *workspace,
-                                       const double *displacement,
-                                       double *force,
-                                       double *jacobian,
-                                       double *dissipated);
+// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
+// like the outputs, does not alias any other argument.
+int32_t mslip_batch_masing_update(size_t n,
+                                  size_t n_contacts,
+                                  const struct mslip_contact *contacts,
+                                  const int32_t *index,
+                                  const int32_t *active,
+                                  size_t state_length,
+                                  const double *states_old,
+                                  const double *displacement,
+                                  double *states_new,
+                                  double *force,
+                                  double *stiffness,
+                                  double *dissipated);
+
+// mslip_harmonic_force of n items through one workspace: displacement and force hold 2H+1 doubles an item, jacobian (2H+1)^2,
+// dissipated one. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is not NULL and active[i] is 0, item i
+// is skipped.
+//
+// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; no item has written anything then.
+//
+// Memory: `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
+// lengths above; outputs must not alias any other argument.
+int32_t mslip_batch_harmonic_force(size_t n,
+                                   size_t n_contacts,
+                                   const struct mslip_contact *contacts,
+                                   const int32_t *index,
+                                   const int32_t *active,
+                                   double *workspace,
+                                   const double *displacement,
+                                   double *force,
+                                   double *jacobian,
+                                   double *dissipated);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1,143 +1,104 @@
-//! What can be wrong with a call, one error for each parameter, and the sentence that says what is allowed.
+//! Status codes: what can be wrong with a call, one code for each argument, and the message that says what is allowed.
 
-/// Why a call was refused. The number is the status code of the C interface: fixed by hand, never reused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(i32)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "each says what it is in its sentence")]
-pub enum Error {
-    NullPointer = 1,
-    BadFlatHalfWidth = 2,
-    BadEdgeRadius = 3,
-    BadLength = 4,
-    BadNormalForce = 5,
-    BadFrictionCoefficient = 6,
-    BadYoungModulus = 7,
-    BadPoissonRatio = 8,
-    BadDisplacementReference = 9,
-    BadSemiAxisX = 10,
-    BadSemiAxisY = 11,
-    LengthTooShort = 12,
-    OutOfRange = 13,
-    BadContact = 20,
-    BadState = 21,
-    BadWorkspace = 22,
-    StateTooShort = 23,
-    StateFull = 24,
-    WorkspaceTooShort = 25,
-    BadForce = 30,
-    ForceExceedsSlip = 31,
-    BadDisplacement = 32,
-    BadPosition = 33,
-    BadAmplitude = 34,
-    BadForceAmplitude = 35,
-    BadHarmonics = 36,
-    BadSamples = 37,
-    BadCount = 38,
-    BadRule = 39,
-    NotAvailable = 40,
-    BadArraySize = 90,
-    BadAlignment = 91,
+use core::ffi::CStr;
+
+/// Defines [`Error`] and the constants of the C interface from one table: name, constant, code and message. The message is the
+/// documentation of both.
+macro_rules! status_codes {
+    ($($name:ident, $constant:ident = $code:literal: $message:literal;)*) => {
+        /// Why a call was rejected. The number is the status code of the C interface: assigned by hand, never reused.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[repr(i32)]
+        #[non_exhaustive]
+        pub enum Error {
+            $(#[doc = $message] $name = $code,)*
+        }
+
+        /// The status codes as constants of the C interface.
+        pub mod constants {
+            $(#[doc = $message] pub const $constant: i32 = $code;)*
+        }
+
+        impl Error {
+            /// Every error, in the order of the status codes.
+            pub const ALL: &[Error] = &[$(Error::$name),*];
+
+            /// Name of the constant of the C interface.
+            #[must_use]
+            pub const fn constant(self) -> &'static str {
+                match self {
+                    $(Error::$name => stringify!($constant),)*
+                }
+            }
+
+            /// What is wrong, and what is allowed.
+            #[must_use]
+            pub const fn message(self) -> &'static CStr {
+                match self {
+                    $(Error::$name => match CStr::from_bytes_with_nul(concat!($message, "\0").as_bytes()) {
+                        Ok(message) => message,
+                        Err(_) => c"",
+                    },)*
+                }
+            }
+        }
+    };
+}
+
+status_codes! {
+    NullPointer, MSLIP_NULL_POINTER = 1: "a required pointer is NULL";
+    BadFlatHalfWidth, MSLIP_BAD_FLAT_HALF_WIDTH = 2: "flat_half_width must be finite and >= 0";
+    BadEdgeRadius, MSLIP_BAD_EDGE_RADIUS = 3: "edge_radius must be finite and > 0";
+    BadLength, MSLIP_BAD_LENGTH = 4: "length must be finite and > 0";
+    BadNormalForce, MSLIP_BAD_NORMAL_FORCE = 5: "normal_force must be finite and >= 0";
+    BadFrictionCoefficient, MSLIP_BAD_FRICTION_COEFFICIENT = 6: "friction_coefficient must be finite and >= 0";
+    BadYoungModulus, MSLIP_BAD_YOUNG_MODULUS = 7: "each young_modulus must be finite and > 0";
+    BadPoissonRatio, MSLIP_BAD_POISSON_RATIO = 8: "each poisson_ratio must be between 0 and 0.5";
+    BadDisplacementReference, MSLIP_BAD_DISPLACEMENT_REFERENCE = 9:
+        "displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP";
+    BadSemiAxisX, MSLIP_BAD_SEMI_AXIS_X = 10: "semi_axis_x must be finite and > 0";
+    BadSemiAxisY, MSLIP_BAD_SEMI_AXIS_Y = 11: "semi_axis_y must be finite and > 0";
+    LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:
+        "length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness";
+    OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
+    BadContact, MSLIP_BAD_CONTACT = 20:
+        "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
+    BadState, MSLIP_BAD_STATE = 21:
+        "invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library";
+    BadWorkspace, MSLIP_BAD_WORKSPACE = 22:
+        "invalid workspace: uninitialised, or created by an incompatible version of the library";
+    StateTooShort, MSLIP_STATE_TOO_SHORT = 23: "state_length must be at least mslip_state_length(0)";
+    WorkspaceTooShort, MSLIP_WORKSPACE_TOO_SHORT = 25:
+        "workspace_length must be at least the value of mslip_harmonic_workspace_length";
+    BadForce, MSLIP_BAD_FORCE = 30: "a force must be finite";
+    ForceExceedsSlip, MSLIP_FORCE_EXCEEDS_SLIP = 31: "a force must not exceed mu N in magnitude";
+    BadDisplacement, MSLIP_BAD_DISPLACEMENT = 32: "a displacement must be finite and at most 1e150 in magnitude";
+    BadPosition, MSLIP_BAD_POSITION = 33: "a position x must be finite";
+    BadAmplitude, MSLIP_BAD_AMPLITUDE = 34: "a displacement amplitude must be between 0 and 1e150";
+    BadForceAmplitude, MSLIP_BAD_FORCE_AMPLITUDE = 35: "a force amplitude must be finite and >= 0";
+    BadHarmonics, MSLIP_BAD_HARMONICS = 36: "the number of harmonics must be between 1 and 2^24";
+    BadSamples, MSLIP_BAD_SAMPLES = 37:
+        "the number of samples must exceed twice the number of harmonics and be at most 2^24";
+    BadCount, MSLIP_BAD_COUNT = 38: "the number of sliders must be between 1 and 65536";
+    BadRule, MSLIP_BAD_RULE = 39: "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN";
+    NotAvailable, MSLIP_NOT_AVAILABLE = 40: "not available for this kind of contact";
+    BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts";
+    BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
+        "an array is too long to be addressed, or (in Fortran) array sizes do not agree";
+    BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";
 }
 
 impl Error {
-    /// Every error, in the order of the status codes.
-    pub const ALL: [Error; 32] = [
-        Error::NullPointer,
-        Error::BadFlatHalfWidth,
-        Error::BadEdgeRadius,
-        Error::BadLength,
-        Error::BadNormalForce,
-        Error::BadFrictionCoefficient,
-        Error::BadYoungModulus,
-        Error::BadPoissonRatio,
-        Error::BadDisplacementReference,
-        Error::BadSemiAxisX,
-        Error::BadSemiAxisY,
-        Error::LengthTooShort,
-        Error::OutOfRange,
-        Error::BadContact,
-        Error::BadState,
-        Error::BadWorkspace,
-        Error::StateTooShort,
-        Error::StateFull,
-        Error::WorkspaceTooShort,
-        Error::BadForce,
-        Error::ForceExceedsSlip,
-        Error::BadDisplacement,
-        Error::BadPosition,
-        Error::BadAmplitude,
-        Error::BadForceAmplitude,
-        Error::BadHarmonics,
-        Error::BadSamples,
-        Error::BadCount,
-        Error::BadRule,
-        Error::NotAvailable,
-        Error::BadArraySize,
-        Error::BadAlignment,
-    ];
-
     /// The status code of the C interface.
     #[must_use]
     pub const fn code(self) -> i32 {
         self as i32
     }
-
-    /// What is wrong and what is allowed, as a sentence.
-    #[must_use]
-    pub const fn sentence(self) -> &'static core::ffi::CStr {
-        match self {
-            Error::NullPointer => c"a required pointer is NULL: inputs, contacts, states and workspaces must be given",
-            Error::BadFlatHalfWidth => c"flat_half_width must be a finite number >= 0 (0 is a cylinder)",
-            Error::BadEdgeRadius => c"edge_radius must be a finite number > 0",
-            Error::BadLength => c"length must be a finite number > 0",
-            Error::BadNormalForce => c"normal_force must be a finite number >= 0 (0 is an open contact)",
-            Error::BadFrictionCoefficient => c"friction_coefficient must be a finite number >= 0",
-            Error::BadYoungModulus => c"young_modulus of both materials must be a finite number > 0",
-            Error::BadPoissonRatio => c"poisson_ratio of both materials must lie in 0 <= nu <= 0.5",
-            Error::BadDisplacementReference => {
-                c"displacement_reference must be MSLIP_CENTRE_POINT (0) or MSLIP_RIGID_STRIP (1)"
-            }
-            Error::BadSemiAxisX => c"semi_axis_x must be a finite number > 0",
-            Error::BadSemiAxisY => c"semi_axis_y must be a finite number > 0",
-            Error::LengthTooShort => {
-                c"length is too short for the contact half-width b: 2 length > b and a positive initial stiffness are needed"
-            }
-            Error::OutOfRange => {
-                c"the parameters are each allowed, but together they give numbers beyond about 1e-150 to 1e150"
-            }
-            Error::BadContact => c"the contact was never prepared, belongs to another version, or was changed: call mslip_contact_init first",
-            Error::BadState => c"the state was never initialised, is cut short, or was changed: call mslip_state_init first",
-            Error::BadWorkspace => {
-                c"the workspace was never initialised, or was changed: call mslip_harmonic_workspace_init first"
-            }
-            Error::StateTooShort => c"state_length is too short: use mslip_state_length for the number of reversals wanted",
-            Error::StateFull => {
-                c"the state holds no further reversal and is unchanged: make it longer, by mslip_state_length"
-            }
-            Error::WorkspaceTooShort => {
-                c"workspace_length is too short: use mslip_harmonic_workspace_length for these harmonics and samples"
-            }
-            Error::BadForce => c"force must be a finite number",
-            Error::ForceExceedsSlip => c"|force| must not exceed slip_force = mu N",
-            Error::BadDisplacement => c"displacement must be a finite number, at most 1e150 in size",
-            Error::BadPosition => c"position x must be a finite number",
-            Error::BadAmplitude => c"amplitude must be a finite number >= 0, at most 1e150",
-            Error::BadForceAmplitude => c"force_amplitude must be a finite number >= 0",
-            Error::BadHarmonics => c"the number of harmonics must lie in 1 to 16777216",
-            Error::BadSamples => c"the number of samples must exceed twice the number of harmonics, and be at most 16777216",
-            Error::BadCount => c"the number of sliders must lie in 1 to 65536",
-            Error::BadRule => c"rule must be MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)",
-            Error::NotAvailable => c"slip is not available for an elliptical contact",
-            Error::BadArraySize => c"an array is longer than memory, too short, or of a size that does not agree with the others",
-            Error::BadAlignment => c"a pointer must be a multiple of what it points to: of 8 bytes, for flags of 4",
-        }
-    }
 }
 
 impl core::fmt::Display for Error {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(self.sentence().to_str().unwrap_or(""))
+        f.write_str(self.message().to_str().unwrap_or(""))
     }
 }
 
@@ -148,9 +109,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_error_is_shown_as_its_sentence() {
+    fn codes_ascend_and_each_has_a_message() {
+        assert!(Error::ALL.windows(2).all(|pair| pair[0].code() < pair[1].code()));
         for error in Error::ALL {
-            assert_eq!(std::format!("{error}").as_bytes(), error.sentence().to_bytes());
+            assert!(!error.message().is_empty() && error.constant().starts_with("MSLIP_"));
+            assert_eq!(std::format!("{error}").as_bytes(), error.message().to_bytes());
         }
     }
 }

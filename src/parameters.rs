@@ -1,7 +1,7 @@
 //! What the user gives: geometry, material and load (section 2.1 and Fig. 1 of the paper), and the checks on it.
 
 use crate::error::Error;
-use crate::number::{is_from_0_to, is_within};
+use crate::numerics::fp_class::{in_0_to, abs_le};
 
 /// Displacement of the centre point of the contact under a line of uniform traction: the paper's Eq. 5-10.
 pub const CENTRE_POINT: i32 = 0;
@@ -90,18 +90,18 @@ impl Default for EllipticParameters {
 
 /// `Ok` when `value` is finite and not below zero.
 fn not_negative(value: f64, error: Error) -> Result<(), Error> {
-    if is_from_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
+    if in_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
 }
 
 /// `Ok` when `value` is finite and above zero.
 fn positive(value: f64, error: Error) -> Result<(), Error> {
-    if is_from_0_to(f64::MAX, value) && !is_within(value, 0.0) { Ok(()) } else { Err(error) }
+    if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
 }
 
 fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
     for body in material {
         positive(body.young_modulus, Error::BadYoungModulus)?;
-        if !is_from_0_to(0.5, body.poisson_ratio) {
+        if !in_0_to(0.5, body.poisson_ratio) {
             return Err(Error::BadPoissonRatio);
         }
     }

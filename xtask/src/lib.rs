@@ -1,4 +1,4 @@
-//! The C header, made from the Rust source, and the names that it declares.
+//! The C header, generated from the Rust source, and the names that it declares.
 
 use std::path::{Path, PathBuf};
 
@@ -11,16 +11,16 @@ fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// Where the header stands in the repository.
+/// Path of the header in the repository.
 pub fn header_path() -> PathBuf {
     root().join("include/microslip.h")
 }
 
 /// The text that the header should have.
 pub fn header() -> String {
-    // In the source, brackets are escaped because they would make links, and sections are headed.
+    // In the source, brackets are escaped because they would be links, and sections have headings.
     let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ");
-    // Items that were kept out have left blank lines.
+    // Excluded items have left blank lines.
     let mut lines: Vec<&str> = text.lines().collect();
     lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
     lines.join("\n") + "\n"
@@ -31,7 +31,7 @@ pub fn symbols() -> Vec<String> {
     bindings().dynamic_symbols_names().map(str::to_owned).collect()
 }
 
-/// Compares the committed header with the source; the error is a sentence for a person.
+/// Compares the committed header with the source; the error is a message for a person.
 pub fn check_header() -> Result<(), String> {
     let path = header_path();
     let committed = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -52,9 +52,9 @@ fn text_of(bindings: &Bindings) -> String {
 fn bindings() -> Bindings {
     let mut config = Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml");
     config.include_guard = Some(INCLUDE_GUARD.to_owned());
-    config.after_includes = Some(version_macros());
-    // cbindgen takes in whatever is public and could be C: what belongs to the interface carries its prefix. Leaving an
-    // item out can bring up others that only it had covered.
+    config.after_includes = Some(version_macros() + &status_codes());
+    // cbindgen includes whatever is public and could be C: items of the interface carry its prefix. Excluding an item can
+    // expose others that only it had covered.
     loop {
         let bindings = generate(&config);
         let outsiders = outsiders(&bindings);
@@ -70,7 +70,7 @@ fn generate(config: &Config) -> Bindings {
         .with_crate(root())
         .with_config(config.clone())
         .generate()
-        .unwrap_or_else(|e| panic!("the source does not make a header: {e}"))
+        .unwrap_or_else(|e| panic!("no header can be generated from the source: {e}"))
 }
 
 /// The constants, types and functions without the prefix of the interface.
@@ -88,14 +88,18 @@ fn outsiders(bindings: &Bindings) -> Vec<String> {
 /// The package's version, as macros: this crate and the library share one version.
 fn version_macros() -> String {
     format!(
-        "\n// Version of the library that this header belongs to: its first number.\n\
+        "\n// Version of the library that this header belongs to.\n\
          #define MSLIP_VERSION_MAJOR {}\n\
-         // Its second number.\n\
          #define MSLIP_VERSION_MINOR {}\n\
-         // Its third number.\n\
          #define MSLIP_VERSION_PATCH {}",
         env!("CARGO_PKG_VERSION_MAJOR"),
         env!("CARGO_PKG_VERSION_MINOR"),
         env!("CARGO_PKG_VERSION_PATCH")
     )
+}
+
+/// The status codes, from the library's own table: the macro that defines them is not expanded by cbindgen.
+fn status_codes() -> String {
+    let code = |error: &microslip::Error| format!("\n\n// {error}\n#define {} {}", error.constant(), error.code());
+    microslip::Error::ALL.iter().map(code).collect()
 }

@@ -1,0 +1,450 @@
+//! Masing's rule (Eq. 11, 12): force, tangent stiffness and dissipated energy along any history of displacements.
+//!
+//! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
+
+use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::curve::CurveEvaluator;
+use crate::constant_load::energy::Dissipation;
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, push};
+use crate::constant_load::state;
+use crate::error::Error;
+use crate::law::{Evaluator, Point, Response};
+
+/// Evaluates force and stiffness on a branch without gross slip.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BranchEvaluator<'c> {
+    branch: Branch,
+    /// Direction times Masing scale.
+    factor: f64,
+    limit: f64,
+    curve: CurveEvaluator<'c>,
+}
+
+impl Branch {
+    #[inline(always)]
+    pub fn evaluator<'c>(&self, contact: &'c Contact) -> BranchEvaluator<'c> {
+        let factor = self.direction * self.scale;
+        BranchEvaluator { branch: *self, factor, limit: contact.slip_force, curve: contact.evaluator() }
+    }
+
+    /// Force and stiffness at a displacement on the branch.
+    #[inline(always)]
+    pub fn response(&self, contact: &Contact, displacement: f64) -> Response {
+        if self.gross_slip {
+            return Response { force: self.direction * contact.slip_force, stiffness: 0.0 };
+        }
+        self.evaluator(contact).at(displacement)
+    }
+}
+
+impl Evaluator for BranchEvaluator<'_> {
+    #[inline(always)]
+    fn at(&self, displacement: f64) -> Response {
+        let BranchEvaluator { branch, factor, limit, curve } = self;
+        let Response { force, stiffness } = curve.at(branch.distance(curve.slip_displacement, displacement));
+        let force = branch.start.force + factor * force;
+        let force = if force > *limit { *limit } else { force };
+        Response { force: if force < -limit { -limit } else { force }, stiffness }
+    }
+}
+
+/// A step from a state to a displacement: what it leads to, before anything is written.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    branch: Branch,
+    reversed: bool,
+    initial: InitialCurve,
+    start: Point,
+    end: Point,
+    stiffness: f64,
+    dissipated: f64,
+}
+
+/// Finds the step of a contact from a state to a displacement \[m\]; its energy only if `with_energy`.
+///
+/// # Errors
+/// `BadState`, `StateTooShort`, `BadDisplacement`.
+#[inline(always)]
+pub fn step(contact: &Contact, state: &[f64], displacement: f64, with_energy: bool) -> Result<Step, Error> {
+    let memory = state::read(state)?;
+    check_displacement(displacement)?;
+    Ok(if with_energy {
+        Step::with_energy(contact, &memory, displacement)
+    } else {
+        Step::new(contact, &memory, displacement)
+    })
+}
+
+impl Step {
+    #[inline(always)]
+    fn new(contact: &Contact, memory: &Memory, displacement: f64) -> Step {
+        Step::along(contact, memory, displacement, None)
+    }
+
+    #[inline(never)]
+    fn with_energy(contact: &Contact, memory: &Memory, displacement: f64) -> Step {
+        Step::along(contact, memory, displacement, Some(Dissipation::new(contact)))
+    }
+
+    #[inline(always)]
+    fn along(contact: &Contact, memory: &Memory, displacement: f64, mut energy: Option<Dissipation>) -> Step {
+        let transition = memory.locate(contact, displacement, |segment| {
+            if let Some(energy) = &mut energy {
+                energy.add(segment);
+            }
+        });
+        let branch = transition.branch;
+        let Response { force, stiffness } = branch.response(contact, displacement);
+        let stays = displacement == memory.now.displacement;
+        Step {
+            branch,
+            reversed: transition.reversed,
+            initial: memory.initial.after(contact, &branch, displacement),
+            start: memory.now,
+            end: Point { displacement, force },
+            stiffness,
+            dissipated: energy.filter(|_| !stays).map_or(0.0, Dissipation::total),
+        }
+    }
+
+    /// Tangential force \[N\] after the step.
+    #[must_use]
+    #[inline(always)]
+    pub fn force(&self) -> f64 {
+        self.end.force
+    }
+
+    /// dT/d(displacement) \[N/m\] on the branch on which the step ends; 0 in gross slip.
+    #[must_use]
+    #[inline(always)]
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Energy \[J\] dissipated by the step, not negative; 0 if it was not requested.
+    #[must_use]
+    #[inline(always)]
+    pub fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    /// Writes the step into the state from which it was found, or into a copy of that.
+    #[inline(always)]
+    pub fn write(&self, contact: &Contact, state: &mut [f64]) {
+        let mut depth = self.branch.depth;
+        if self.reversed {
+            let reversals = state::reversals_mut(state);
+            depth = push(contact, self.initial.offset, reversals, depth - 1, self.start);
+        }
+        state::write_header(state, depth, self.initial, self.end);
+    }
+}
+
+/// Where the results of each step of a path go; `None` is not computed.
+#[derive(Debug)]
+pub struct PathOutput<'a> {
+    /// Force \[N\] after each step.
+    pub force: Option<&'a mut [f64]>,
+    /// Tangent stiffness \[N/m\].
+    pub stiffness: Option<&'a mut [f64]>,
+    /// Energy \[J\] dissipated by each step.
+    pub dissipated: Option<&'a mut [f64]>,
+}
+
+/// Checks the inputs of a path.
+///
+/// # Errors
+/// `BadState`, `StateTooShort`, `BadDisplacement`.
+pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
+    state::read(state)?;
+    path.iter().try_for_each(|&displacement| check_displacement(displacement))
+}
+
+/// Advances a state along a path of displacements \[m\] that was checked.
+///
+/// # Errors
+/// Those of [`check_path`].
+#[inline(always)]
+pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    let PathOutput { mut force, mut stiffness, mut dissipated } = output;
+    for (i, &displacement) in path.iter().enumerate() {
+        let step = step(contact, state, displacement, dissipated.is_some())?;
+        step.write(contact, state);
+        let values = [step.force(), step.stiffness(), step.dissipated()];
+        for (output, value) in [&mut force, &mut stiffness, &mut dissipated].into_iter().zip(values) {
+            if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
+                *place = value;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Nested reversals of the copy in which a path runs whose last state is discarded.
+const REVERSALS_OF_COPY: usize = 128;
+
+/// Advances along a path in a copy of the state, on the stack.
+///
+/// # Errors
+/// Those of [`check_path`].
+#[inline(never)]
+pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], output: PathOutput) -> Result<(), Error> {
+    let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
+    let length = state.len().min(copy.len());
+    let copy = copy.get_mut(..length).unwrap_or(&mut []);
+    state::copy(contact, state, copy)?;
+    path(contact, copy, displacement, output)
+}
+
+/// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
+/// reversal's change of force (Eq. 21 with Masing's rule).
+///
+/// # Errors
+/// `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
+pub fn shear_tractions(contact: &Contact, state: &[f64], x: &[f64], shear: &mut [f64]) -> Result<(), Error> {
+    let memory = state::read(state)?;
+    let forces = || memory.reversals.iter().map(|[_, force, _]| *force).chain([memory.now.force]);
+    forces().try_for_each(|force| contact.check_force(force))?;
+    shear.fill(0.0);
+    let mut before = None;
+    for force in forces() {
+        let (scale, change) = before.map_or((1.0, force), |before: f64| (2.0, 0.5 * (force - before)));
+        let point = contact.curve_at_force(change)?;
+        shear.iter_mut().zip(x).for_each(|(shear, &x)| *shear += scale * point.shear(x));
+        before = Some(force);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse, parameters};
+    use crate::constant_load::state::{self, state_error, state_init, state_length};
+    use crate::parameters::Parameters;
+    use std::vec;
+    use std::vec::Vec;
+
+    fn unloaded(reversals: usize) -> Vec<f64> {
+        let mut state = vec![0.0; state_length(reversals)];
+        state_init(&mut state).unwrap();
+        state
+    }
+
+    /// Advances a state along displacements, over that of gross slip; the force at the end.
+    fn apply(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
+        let mut force = f64::NAN;
+        for displacement in path {
+            let step = step(contact, state, displacement * contact.slip_displacement, false).unwrap();
+            step.write(contact, state);
+            force = step.force();
+        }
+        force
+    }
+
+    fn on_curve(contact: &Contact, displacement: f64) -> f64 {
+        contact.curve_at_displacement(displacement * contact.slip_displacement).unwrap().force()
+    }
+
+    /// Numbers from -1 to 1 without a pattern, the same every time.
+    fn scattered(count: usize, seed: u64) -> impl Iterator<Item = f64> {
+        let mut bits = seed;
+        (0..count).map(move |_| {
+            bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        })
+    }
+
+    /// Number of reversals on the stack, and the offset of the initial loading curve.
+    fn depth_and_offset(state: &[f64]) -> (usize, f64) {
+        let memory = state::read(state).unwrap();
+        (memory.reversals.len(), memory.initial.offset)
+    }
+
+    #[test]
+    fn memory_without_a_tag_is_rejected() {
+        let contact = contact(50e-6);
+        let mut good = unloaded(3);
+        apply(&contact, &mut good, &[0.5, -0.2, 0.1]);
+        let rejects = |state: &[f64], error: Error| {
+            assert_eq!(step(&contact, state, 0.0, false).map(|_| ()), Err(error));
+            assert_eq!(check_path(state, &[0.0]), Err(error));
+            assert_eq!(shear_tractions(&contact, state, &[0.0], &mut [0.0]), Err(error));
+            assert_eq!(state_error(state), Err(error));
+        };
+        for tag in [0.0, f64::NAN, 1.5, -good[0], f64::from_bits(good[0].to_bits() + 2)] {
+            let mut bad = good.clone();
+            bad[0] = tag;
+            rejects(&bad, Error::BadState);
+        }
+        rejects(good.get(..state_length(2) - 1).unwrap(), Error::StateTooShort);
+        // Truncated below its number of reversals.
+        apply(&contact, &mut good, &[0.05]);
+        rejects(good.get(..state_length(2)).unwrap(), Error::BadState);
+        assert_eq!(state_init(&mut [0.0; state_length(0) - 1]), Err(Error::StateTooShort));
+        assert_eq!(step(&contact, &good, f64::NAN, false).map(|_| ()), Err(Error::BadDisplacement));
+    }
+
+    #[test]
+    fn the_mirror_of_the_first_reversal_leads_back_to_the_virgin_curve() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            for beyond in [0.5, 0.500001, 0.7, 0.999] {
+                let mut state = unloaded(8);
+                let force = apply(&contact, &mut state, &[0.5, -0.1, 0.3, 0.2, -beyond]);
+                // At the mirror point itself the closed branch is the virgin curve, too.
+                assert!((force + on_curve(&contact, beyond)).abs() <= 4e-16 * contact.slip_force, "{flat} {beyond}");
+                assert_eq!(depth_and_offset(&state), (0, 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn gross_slip_forgets_everything() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let (mut rich, mut poor) = (unloaded(64), unloaded(64));
+            apply(&contact, &mut rich, &[0.5, -0.3, 0.9, -0.8, 0.1, 0.0, 0.05]);
+            for state in [&mut rich, &mut poor] {
+                assert_eq!(apply(&contact, state, &[2.5]), contact.slip_force);
+            }
+            assert_eq!(rich.first_chunk::<5>(), poor.first_chunk::<5>());
+            for path in [&[2.4][..], &[1.0, 1.3], &[-0.4], &[0.6]] {
+                let [one, two] = [&mut rich, &mut poor].map(|state| apply(&contact, state, path));
+                assert_eq!(one, two);
+            }
+            // From the end of a slip the way back is twice the curve, and slides again after twice its length.
+            let mut state = unloaded(2);
+            let back = apply(&contact, &mut state, &[2.5, 2.5 - 1.2]);
+            let expected = contact.slip_force - 2.0 * on_curve(&contact, 0.6);
+            assert!((back - expected).abs() <= 4e-15 * contact.slip_force);
+            assert_eq!(apply(&contact, &mut state, &[0.499]), -contact.slip_force);
+        }
+    }
+
+    #[test]
+    fn a_step_of_zero_changes_nothing() {
+        let contact = contact(1e-6);
+        let mut state = unloaded(64);
+        for (number, displacement) in scattered(200, 3).enumerate() {
+            // Up to gross slip and beyond, from the virgin state on.
+            let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
+            let first = step(&contact, &state, target, true).unwrap();
+            first.write(&contact, &mut state);
+            let again = step(&contact, &state, target, true).unwrap();
+            assert_eq!(again.dissipated(), 0.0);
+            assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
+            let before = state.clone();
+            again.write(&contact, &mut state);
+            assert_eq!(state, before);
+        }
+    }
+
+    #[test]
+    fn a_deep_spiral_is_exact_and_closes_at_once() {
+        let contact = contact(0.0);
+        let spiral: Vec<f64> = (0..400)
+            .map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0))
+            .collect();
+        let mut state = unloaded(399);
+        apply(&contact, &mut state, &spiral);
+        assert_eq!((depth_and_offset(&state), state_error(&state)), ((399, 0.0), Ok(0.0)));
+        assert_eq!(apply(&contact, &mut state, &[0.95]), on_curve(&contact, 0.95));
+        assert_eq!(depth_and_offset(&state).0, 0);
+    }
+
+    /// A path whose last state is discarded is the path of a kept state.
+    #[test]
+    fn a_path_in_a_copy_is_the_same_path() {
+        let contact = contact(50e-6);
+        let slip = contact.slip_displacement;
+        for capacity in [0, 3, 40] {
+            let mut state = unloaded(capacity);
+            for seed in 0..4 {
+                let path: Vec<f64> = scattered(60, seed).map(|x| 1.1 * x * slip).collect();
+                let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
+                let output =
+                    |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
+                path_in_copy(&contact, &state, &path, output(&mut discarded)).unwrap();
+                super::path(&contact, &mut state, &path, output(&mut kept)).unwrap();
+                assert_eq!(discarded, kept);
+            }
+        }
+    }
+
+    #[test]
+    fn a_closed_loop_dissipates_the_energy_of_its_amplitude() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            for amplitude in [0.01, 0.3, 0.8, 0.9999] {
+                let mut state = unloaded(4);
+                let force = apply(&contact, &mut state, &[amplitude]);
+                let mut sum = 0.0;
+                for target in [-0.3 * amplitude, -amplitude, amplitude] {
+                    let step = step(&contact, &state, target * contact.slip_displacement, true).unwrap();
+                    sum += step.dissipated();
+                    step.write(&contact, &mut state);
+                }
+                let expected = contact.dissipated_energy(force).unwrap();
+                // Near gross slip the rounding of the force itself, a unit in 1e-4 of mu N, is worth the most.
+                assert!((sum / expected - 1.0).abs() < 1e-13, "{amplitude} {sum} {expected}");
+                // A small loop within, on the way: the same energy wherever it hangs, to the rounding of its place.
+                apply(&contact, &mut state, &[0.0, -0.2 * amplitude]);
+                let part = 0.1 * amplitude;
+                let mut inner = 0.0;
+                for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
+                    let step = step(&contact, &state, target * contact.slip_displacement, true).unwrap();
+                    inner += step.dissipated();
+                    step.write(&contact, &mut state);
+                }
+                let alone = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
+                assert!((inner / alone - 1.0).abs() < 1e-13, "{amplitude} {inner} {alone}");
+            }
+        }
+    }
+
+    #[test]
+    fn tractions_after_a_history_obey_coulomb_and_add_up_to_the_force() {
+        let contact = contact(50e-6);
+        let mut state = unloaded(8);
+        let force = apply(&contact, &mut state, &[0.9, -0.6, 0.4, -0.1, 0.2]);
+        // Between the stick edges of all jumps of force, flat and edge, where the traction has its roots.
+        let forces: Vec<f64> = state::read(&state).unwrap().reversals.iter().map(|[_, force, _]| *force).chain([force]).collect();
+        let edge = |jump: f64| contact.curve_at_force(jump).unwrap().stick_half_width();
+        let mut places: Vec<f64> = forces.windows(2).map(|pair| edge(0.5 * (pair[1] - pair[0]))).collect();
+        assert_eq!(places.len(), 4);
+        places.extend([0.0, 50e-6, contact.half_width, edge(forces[0])]);
+        places.sort_by(f64::total_cmp);
+        let mut sum = 0.0;
+        for (from, to) in places.iter().zip(places.iter().skip(1)) {
+            for node in &crate::numerics::quadrature::TANH_SINH {
+                let x = from + (to - from) * node.from_0;
+                let mut shear = [0.0];
+                shear_tractions(&contact, &state, &[x], &mut shear).unwrap();
+                let [shear] = shear;
+                // Rounding of five terms.
+                assert!(shear.abs() <= 0.4 * contact.pressure(x) * (1.0 + 1e-12));
+                sum += 2.0 * 10e-3 * (to - from) * node.weight * shear;
+            }
+        }
+        // The rule's nodes next to an edge are rounded to it.
+        assert!((sum / force - 1.0).abs() < 1e-7, "{sum} {force}");
+        // The force of a stronger contact.
+        let stronger = Contact::rounded_flat(&Parameters { normal_force: 225.0, ..parameters(50e-6) }).unwrap();
+        apply(&stronger, &mut state, &[-3.0]);
+        assert_eq!(shear_tractions(&contact, &state, &[0.0], &mut [0.0]), Err(Error::ForceExceedsSlip));
+    }
+
+    /// So far in gross slip that the origin cannot be told from the displacement, the direction is still known.
+    #[test]
+    fn a_step_of_zero_far_in_gross_slip_changes_nothing() {
+        let contact = contact(0.0);
+        for displacement in [-1e17 * contact.slip_displacement, -1e150, 1e150] {
+            let mut state = unloaded(3);
+            let forces = [(); 3].map(|()| {
+                let step = step(&contact, &state, displacement, false).unwrap();
+                step.write(&contact, &mut state);
+                step.force()
+            });
+            assert_eq!(forces, [contact.slip_force.copysign(displacement); 3]);
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Return-point memory: the stack of displacement reversals, and the branch on which a displacement lies.
+//!
+//! Every reversal opens a branch. A branch that returns to the displacement of the reversal before its own closes that loop, and
+//! both reversals are popped. The branch of the oldest reversal ends at the mirror point of that reversal on the initial loading
+//! curve. Gross slip clears the stack and shifts the initial loading curve along with the slider. This module is the only one that
+//! contains these rules: time steps and both quadrature rules of the harmonic balance apply them through [`Memory`].
+//!
+//! Branches are located by comparing displacements only; no force is evaluated.
+//!
+//! A reversal is stored as `[displacement, force, error]`. The error bounds what reversals that were merged away would change in
+//! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`merge`]).
+
+use crate::constant_load::contact::Contact;
+use crate::law::{Point, Reversal};
+
+fn point([displacement, force, _]: Reversal) -> Point {
+    Point { displacement, force }
+}
+
+/// The initial loading (backbone) curve of a history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct InitialCurve {
+    /// Displacement at which it starts.
+    pub offset: f64,
+    /// Direction, +1 or -1, of the last gross slip; 0 if there was none. After gross slip only the ends of the curve, at mu N,
+    /// can be reached again.
+    pub slip_direction: f64,
+}
+
+impl InitialCurve {
+    /// That of an unloaded contact.
+    pub const UNLOADED: InitialCurve = InitialCurve { offset: 0.0, slip_direction: 0.0 };
+
+    /// The curve after a step that ends on `branch` at `displacement`. Without friction it starts at every displacement.
+    #[inline(always)]
+    pub fn after(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
+        if contact.is_frictionless() {
+            InitialCurve { offset: displacement, slip_direction: 0.0 }
+        } else if branch.gross_slip {
+            let offset = displacement - branch.direction * contact.slip_displacement;
+            InitialCurve { offset, slip_direction: branch.direction }
+        } else {
+            self
+        }
+    }
+}
+
+/// A branch of the force-displacement curve: it leaves a reversal, or is the initial loading curve, or gross slip.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Branch {
+    /// Number of reversals on the stack up to the one that this branch leaves; 0 on the initial loading curve.
+    pub depth: usize,
+    /// The reversal that it leaves, or the start of the initial loading curve.
+    pub start: Point,
+    /// +1 or -1.
+    pub direction: f64,
+    /// Displacement at which it ends: at the reversal before its own, at a mirror point, or at the onset of gross slip.
+    pub end: f64,
+    /// Masing scale: 2 after a reversal, 1 on the initial loading curve.
+    pub scale: f64,
+    pub gross_slip: bool,
+}
+
+impl Branch {
+    /// Whether a displacement in the direction of the branch lies before its end. The end of the initial loading curve belongs to
+    /// it: gross slip starts beyond.
+    #[inline(always)]
+    pub fn contains(&self, displacement: f64) -> bool {
+        let beyond = self.direction * (displacement - self.end);
+        self.gross_slip || beyond < 0.0 || (beyond == 0.0 && self.depth == 0)
+    }
+
+    /// Displacement on the monotonic curve that corresponds to one on the branch: `|δ-δ_r|/2` after a reversal. A distance that
+    /// exceeds that of gross slip by rounding is cut off there.
+    #[inline(always)]
+    pub fn distance(&self, slip_displacement: f64, displacement: f64) -> f64 {
+        let distance = (displacement - self.start.displacement).abs() / self.scale;
+        if distance > slip_displacement { slip_displacement } else { distance }
+    }
+}
+
+/// One segment of a step, on one branch: both ends as displacements on the monotonic curve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Segment {
+    /// Masing scale of the branch.
+    pub scale: f64,
+    pub start: f64,
+    pub end: f64,
+    /// Length of gross slip after the end.
+    pub slip_length: f64,
+}
+
+/// The memory of one history, for reading.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Memory<'a> {
+    pub initial: InitialCurve,
+    pub now: Point,
+    /// The reversals on the stack, oldest first.
+    pub reversals: &'a [Reversal],
+}
+
+/// Where a step leads.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Transition {
+    /// The branch on which the step ends.
+    pub branch: Branch,
+    /// Whether the point at which the step starts becomes the newest reversal, which that branch leaves.
+    pub reversed: bool,
+}
+
+impl Memory<'_> {
+    #[inline(always)]
+    pub fn depth(&self) -> usize {
+        self.reversals.len()
+    }
+
+    /// Reversal 1 is the oldest. The point at which the step starts counts as one more.
+    #[inline(always)]
+    fn reversal(&self, number: usize) -> Point {
+        match self.reversals.get(number.wrapping_sub(1)) {
+            Some(reversal) => point(*reversal),
+            None => self.now,
+        }
+    }
+
+    /// The branch that leaves reversal `depth`; the initial loading curve for 0.
+    #[inline(always)]
+    pub fn branch(&self, contact: &Contact, depth: usize, direction: f64) -> Branch {
+        let InitialCurve { offset, slip_direction } = self.initial;
+        if depth == 0 {
+            return Branch {
+                depth,
+                // The sign of the zero keeps compilers from an instruction that valgrind does not know.
+                start: Point { displacement: offset, force: -0.0 },
+                direction,
+                end: offset + direction * contact.slip_displacement,
+                scale: 1.0,
+                gross_slip: slip_direction != 0.0,
+            };
+        }
+        let start = self.reversal(depth);
+        let end =
+            if depth >= 2 { self.reversal(depth - 1).displacement } else { 2.0 * offset - start.displacement };
+        Branch { depth, start, direction, end, scale: 2.0, gross_slip: false }
+    }
+
+    /// The branch that continues one at its end: that of the enclosing loop once a loop is closed, the initial loading curve
+    /// after the mirror point, gross slip after the initial loading curve.
+    #[inline(always)]
+    pub fn continuation(&self, contact: &Contact, branch: &Branch) -> Branch {
+        if branch.depth == 0 {
+            Branch { gross_slip: true, ..*branch }
+        } else {
+            self.branch(contact, branch.depth.saturating_sub(2), branch.direction)
+        }
+    }
+
+    /// Direction of the branch at the present point; 0 at the start of the initial loading curve.
+    #[inline(always)]
+    fn heading(&self) -> f64 {
+        match self.reversals.last() {
+            Some(newest) => self.now.displacement - point(*newest).displacement,
+            // In gross slip the offset may be too far away for a difference.
+            None if self.initial.slip_direction != 0.0 => self.initial.slip_direction,
+            None => self.now.displacement - self.initial.offset,
+        }
+    }
+
+    /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.
+    /// A step of zero continues the present branch. Without friction there is nothing to remember.
+    #[inline(always)]
+    pub fn locate(&self, contact: &Contact, target: f64, mut on_segment: impl FnMut(Segment)) -> Transition {
+        let from = self.now.displacement;
+        let heading = self.heading();
+        let change = if target == from { heading } else { target - from };
+        let direction = if change < 0.0 { -1.0 } else { 1.0 };
+        if contact.is_frictionless() {
+            let branch = Branch { gross_slip: false, ..self.branch(contact, 0, direction) };
+            return Transition { branch, reversed: false };
+        }
+        let mut reversed = direction * heading < 0.0;
+        let mut branch = self.branch(contact, self.depth() + usize::from(reversed), direction);
+        let mut at = from;
+        let slip_displacement = contact.slip_displacement;
+        while !branch.contains(target) {
+            let segment = branch.segment(slip_displacement, at, branch.end);
+            // The initial loading curve ends at gross slip exactly.
+            on_segment(Segment { end: if branch.depth == 0 { slip_displacement } else { segment.end }, ..segment });
+            at = branch.end;
+            branch = self.continuation(contact, &branch);
+            reversed = false;
+        }
+        on_segment(branch.segment(slip_displacement, at, target));
+        Transition { branch, reversed }
+    }
+}
+
+impl Branch {
+    /// The segment of the branch between two displacements.
+    #[inline(always)]
+    pub fn segment(&self, slip_displacement: f64, from: f64, to: f64) -> Segment {
+        if self.gross_slip {
+            return Segment { scale: 1.0, start: 0.0, end: 0.0, slip_length: (to - from).abs() };
+        }
+        let start = self.distance(slip_displacement, from);
+        Segment { scale: self.scale, start, end: self.distance(slip_displacement, to), slip_length: 0.0 }
+    }
+}
+
+/// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least; the depth after it. A full stack is merged
+/// first.
+#[inline(always)]
+pub(crate) fn push(contact: &Contact, offset: f64, reversals: &mut [Reversal], depth: usize, newest: Point) -> usize {
+    let newest = [newest.displacement, newest.force, 0.0];
+    let depth = if depth < reversals.len() { depth } else { merge(contact, offset, reversals, newest) };
+    if let Some(place) = reversals.get_mut(depth) {
+        *place = newest;
+    }
+    depth + 1
+}
+
+/// Merges away the pair of neighbouring reversals of a full stack whose removal changes later forces least; the depth after it.
+///
+/// Let the pair (2, 3) be removed between its neighbours 1 and 4, with the ranges A, B, C from 1 to 2, 2 to 3 and 3 to 4, and let
+/// `F(x) = 2 T(x/2)` be the branch curve. In the equivalent bank of spring-sliders the two memories differ by slider forces of one
+/// sign, the direction from 1 to 2, that add up to
+///
+/// ```text
+/// [F(B) - F(C)] - [F(A) - F(A - B + C)]  >= 0,
+/// ```
+///
+/// and under any later motion each of them can only shrink, until the loop of reversal 1 is closed. So this sum, with the errors
+/// of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on. The branch that leaves 2 is gone
+/// with its error. The mirror point of the oldest reversal serves as the one before it: both describe the same memory.
+#[cold]
+#[inline(never)]
+fn merge(contact: &Contact, offset: f64, reversals: &mut [Reversal], newest: Reversal) -> usize {
+    let branch_force = |range: f64| 2.0 * contact.response(0.5 * range).force;
+    let range = |[from, ..]: Reversal, [to, ..]: Reversal| (to - from).abs();
+    let mirror = |[displacement, force, _]: Reversal| [2.0 * offset - displacement, -force, 0.0];
+    // A few roundings of forces of up to mu N.
+    let rounding = 16.0 * f64::EPSILON * contact.slip_force;
+    let count = reversals.len();
+    let at = |i: usize| reversals.get(i).copied().unwrap_or(newest);
+    let (mut pair, mut least) = (0, f64::INFINITY);
+    let mut before = mirror(at(0));
+    for i in 0..count.saturating_sub(1) {
+        let (a, b, c) = (range(before, at(i)), range(at(i), at(i + 1)), range(at(i + 1), at(i + 2)));
+        let change = (branch_force(b) - branch_force(c)) - (branch_force(a) - branch_force((a - (b - c)).max(0.0)));
+        let error = before[2] + at(i + 1)[2] + if change > 0.0 { change } else { 0.0 } + rounding;
+        if error < least {
+            (pair, least) = (i, error);
+        }
+        before = at(i);
+    }
+    if pair == 0 {
+        if let Some(oldest) = reversals.first_mut() {
+            let [displacement, force, _] = mirror(*oldest);
+            *oldest = [displacement, force, least];
+        }
+        return remove(reversals, 1, 1);
+    }
+    if let Some([.., error]) = reversals.get_mut(pair - 1) {
+        *error = least;
+    }
+    remove(reversals, pair, 2)
+}
+
+/// Removes reversals from a full stack, from one on; the depth after it.
+fn remove(reversals: &mut [Reversal], from: usize, count: usize) -> usize {
+    let mut to = from;
+    while let Some(&reversal) = reversals.get(to + count) {
+        if let Some(place) = reversals.get_mut(to) {
+            *place = reversal;
+        }
+        to += 1;
+    }
+    to
+}
+
+/// Bound on the error \[N\] of the force that merged reversals cause: errors of branches of one direction add up, and those of
+/// the two directions have opposite signs.
+pub(crate) fn force_error(reversals: &[Reversal]) -> f64 {
+    let mut sums = [0.0; 2];
+    for (number, [.., error]) in reversals.iter().enumerate() {
+        sums[number % 2] += error;
+    }
+    let [one, other] = sums;
+    if one > other { one } else { other }
+}

@@ -1,0 +1,98 @@
+//! The C interface: a thin shell that turns pointers into slices, calls the modules, and writes the requested outputs.
+//!
+//! The only module with `unsafe`. Every function follows one order: take the inputs, check them all, compute, write. A rejected
+//! call has written nothing.
+
+#![allow(unsafe_code, non_camel_case_types)]
+
+mod pointers;
+mod simd_dispatch;
+
+mod contact;
+mod history;
+
+mod cycle;
+mod hbm;
+
+mod batch;
+
+pub use crate::error::constants::*;
+pub use batch::*;
+pub use contact::*;
+pub use cycle::*;
+pub use hbm::*;
+pub use history::*;
+
+use crate::constant_load::contact::Contact;
+use crate::error::Error;
+use crate::parameters::{EllipticParameters, Parameters};
+use core::ffi::c_char;
+
+/// Version of this interface: incremented whenever a name, a meaning or a size changes.
+pub const MSLIP_ABI_VERSION: i32 = 3;
+
+/// Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
+pub const MSLIP_CENTRE_POINT: i32 = 0;
+/// Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
+pub const MSLIP_RIGID_STRIP: i32 = 1;
+
+/// Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
+pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
+/// Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
+pub const MSLIP_EVENT_DRIVEN: i32 = 1;
+
+/// Success.
+pub const MSLIP_OK: i32 = 0;
+
+/// A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be copied,
+/// stored and sent. An open contact (N = 0) has zero width, force and stiffness.
+#[repr(C)]
+pub struct mslip_contact {
+    /// E*, Eq. 2 \[Pa\].
+    pub composite_modulus: f64,
+    /// Half-width b of the contact under its normal force \[m\]; elliptical: semi_axis_x.
+    pub half_width: f64,
+    /// mu N \[N\].
+    pub slip_force: f64,
+    /// Displacement at the onset of gross slip on the monotonic curve \[m\].
+    pub slip_displacement: f64,
+    /// dT/d(displacement) at 0 \[N/m\].
+    pub initial_stiffness: f64,
+    /// Dissipated per cycle at incipient gross slip \[J\].
+    pub slip_energy: f64,
+    /// Tables: neither to be read nor to be written.
+    pub reserved: [f64; 241],
+}
+
+const _: () = {
+    use core::mem::offset_of;
+    assert!(size_of::<mslip_contact>() == size_of::<Contact>() && align_of::<mslip_contact>() == align_of::<Contact>());
+    assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
+    assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
+    assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
+    assert!(size_of::<Parameters>() == 80 && size_of::<EllipticParameters>() == 64);
+    assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, displacement_reference) == 72);
+    assert!(offset_of!(EllipticParameters, material) == 32);
+};
+
+/// Version of the library, "1.2.3".
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_version() -> *const c_char {
+    concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
+}
+
+/// Version of this interface: equals MSLIP_ABI_VERSION of the header that belongs to the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_abi_version() -> i32 {
+    MSLIP_ABI_VERSION
+}
+
+/// Message of a status, a static string: what is wrong and what is allowed.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_status_text(status: i32) -> *const c_char {
+    if status == MSLIP_OK {
+        return c"success".as_ptr();
+    }
+    let known = Error::ALL.iter().find(|error| error.code() == status);
+    known.map_or(c"unknown status code", |error| error.message()).as_ptr()
+}

@@ -1,0 +1,241 @@
+//! Many contacts at once: every item is checked before the first one writes.
+
+use super::cycle::write_complex_stiffness;
+use super::hbm::harmonic_force_dispatched;
+use super::history::{write, write_state};
+use super::mslip_contact;
+use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
+use crate::constant_load::complex_stiffness::check_amplitude;
+use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::{masing, state};
+use crate::error::Error;
+use crate::hbm::{self, HarmonicOutput};
+use libc::size_t;
+
+/// The items of a batch: which contact belongs to each, and which take part.
+#[derive(Clone, Copy)]
+struct Items<'a> {
+    n: usize,
+    contacts: &'a [Contact],
+    index: Option<&'a [i32]>,
+    active: Option<&'a [i32]>,
+}
+
+impl<'a> Items<'a> {
+    /// All items that take part, with their contacts checked.
+    ///
+    /// # Safety
+    /// `contacts` is NULL or valid for n_contacts contacts, `index` and `active` NULL or valid for n flags.
+    unsafe fn new(
+        n: usize,
+        n_contacts: usize,
+        contacts: *const mslip_contact,
+        index: *const i32,
+        active: *const i32,
+    ) -> Result<Items<'a>, Error> {
+        // SAFETY: by the function's contract; any bits are valid for a contact.
+        let (contacts, index, active) = unsafe {
+            let contacts = input(contacts.cast::<Contact>(), n_contacts)?;
+            (contacts, optional_input(index, n)?, optional_input(active, n)?)
+        };
+        check_length::<i32>(n)?;
+        let items = Items { n, contacts, index, active };
+        for i in items.numbers() {
+            if !items.contact(i).ok_or(Error::BadIndex)?.is_initialised() {
+                return Err(Error::BadContact);
+            }
+        }
+        Ok(items)
+    }
+
+    /// Numbers of the items that take part.
+    #[inline(always)]
+    fn numbers(self) -> impl Iterator<Item = usize> {
+        (0..self.n).filter(move |i| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0)))
+    }
+
+    #[inline(always)]
+    fn contact(&self, i: usize) -> Option<&'a Contact> {
+        match self.index {
+            None => self.contacts.get(i),
+            Some(index) => self.contacts.get(usize::try_from(*index.get(i)?).ok()?),
+        }
+    }
+
+    /// The items that take part, each with its contact and its part of an input of `length` values an item.
+    #[inline(always)]
+    fn with<'d>(self, values: &'d [f64], length: usize) -> impl Iterator<Item = (usize, &'a Contact, &'d [f64])> {
+        self.numbers().filter_map(move |i| Some((i, self.contact(i)?, values.get(i * length..(i + 1) * length)?)))
+    }
+}
+
+/// mslip_complex_stiffness of n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
+/// active is not NULL and active\[i\] is 0, item i is skipped.
+///
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; no item has written anything then.
+///
+/// # Safety
+/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
+/// argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_batch_complex_stiffness(
+    n: size_t,
+    n_contacts: size_t,
+    contacts: *const mslip_contact,
+    index: *const i32,
+    active: *const i32,
+    amplitude: *const f64,
+    k_real: *mut f64,
+    k_imag: *mut f64,
+    dk_real: *mut f64,
+    dk_imag: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (items, amplitude, mut outputs) = unsafe {
+            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
+            (Items::new(n, n_contacts, contacts, index, active)?, input(amplitude, n)?, outputs?)
+        };
+        items.with(amplitude, 1).flat_map(|(_, _, amplitude)| amplitude).try_for_each(|a| check_amplitude(*a))?;
+        for (i, contact, amplitude) in items.with(amplitude, 1) {
+            amplitude.iter().try_for_each(|a| write_complex_stiffness(contact, *a, i, &mut outputs))?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// mslip_masing_update of n items: states hold state_length doubles an item, item after item; displacement, force, stiffness and
+/// dissipated one. states_new may be states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is
+/// not NULL and active\[i\] is 0, item i is skipped, its state too.
+///
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; no item has written anything then.
+///
+/// # Safety
+/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
+/// like the outputs, does not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_batch_masing_update(
+    n: size_t,
+    n_contacts: size_t,
+    contacts: *const mslip_contact,
+    index: *const i32,
+    active: *const i32,
+    state_length: size_t,
+    states_old: *const f64,
+    displacement: *const f64,
+    states_new: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let update = || {
+        // SAFETY: by the function's contract.
+        let (items, displacement) =
+            unsafe { (Items::new(n, n_contacts, contacts, index, active)?, input(displacement, n)?) };
+        [states_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
+        let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
+        if n > 0 && state_length < state::state_length(0) {
+            return Err(Error::StateTooShort);
+        }
+        {
+            // SAFETY: by the function's contract.
+            let states = unsafe { input(states_old, length) }?;
+            for i in items.numbers() {
+                let tag = states.get(i * state_length).ok_or(Error::BadArraySize)?;
+                state::check_tag(*tag, state_length)?;
+                check_displacement(displacement.get(i).copied().unwrap_or(0.0))?;
+            }
+        }
+        let at =
+            |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
+        for (i, contact, target) in items.with(displacement, 1) {
+            let state_old = states_old.wrapping_add(i * state_length);
+            for &target in target {
+                // SAFETY: those of item i, as above; the reference ends before the new state is written.
+                let step = masing::step(contact, unsafe { input(state_old, state_length) }?, target, !dissipated.is_null())?;
+                // SAFETY: aligned; valid by the function's contract.
+                unsafe {
+                    write_state(contact, &step, state_length, state_old, at(states_new, i * state_length));
+                    write(at(force, i), step.force());
+                    write(at(stiffness, i), step.stiffness());
+                    write(at(dissipated, i), step.dissipated());
+                }
+            }
+        }
+        Ok(())
+    };
+    status(update())
+}
+
+/// mslip_harmonic_force of n items through one workspace: displacement and force hold 2H+1 doubles an item, jacobian (2H+1)^2,
+/// dissipated one. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i
+/// is skipped.
+///
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; no item has written anything then.
+///
+/// # Safety
+/// `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
+/// lengths above; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_batch_harmonic_force(
+    n: size_t,
+    n_contacts: size_t,
+    contacts: *const mslip_contact,
+    index: *const i32,
+    active: *const i32,
+    workspace: *mut f64,
+    displacement: *const f64,
+    force: *mut f64,
+    jacobian: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (items, mut workspace) =
+            unsafe { (Items::new(n, n_contacts, contacts, index, active)?, pointers::workspace(workspace)?) };
+        let one = workspace.coefficients();
+        let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
+        let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
+        // SAFETY: by the function's contract.
+        let (displacement, mut outputs) = unsafe {
+            let outputs = Outputs {
+                force: output(force, all)?,
+                jacobian: output(jacobian, square)?,
+                dissipated: output(dissipated, n)?,
+            };
+            (input(displacement, all)?, outputs)
+        };
+        items.with(displacement, one).try_for_each(|(_, _, displacement)| hbm::check_coefficients(displacement))?;
+        for (i, contact, displacement) in items.with(displacement, one) {
+            harmonic_force_dispatched(contact, &mut workspace, displacement, outputs.of_item(i, one))?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Outputs of many harmonic forces, item after item.
+struct Outputs<'a> {
+    force: Option<&'a mut [f64]>,
+    jacobian: Option<&'a mut [f64]>,
+    dissipated: Option<&'a mut [f64]>,
+}
+
+impl Outputs<'_> {
+    /// Those of item i with the given number of coefficients. Not inlined: the loop over the items is short for those that do not move.
+    #[inline(never)]
+    fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
+        let Outputs { force, jacobian, dissipated } = self;
+        HarmonicOutput {
+            force: part(force, i, coefficients),
+            jacobian: part(jacobian, i, coefficients * coefficients),
+            dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
+        }
+    }
+}
+
+/// Item i of an output of `length` values an item.
+fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Option<&'a mut [f64]> {
+    output.as_mut()?.get_mut(i * length..(i + 1) * length)
+}

@@ -1,0 +1,252 @@
+//! One contact: initialisation, tractions, slip, monotonic curve.
+
+use super::mslip_contact;
+use super::pointers::{self, check_alignment, input, item, outputs, set, status};
+use super::simd_dispatch::dispatch_simd;
+use crate::constant_load::contact::Contact;
+use crate::error::Error;
+use crate::numerics::fp_class::is_finite;
+use crate::parameters::{EllipticParameters, Parameters};
+use libc::size_t;
+
+/// Parameters with every number unset (NaN), so that a forgotten one is rejected by name; the centre point as reference.
+/// NULL is ignored.
+///
+/// # Safety
+/// `p` is NULL or valid for parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
+    if !p.is_null() {
+        // SAFETY: valid by the function's contract; there is no status that could report a misaligned pointer.
+        unsafe { p.write_unaligned(Parameters::default()) }
+    }
+}
+
+/// Elliptical parameters with every number unset (NaN). NULL is ignored.
+///
+/// # Safety
+/// `p` is NULL or valid for parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
+    if !p.is_null() {
+        // SAFETY: valid by the function's contract; there is no status that could report a misaligned pointer.
+        unsafe { p.write_unaligned(EllipticParameters::default()) }
+    }
+}
+
+/// Initialises a contact by `make`.
+///
+/// # Safety
+/// Both pointers are NULL or valid for their types.
+unsafe fn initialise<P>(
+    parameters: *const P,
+    contact: *mut mslip_contact,
+    make: impl FnOnce(&P) -> Result<Contact, Error>,
+) -> i32 {
+    let initialise = || {
+        // SAFETY: by the function's contract.
+        let parameters = unsafe { item(parameters) }?;
+        if contact.is_null() {
+            return Err(Error::NullPointer);
+        }
+        check_alignment(contact)?;
+        let made = make(parameters)?.into();
+        // SAFETY: aligned, not NULL, and valid by the function's contract.
+        unsafe { contact.write(made) };
+        Ok(())
+    };
+    status(initialise())
+}
+
+/// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
+///
+/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
+/// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
+///
+/// # Safety
+/// `p` and `contact` are NULL or valid for their types.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
+    // SAFETY: by the function's contract.
+    unsafe { initialise(p, contact, Contact::rounded_flat) }
+}
+
+/// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
+///
+/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; the contact is
+/// unchanged then.
+///
+/// # Safety
+/// `p` and `contact` are NULL or valid for their types.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
+    // SAFETY: by the function's contract.
+    unsafe { initialise(p, contact, Contact::elliptic) }
+}
+
+/// Validates a contact that was read from a file or a message: it is bit for bit what initialisation wrote. Other calls compare a
+/// tag only.
+///
+/// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
+///
+/// # Safety
+/// `contact` is NULL or valid for a contact.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
+    // SAFETY: by the function's contract.
+    status(unsafe { pointers::contact(contact) }.and_then(pointers::check_contact))
+}
+
+/// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increased force \[N\] (Eq. 17, 21-24); 0 outside the
+/// contact. Elliptical: on the x axis.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_tractions(
+    contact: *const mslip_contact,
+    force: f64,
+    n: size_t,
+    x: *const f64,
+    pressure: *mut f64,
+    shear: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, x, [mut pressure, mut shear]) =
+            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?) };
+        let point = contact.curve_at_force(force)?;
+        check_positions(x)?;
+        for (i, &x) in x.iter().enumerate() {
+            set(&mut pressure, i, || contact.pressure(x));
+            set(&mut shear, i, || point.shear(x));
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+pub(super) fn check_positions(x: &[f64]) -> Result<(), Error> {
+    if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
+}
+
+/// Relative slip \[m\] (Eq. 15) and frictional damage parameter mu p |s| \[N/m\] (section 3.5) at x\[n\] \[m\], under a
+/// monotonically increased force \[N\]; 0 in the stick zone and outside the contact.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
+/// MSLIP_NOT_AVAILABLE for an elliptical contact.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_slip(
+    contact: *const mslip_contact,
+    force: f64,
+    n: size_t,
+    x: *const f64,
+    slip: *mut f64,
+    damage: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, x, [mut slip, mut damage]) =
+            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?) };
+        let point = contact.curve_at_force(force)?;
+        check_positions(x)?;
+        point.slip(0.0)?;
+        if slip.is_none() && damage.is_none() {
+            return Ok(());
+        }
+        for (i, &x) in x.iter().enumerate() {
+            let here = point.slip(x)?;
+            set(&mut slip, i, || here);
+            set(&mut damage, i, || point.damage_of(x, here));
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Monotonic curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
+/// force\[n\] \[N\]. The compliance at mu N is infinite for a cylinder and an elliptical contact.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_monotonic_displacement(
+    contact: *const mslip_contact,
+    n: size_t,
+    force: *const f64,
+    displacement: *mut f64,
+    compliance: *mut f64,
+    stick_half_width: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) = unsafe {
+            let outputs = outputs([displacement, compliance, stick_half_width], n);
+            (pointers::contact(contact)?, input(force, n)?, outputs?)
+        };
+        force.iter().try_for_each(|&force| contact.check_force(force))?;
+        if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
+            return Ok(());
+        }
+        for (i, &force) in force.iter().enumerate() {
+            let point = contact.curve_at_force(force)?;
+            set(&mut displacement, i, || point.displacement());
+            set(&mut compliance, i, || point.compliance());
+            set(&mut stick_half_width, i, || point.stick_half_width());
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Inverse of the monotonic curve, odd in the displacement: force \[N\], stiffness \[N/m\] and stick half-width \[m\] at
+/// displacement\[n\] \[m\]. Beyond slip_displacement the force stays at mu N, and stiffness and stick half-width are 0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_monotonic_force(
+    contact: *const mslip_contact,
+    n: size_t,
+    displacement: *const f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    stick_half_width: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, displacement, [force, stiffness, stick_half_width]) = unsafe {
+            let outputs = outputs([force, stiffness, stick_half_width], n);
+            (pointers::contact(contact)?, input(displacement, n)?, outputs?)
+        };
+        displacement.iter().try_for_each(|&displacement| crate::constant_load::contact::check_displacement(displacement))?;
+        responses(contact, displacement, force, stiffness);
+        if let Some(stick_half_width) = stick_half_width {
+            for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
+                *c = contact.curve_at_displacement(displacement)?.stick_half_width();
+            }
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+fn responses(contact: &Contact, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+    dispatch_simd!(
+        Contact::responses,
+        contact: &Contact,
+        displacement: &[f64],
+        force: Option<&mut [f64]>,
+        stiffness: Option<&mut [f64]> => ()
+    );
+}
+

@@ -1,0 +1,201 @@
+//! One contact in cycles: hysteresis loops, energy, complex stiffness, and equivalent spring-sliders.
+
+use super::mslip_contact;
+use super::pointers::{self, input, output, outputs, set, status};
+use super::simd_dispatch::dispatch_simd;
+use crate::constant_load::complex_stiffness::{ComplexStiffness, check_amplitude};
+use crate::constant_load::contact::Contact;
+use crate::constant_load::equivalents;
+use crate::error::Error;
+use libc::size_t;
+
+/// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly spaced instants of
+/// one period of amplitude cos(t), from t = 0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_hysteresis_loop(
+    contact: *const mslip_contact,
+    amplitude: f64,
+    n: size_t,
+    displacement: *mut f64,
+    force: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, [mut displacement, mut force]) =
+            unsafe { (pointers::contact(contact)?, outputs([displacement, force], n)?) };
+        let cycle = contact.hysteresis_loop(amplitude)?;
+        if displacement.is_none() && force.is_none() {
+            return Ok(());
+        }
+        for i in 0..n {
+            set(&mut displacement, i, || cycle.displacement(i, n));
+            set(&mut force, i, || cycle.force(i, n));
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Energy \[J\] dissipated per cycle between ± force_amplitude\[n\] \[N\], from 0 to mu N (Eq. 13-16).
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_dissipated_energy(
+    contact: *const mslip_contact,
+    n: size_t,
+    force_amplitude: *const f64,
+    energy: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, amplitude, energy) =
+            unsafe { (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?) };
+        amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
+        let Some(energy) = energy else { return Ok(()) };
+        for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
+            *energy = contact.dissipated_energy(amplitude)?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Complex (harmonic) stiffness K' + iK'' \[N/m\] at displacement amplitude\[n\] >= 0 \[m\] and its derivatives with respect to
+/// the amplitude \[N/m^2\] (section 3.4); an amplitude of 0 gives the initial stiffness.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_complex_stiffness(
+    contact: *const mslip_contact,
+    n: size_t,
+    amplitude: *const f64,
+    k_real: *mut f64,
+    k_imag: *mut f64,
+    dk_real: *mut f64,
+    dk_imag: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, amplitude, mut outputs) = unsafe {
+            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
+            (pointers::contact(contact)?, input(amplitude, n)?, outputs?)
+        };
+        amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
+        if outputs.iter().all(Option::is_none) {
+            return Ok(());
+        }
+        for (i, &amplitude) in amplitude.iter().enumerate() {
+            write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// The requested outputs, in the order of `mslip_complex_stiffness`.
+pub(super) fn write_complex_stiffness(
+    contact: &Contact,
+    amplitude: f64,
+    i: usize,
+    outputs: &mut [Option<&mut [f64]>; 4],
+) -> Result<(), Error> {
+    if outputs.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    if contact.is_frictionless() {
+        outputs.iter_mut().for_each(|output| set(output, i, || 0.0));
+        return Ok(());
+    }
+    let stiffness = contact.complex_stiffness(amplitude)?;
+    let [k_real, k_imag, dk_real, dk_imag] = outputs;
+    if k_real.is_some() || dk_real.is_some() {
+        let (real, slope) = real_with_derivative(&stiffness);
+        set(k_real, i, || real);
+        set(dk_real, i, || slope);
+    }
+    if k_imag.is_some() || dk_imag.is_some() {
+        let (imaginary, slope) = imaginary_with_derivative(&stiffness);
+        set(k_imag, i, || imaginary);
+        set(dk_imag, i, || slope);
+    }
+    Ok(())
+}
+
+fn real_with_derivative(stiffness: &ComplexStiffness) -> (f64, f64) {
+    dispatch_simd!(ComplexStiffness::real_with_derivative, stiffness: &ComplexStiffness => (f64, f64))
+}
+
+fn imaginary_with_derivative(stiffness: &ComplexStiffness) -> (f64, f64) {
+    dispatch_simd!(ComplexStiffness::imaginary_with_derivative, stiffness: &ComplexStiffness => (f64, f64))
+}
+
+/// The spring-slider with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip force \[N\]. At the
+/// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Each pointer is NULL or valid for one item; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_jenkins_equivalent(
+    contact: *const mslip_contact,
+    amplitude: f64,
+    stiffness: *mut f64,
+    slip_force: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, [mut stiffness, mut slip_force]) =
+            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?) };
+        let slider = equivalents::jenkins(contact, amplitude)?;
+        set(&mut stiffness, 0, || slider.stiffness);
+        set(&mut slip_force, 0, || slider.slip_force);
+        Ok(())
+    };
+    status(compute())
+}
+
+/// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n sliders allow: stiffness\[n\] \[N/m\],
+/// slip_force\[n\] \[N\], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
+/// that carries no force.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles (force_error: one); outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_iwan_equivalent(
+    contact: *const mslip_contact,
+    n: size_t,
+    stiffness: *mut f64,
+    slip_force: *mut f64,
+    force_error: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, [mut stiffness, mut slip_force], mut force_error) = unsafe {
+            let outputs = outputs([stiffness, slip_force], n);
+            (pointers::contact(contact)?, outputs?, output(force_error, 1)?)
+        };
+        let mut i = 0;
+        let error = equivalents::iwan(contact, n, |slider| {
+            set(&mut stiffness, i, || slider.stiffness);
+            set(&mut slip_force, i, || slider.slip_force);
+            i += 1;
+        })?;
+        set(&mut force_error, 0, || error);
+        Ok(())
+    };
+    status(compute())
+}

@@ -1,0 +1,244 @@
+//! Load histories: states, and Masing's rule with return-point memory.
+
+use super::contact::check_positions;
+use super::mslip_contact;
+use super::pointers::{self, check_alignment, check_length, input, output, outputs, requested, set, status};
+use super::simd_dispatch::dispatch_simd;
+use crate::constant_load::contact::Contact;
+use crate::constant_load::masing::{self, PathOutput, Step};
+use crate::constant_load::state;
+use crate::error::Error;
+use core::ptr;
+use libc::size_t;
+
+/// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2. A state is never full:
+/// beyond that number, the pair of neighbouring reversals whose removal changes later forces least is merged away.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
+    state::state_length(reversals)
+}
+
+/// Initialises a state: unloaded, no force, no displacement.
+///
+/// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
+    let init = || {
+        check_length::<f64>(state_length)?;
+        if state.is_null() {
+            return Err(Error::NullPointer);
+        }
+        // SAFETY: by the function's contract.
+        state::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
+    };
+    status(init())
+}
+
+/// A state.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles.
+#[inline(always)]
+unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
+    if state.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: by the function's contract.
+    unsafe { input(state, state_length) }
+}
+
+/// Validates a state that was read from a file or a message: all values are finite, and the reversals are nested. Other calls
+/// compare a tag and the number of reversals only.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {
+    // SAFETY: by the function's contract.
+    status(unsafe { state_input(state_length, state) }.and_then(state::state_check))
+}
+
+/// Bound on the error \[N\] of the force that merged reversals have caused: 0 while nothing was merged, and again once gross slip
+/// has erased the memory.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (state, mut force_error) = unsafe { (state_input(state_length, state)?, output(force_error, 1)?) };
+        let error = state::state_error(state)?;
+        set(&mut force_error, 0, || error);
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Advances the contact from a state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated by this
+/// step \[J\] (Eq. 11, 12). state_new may be state_old; if NULL, the new state is discarded.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// Each pointer is NULL or valid for state_length doubles (states) or one; state_new is state_old or, like the outputs, does not
+/// alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_update(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state_old: *const f64,
+    displacement: f64,
+    state_new: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let update = || {
+        // SAFETY: by the function's contract.
+        let contact = unsafe { pointers::contact(contact) }?;
+        [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
+        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+        let step = masing::step(contact, unsafe { state_input(state_length, state_old) }?, displacement, !dissipated.is_null())?;
+        // SAFETY: aligned; valid by the function's contract.
+        unsafe {
+            write_state(contact, &step, state_length, state_old, state_new);
+            write(force, step.force());
+            write(stiffness, step.stiffness());
+            write(dissipated, step.dissipated());
+        }
+        Ok(())
+    };
+    status(update())
+}
+
+/// Writes the state after a step.
+///
+/// # Safety
+/// `state_old` is valid for state_length doubles, and `state_new` is NULL, the same, or valid for as many doubles elsewhere.
+#[inline(always)]
+pub(super) unsafe fn write_state(
+    contact: &Contact,
+    step: &Step,
+    state_length: usize,
+    state_old: *const f64,
+    state_new: *mut f64,
+) {
+    if state_new.is_null() {
+        return;
+    }
+    if !ptr::eq(state_old, state_new) {
+        // SAFETY: by the function's contract.
+        unsafe { ptr::copy(state_old, state_new, state_length) };
+    }
+    // SAFETY: by the function's contract.
+    if let Some(state) = unsafe { requested(state_new, state_length) } {
+        step.write(contact, state);
+    }
+}
+
+/// Writes one value if it is requested.
+///
+/// # Safety
+/// `output` is NULL, or aligned and valid for one double.
+#[inline(always)]
+pub(super) unsafe fn write(output: *mut f64, value: f64) {
+    if !output.is_null() {
+        // SAFETY: by the function's contract.
+        unsafe { output.write(value) };
+    }
+}
+
+/// Advances the contact through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those of
+/// each step. state_new receives the last state and may be state_old. If NULL, the path runs in a copy of the state that holds
+/// 128 nested reversals at most, and the new state is discarded.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// Each pointer is NULL or valid for state_length doubles (states) or n; state_new is state_old or, like the outputs, does not
+/// alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_path(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state_old: *const f64,
+    n: size_t,
+    displacement: *const f64,
+    state_new: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let advance = || {
+        // SAFETY: by the function's contract.
+        let (contact, path, [force, stiffness, dissipated]) = unsafe {
+            let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
+            (contact, path, outputs([force, stiffness, dissipated], n)?)
+        };
+        check_alignment(state_new)?;
+        // SAFETY: by the function's contract.
+        let start = unsafe { state_input(state_length, state_old) }?;
+        let output = PathOutput { force, stiffness, dissipated };
+        masing::check_path(start, path)?;
+        if state_new.is_null() {
+            return masing::path_in_copy(contact, start, path, output);
+        }
+        if !ptr::eq(state_old, state_new) {
+            // SAFETY: aligned; valid by the function's contract.
+            unsafe { ptr::copy(state_old, state_new, state_length) };
+        }
+        // SAFETY: as above; the reference to the old state, which may be the same memory, is not used any more.
+        let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
+        path_dispatched(contact, state, path, output)
+    };
+    status(advance())
+}
+
+fn path_dispatched(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    dispatch_simd!(
+        masing::path,
+        contact: &Contact,
+        state: &mut [f64],
+        path: &[f64],
+        output: PathOutput => Result<(), Error>
+    )
+}
+
+/// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
+/// MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
+///
+/// # Safety
+/// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_masing_tractions(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state: *const f64,
+    n: size_t,
+    x: *const f64,
+    pressure: *mut f64,
+    shear: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, state, x, [mut pressure, shear]) = unsafe {
+            let (contact, state) = (pointers::contact(contact)?, state_input(state_length, state)?);
+            (contact, state, input(x, n)?, outputs([pressure, shear], n)?)
+        };
+        check_positions(x)?;
+        masing::shear_tractions(contact, state, x, shear.unwrap_or(&mut []))?;
+        x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
+        Ok(())
+    };
+    status(compute())
+}

@@ -1,0 +1,332 @@
+//! The harmonic force: from the coefficients of a periodic displacement to those of the force in steady state, with the exact
+//! Jacobian, and the energy.
+//!
+//! The displacement is `c0 + Σ (a_k cos kt + b_k sin kt)`. The steady state is that of the second of two periods from the
+//! virgin state. It starts where the displacement is farthest from 0: there nothing is remembered but the virgin curve,
+//! whatever was before. So one period is walked, from that instant; and half of it where the displacement has odd harmonics
+//! only, for then force and displacement change their sign with half a period.
+//!
+//! Both rules walk it by `steady_state`, and what they need of each period is `waves` and their sums. `uniform_sampling` steps from
+//! sample to sample; `event_driven` finds the instants at which the force has a kink, by `motion`, and integrates between
+//! them.
+//!
+//! On a branch from a reversal r, `T = T_r ± 2 M⁻¹(|δ-δ_r|/2)`, so that with the tangent stiffness k of the branch and φ the
+//! row 1, cos t, sin t, cos 2t, ... of an instant
+//!
+//! ```text
+//! dT = k (φ - φ_r) + dT_r,
+//! ```
+//!
+//! and `dT_r` was known when the reversal was passed.
+
+mod event_driven;
+mod uniform_sampling;
+mod motion;
+mod fourier_sums;
+mod fourier;
+mod workspace;
+
+use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::steady_state::SteadyState;
+use crate::error::Error;
+use workspace::{HEADER, WorkspaceLayout};
+
+/// What the integrals over a period are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// Equidistant samples.
+    UniformSampling,
+    /// Gauss-Legendre nodes between the kinks of the force.
+    EventDriven,
+}
+
+impl Rule {
+    /// Doubles of a workspace for so many harmonics H and samples, or nodes, a period; 0 where there is none (H = 0, or too few
+    /// samples).
+    #[must_use]
+    pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
+        match self {
+            Rule::UniformSampling => uniform_sampling::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()),
+            Rule::EventDriven => {
+                event_driven::Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+            }
+        }
+    }
+
+    /// Prepares a workspace: the tables of one pair of harmonics and samples, and scratch memory.
+    ///
+    /// # Errors
+    /// `BadHarmonics` for none, `BadSamples` for samples <= 2H, both for more than there is any use for; `WorkspaceTooShort`.
+    pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
+        match self {
+            Rule::UniformSampling => uniform_sampling::Layout::init(harmonics, samples, workspace),
+            Rule::EventDriven => event_driven::Layout::init(harmonics, samples, workspace),
+        }
+    }
+
+    /// The rule of a workspace, from its tag.
+    #[inline(always)]
+    fn of_workspace([tag, ..]: &[f64; HEADER]) -> Rule {
+        if event_driven::Layout::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
+    }
+}
+
+/// Doubles that a prepared workspace occupies, from what it begins with.
+///
+/// # Errors
+/// `BadWorkspace` for memory that was not initialised, or was changed.
+pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
+    match Rule::of_workspace(header) {
+        Rule::UniformSampling => uniform_sampling::Layout::read(header).map(|layout| layout.length()),
+        Rule::EventDriven => event_driven::Layout::read(header).map(|layout| layout.length()),
+    }
+}
+
+/// Harmonics, samples and rule of an initialised workspace, from its header.
+///
+/// # Errors
+/// `BadWorkspace` for memory that was not initialised.
+pub fn workspace_size(header: &[f64; HEADER]) -> Result<(usize, usize, Rule), Error> {
+    let rule = Rule::of_workspace(header);
+    let size = match rule {
+        Rule::UniformSampling => uniform_sampling::Layout::read(header)?.size(),
+        Rule::EventDriven => event_driven::Layout::read(header)?.size(),
+    };
+    Ok((size.harmonics, size.samples, rule))
+}
+
+/// A workspace as it is used.
+#[derive(Debug)]
+pub struct Workspace<'a>(ByRule<'a>);
+
+#[derive(Debug)]
+enum ByRule<'a> {
+    UniformSampling(uniform_sampling::Workspace<'a>),
+    EventDriven(event_driven::Workspace<'a>),
+}
+
+impl<'a> Workspace<'a> {
+    /// Takes a prepared workspace into use.
+    ///
+    /// # Errors
+    /// `BadWorkspace` for memory that was not initialised, or was changed.
+    #[inline(always)]
+    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
+            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::new(memory)?),
+            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::new(memory)?),
+        }))
+    }
+
+    /// 2H + 1.
+    #[must_use]
+    #[inline(always)]
+    pub fn coefficients(&self) -> usize {
+        match &self.0 {
+            ByRule::UniformSampling(workspace) => workspace.coefficients(),
+            ByRule::EventDriven(workspace) => workspace.coefficients(),
+        }
+    }
+}
+
+/// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
+///
+/// # Errors
+/// `BadDisplacement` for a coefficient that is not finite, or beyond 1e150; `BadArraySize` where a length is not that of the
+/// workspace.
+#[inline(always)]
+pub fn harmonic_force(
+    contact: &Contact,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    mut output: HarmonicOutput,
+) -> Result<(), Error> {
+    if output.begin(contact, workspace.coefficients(), displacement)? {
+        return Ok(());
+    }
+    let law = |reversals, with_energy| SteadyState::new(contact, reversals, with_energy);
+    match &mut workspace.0 {
+        ByRule::UniformSampling(workspace) => uniform_sampling::harmonic_force(law, workspace, displacement, output),
+        ByRule::EventDriven(workspace) => event_driven::harmonic_force(law, workspace, displacement, output),
+    }
+    Ok(())
+}
+
+/// Where the coefficients of the force, its Jacobian (column-major) and the energy go; `None` is not computed.
+#[derive(Debug)]
+pub struct HarmonicOutput<'a> {
+    /// 2H + 1 coefficients of the force \[N\].
+    pub force: Option<&'a mut [f64]>,
+    /// (2H + 1)² derivatives of force i by displacement j \[N/m\] at `i + (2H + 1) j`.
+    pub jacobian: Option<&'a mut [f64]>,
+    /// Energy dissipated per period \[J\].
+    pub dissipated: Option<&'a mut f64>,
+}
+
+/// What is needed of each point of the curve.
+#[derive(Debug, Clone, Copy)]
+struct Requested {
+    force: bool,
+    stiffness: bool,
+}
+
+impl HarmonicOutput<'_> {
+    fn requested(&self) -> Requested {
+        Requested { force: self.force.is_some(), stiffness: self.jacobian.is_some() }
+    }
+
+    /// Checks all lengths and coefficients, and clears the Jacobian; whether that was all: nothing else is wanted, or there is no
+    /// friction and all of it is zero.
+    ///
+    /// # Errors
+    /// `BadDisplacement`, `BadArraySize`.
+    #[inline(always)]
+    fn begin(&mut self, contact: &Contact, n: usize, displacement: &[f64]) -> Result<bool, Error> {
+        let HarmonicOutput { force, jacobian, dissipated } = self;
+        let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+        if displacement.len() != n || !fits(force, n) || !fits(jacobian, n * n) {
+            return Err(Error::BadArraySize);
+        }
+        check_coefficients(displacement)?;
+        if let Some(jacobian) = jacobian {
+            jacobian.fill(0.0);
+        }
+        if contact.is_frictionless() {
+            if let Some(force) = force {
+                force.fill(0.0);
+            }
+            if let Some(dissipated) = dissipated {
+                **dissipated = 0.0;
+            }
+            return Ok(true);
+        }
+        Ok(force.is_none() && jacobian.is_none() && dissipated.is_none())
+    }
+}
+
+/// Refuses a coefficient that is no number, or too large.
+///
+/// # Errors
+/// `BadDisplacement`.
+pub fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
+    displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::contact;
+    use std::vec;
+    use std::vec::Vec;
+
+    const RULES: [Rule; 2] = [Rule::UniformSampling, Rule::EventDriven];
+
+    /// A motion that nests loops, and one of odd harmonics, in slip displacements.
+    pub(super) const SHAPE: [f64; 7] = [0.2, 0.5, -0.1, 0.05, 0.3, -0.35, 0.2];
+    pub(super) const ODD: [f64; 7] = [0.0, 0.8, 0.1, 0.0, 0.0, -0.2, 0.3];
+
+    pub(super) fn scaled(contact: &Contact, shape: &[f64], size: f64) -> Vec<f64> {
+        shape.iter().map(|c| c * size * contact.slip_displacement).collect()
+    }
+
+    pub(super) fn workspace(rule: Rule, harmonics: usize, samples: usize) -> Vec<f64> {
+        let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
+        rule.workspace_init(harmonics, samples, &mut memory).unwrap();
+        memory
+    }
+
+    /// Force, Jacobian and energy.
+    pub(super) type All = (Vec<f64>, Vec<f64>, f64);
+
+    pub(super) fn compute(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> All {
+        let n = displacement.len();
+        let (mut force, mut jacobian, mut energy) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
+        let output =
+            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        harmonic_force(contact, &mut Workspace::new(memory).unwrap(), displacement, output).unwrap();
+        (force, jacobian, energy)
+    }
+
+    #[test]
+    fn memory_without_the_header_of_a_workspace_is_rejected() {
+        for rule in RULES {
+            let good = workspace(rule, 3, 16);
+            for (place, value) in [(0, 0.0), (0, f64::NAN), (0, good[1]), (1, 0.0), (1, 16.0), (1, f64::INFINITY), (1, good[0])] {
+                let mut bad = good.clone();
+                bad[place] = value;
+                assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");
+            }
+            let mut short = good.clone();
+            short.pop();
+            assert_eq!(Workspace::new(&mut short).map(|_| ()), Err(Error::BadWorkspace));
+            assert_eq!(Workspace::new(&mut []).map(|_| ()), Err(Error::BadWorkspace));
+            let header = good.first_chunk().unwrap();
+            assert_eq!(workspace_extent(header), Ok(good.len()));
+            assert_eq!(workspace_size(header), Ok((3, 16, rule)));
+            // Memory beyond its extent is left alone.
+            let mut long = vec![-1.0; good.len() + 2];
+            rule.workspace_init(3, 16, &mut long).unwrap();
+            let contact = contact(50e-6);
+            compute(&contact, &mut long, &scaled(&contact, &SHAPE, 1.0));
+            assert_eq!(long.get(good.len()..), Some(&[-1.0, -1.0][..]));
+        }
+        // Neither rule accepts the other's workspace.
+        let [mut one, mut two] = RULES.map(|rule| workspace(rule, 3, 16));
+        assert!(matches!(event_driven::Workspace::new(&mut one), Err(Error::BadWorkspace)));
+        assert!(matches!(uniform_sampling::Workspace::new(&mut two), Err(Error::BadWorkspace)));
+    }
+
+    #[test]
+    fn harmonics_samples_and_arrays_are_refused_by_name() {
+        for rule in RULES {
+            let mut memory = [0.0; 8];
+            for (harmonics, samples, error) in [
+                (0, 16, Error::BadHarmonics),
+                (1 << 25, 1 << 26, Error::BadHarmonics),
+                (3, 6, Error::BadSamples),
+                (3, 1 << 25, Error::BadSamples),
+                (usize::MAX, usize::MAX, Error::BadHarmonics),
+            ] {
+                assert_eq!(rule.workspace_length(harmonics, samples), 0);
+                assert_eq!(rule.workspace_init(harmonics, samples, &mut memory), Err(error));
+            }
+            assert_eq!(rule.workspace_init(3, 7, &mut memory), Err(Error::WorkspaceTooShort));
+            assert_eq!(memory, [0.0; 8]);
+
+            let (contact, mut good) = (contact(50e-6), workspace(rule, 1, 8));
+            let mut refuses = |displacement: &[f64], length: usize, squared: usize, error: Error| {
+                let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
+                let output = HarmonicOutput {
+                    force: Some(&mut force),
+                    jacobian: Some(&mut jacobian),
+                    dissipated: Some(&mut energy),
+                };
+                let mut workspace = Workspace::new(&mut good).unwrap();
+                assert_eq!(harmonic_force(&contact, &mut workspace, displacement, output), Err(error));
+                assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
+            };
+            refuses(&[0.0; 2], 3, 9, Error::BadArraySize);
+            refuses(&[0.0; 3], 2, 9, Error::BadArraySize);
+            refuses(&[0.0; 3], 3, 8, Error::BadArraySize);
+            refuses(&[0.0, f64::NAN, 0.0], 3, 9, Error::BadDisplacement);
+            refuses(&[0.0, 0.0, 1.1e150], 3, 9, Error::BadDisplacement);
+        }
+    }
+
+    #[test]
+    fn nothing_depends_on_what_the_workspace_did_before() {
+        for rule in RULES {
+            let (contact, mut memory) = (contact(50e-6), workspace(rule, 3, 32));
+            let motion = |size: f64| scaled(&contact, &SHAPE, size);
+            let first = compute(&contact, &mut memory, &motion(0.8));
+            compute(&contact, &mut memory, &motion(-3.0));
+            assert_eq!(compute(&contact, &mut memory, &motion(0.8)), first);
+            // Outputs that are not wanted change nothing in the others.
+            let mut force = vec![0.0; 7];
+            let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+            let mut workspace = Workspace::new(&mut memory).unwrap();
+            harmonic_force(&contact, &mut workspace, &motion(0.8), output).unwrap();
+            assert_eq!(force, first.0);
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The curve near its origin, up to τ = 1/2, as one polynomial: `x = Λ τ + Σ h_n τⁿ`, n from 2.
+//!
+//! Near the origin everything of interest is a small difference of two nearly equal members. The curvature h'' is positive;
+//! its integrals lose nothing. One set of coefficients, `h'' = Σ c_m τᵐ`, serves all:
+//!
+//! ```text
+//! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ,
+//! ```
+//!
+//! each of them `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
+
+use crate::shape::{StickZone, Complement};
+use crate::numerics::polynomial::{self, Rows, rows};
+
+/// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
+pub(crate) const TERMS: usize = 48;
+
+/// Terms of the polynomial that stands for it up to τ = 1/2, to 5.8⁻²⁰ of the series.
+pub(crate) const RETAINED_TERMS: usize = 20;
+
+type Terms = Rows<{ RETAINED_TERMS / 4 }>;
+
+/// Chebyshev polynomials T_n(4τ - 1), from n = [`RETAINED_TERMS`] on, by their powers of τ over the leading one.
+const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = {
+    let mut table = [[0.0; TERMS]; TERMS - RETAINED_TERMS];
+    let (mut before, mut now) = ([0.0; TERMS], [0.0; TERMS]);
+    before[0] = 1.0;
+    (now[0], now[1]) = (-1.0, 4.0);
+    let mut n = 1;
+    while n < TERMS {
+        if n >= RETAINED_TERMS {
+            let mut k = 0;
+            while k <= n {
+                table[n - RETAINED_TERMS][k] = now[k] / now[n];
+                k += 1;
+            }
+        }
+        let mut next = [0.0; TERMS];
+        let mut k = 0;
+        while k < TERMS {
+            let below = if k > 0 { now[k - 1] } else { 0.0 };
+            next[k] = 2.0 * (4.0 * below - now[k]) - before[k];
+            k += 1;
+        }
+        (before, now) = (now, next);
+        n += 1;
+    }
+    table
+};
+
+/// The polynomial of fewer terms that stands for a power series up to τ = 1/2 (Lanczos' economisation): from the last on, every
+/// power gives way to the Chebyshev polynomial that it leads.
+pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS] {
+    let mut n = TERMS;
+    while n > RETAINED_TERMS {
+        n -= 1;
+        let leading = series[n];
+        let mut k = 0;
+        while k < n {
+            series[k] -= leading * CHEBYSHEV[n - RETAINED_TERMS][k];
+            k += 1;
+        }
+    }
+    let mut kept = [0.0; RETAINED_TERMS];
+    let mut k = 0;
+    while k < RETAINED_TERMS {
+        kept[k] = series[k];
+        k += 1;
+    }
+    kept
+}
+
+/// What integrations of τᵐ leave: `numerator / ((m+1)…)`, the product over the numbers added to m.
+const fn factors(numerator: f64, added: &[usize]) -> Terms {
+    let mut terms = [numerator; RETAINED_TERMS];
+    let mut m = 0;
+    while m < RETAINED_TERMS {
+        let mut k = 0;
+        while k < added.len() {
+            terms[m] /= (m + added[k]) as f64;
+            k += 1;
+        }
+        m += 1;
+    }
+    rows(&terms)
+}
+
+const COMPLIANCE: Terms = factors(1.0, &[1]);
+const APPROACH: Terms = factors(1.0, &[1, 2]);
+const DISSIPATION: Terms = factors(4.0, &[2, 3]);
+const DISSIPATION_SLOPE: Terms = factors(4.0, &[2]);
+
+/// The curve near its origin.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct SmallLoadSeries {
+    /// Λ, the compliance of the full stick.
+    pub(crate) compliance: f64,
+    /// x at τ = 1/2.
+    pub(crate) half_shift: f64,
+    /// Coefficients c_m of h''.
+    curvature: Terms,
+}
+
+/// Sums of the series at one τ.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeriesValues {
+    /// h.
+    pub shift: f64,
+    /// λ = h'.
+    pub compliance: f64,
+    /// h''.
+    pub curvature: f64,
+}
+
+impl SmallLoadSeries {
+    /// The series from the coefficients of its curvature.
+    pub(crate) const fn new(compliance: f64, curvature: [f64; RETAINED_TERMS]) -> SmallLoadSeries {
+        let mut half_shift = 0.0;
+        let mut m = RETAINED_TERMS;
+        while m > 0 {
+            m -= 1;
+            half_shift = 0.5 * half_shift + curvature[m] * APPROACH[m / 4][m % 4];
+        }
+        let half_shift = 0.5 * compliance + 0.25 * half_shift;
+        SmallLoadSeries { compliance, half_shift, curvature: rows(&curvature) }
+    }
+
+    /// h'' at τ = 0.
+    pub fn initial_curvature(&self) -> f64 {
+        let [[first, ..], ..] = self.curvature;
+        first
+    }
+
+    /// `Σ c_m f_m τᵐ`.
+    fn sum(&self, factors: &Terms, tau: f64) -> f64 {
+        let used = polynomial::rows_for(tau, RETAINED_TERMS / 4);
+        let pairs = self.curvature.iter().zip(factors).take(used);
+        polynomial::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
+    }
+
+    #[inline(always)]
+    pub fn sums(&self, tau: f64) -> SeriesValues {
+        // λ/τ and its derivative give λ and h''.
+        let (compliance, slope) = polynomial::value_and_slope(&self.terms(&COMPLIANCE), tau);
+        let (shift, _) = polynomial::value_and_slope(&self.terms(&APPROACH), tau);
+        SeriesValues { shift: shift * tau * tau, compliance: compliance * tau, curvature: compliance + slope * tau }
+    }
+
+    /// The coefficients c_m f_m.
+    #[inline(always)]
+    fn terms(&self, factors: &Terms) -> Terms {
+        let mut terms = self.curvature;
+        for (row, factors) in terms.iter_mut().zip(factors) {
+            row.iter_mut().zip(factors).for_each(|(term, factor)| *term *= factor);
+        }
+        terms
+    }
+
+    /// e at τ.
+    pub fn dissipation(&self, tau: f64) -> f64 {
+        self.sum(&DISSIPATION, tau) * tau * tau * tau
+    }
+
+    /// de/dτ at τ.
+    pub fn d_dissipation(&self, tau: f64) -> f64 {
+        self.sum(&DISSIPATION_SLOPE, tau) * tau * tau
+    }
+
+    /// Both at once.
+    #[inline(always)]
+    pub fn dissipation_with_derivative(&self, tau: f64) -> (f64, f64) {
+        let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
+        let square = tau * tau;
+        (sum * tau * square, (3.0 * sum + slope * tau) * square)
+    }
+
+    /// The member at which a load of at most 1/2 is lost.
+    pub fn at_load(&self, load: Complement, slip_shift: f64) -> StickZone {
+        let consumed = self.compliance * load.consumed + self.sum(&APPROACH, load.consumed) * load.consumed * load.consumed;
+        let compliance_increase = self.sum(&COMPLIANCE, load.consumed) * load.consumed;
+        StickZone { load, shift: Complement { consumed, remaining: slip_shift - consumed }, compliance_increase, size_parameter: None }
+    }
+
+    /// The member at which an approach of at most that at τ = 1/2 is lost: Halley's iteration from the root of the series'
+    /// first two terms, which lies above the solution by less than 5 %.
+    pub fn at_shift(&self, shift: Complement) -> StickZone {
+        let linear = self.compliance;
+        let second_derivative = 2.0 * self.initial_curvature() * shift.consumed;
+        let mut tau = 2.0 * shift.consumed / (linear + (linear * linear + second_derivative).sqrt());
+        let mut compliance_increase = 0.0;
+        for _ in 0..5 {
+            let now = self.sums(tau);
+            let slope = linear + now.compliance;
+            let newton = (linear * tau + now.shift - shift.consumed) / slope;
+            let step = newton / (1.0 - 0.5 * newton * now.curvature / slope);
+            tau -= step;
+            // Up to the square of the step, which no digit feels any more.
+            compliance_increase = now.compliance - step * now.curvature;
+            if step.abs() <= 1e-8 * tau {
+                break;
+            }
+        }
+        StickZone { load: Complement { consumed: tau, remaining: 1.0 - tau }, shift, compliance_increase, size_parameter: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fewer_terms_stand_for_the_series() {
+        // That of a cylinder, 1/(2 - 2τ), and an alternating one.
+        for ratio in [1.0, -1.0] {
+            let mut series = [0.5; TERMS];
+            for (k, term) in series.iter_mut().enumerate() {
+                *term *= f64::powi(ratio, k as i32);
+            }
+            let kept = economized(series);
+            for k in 0..=50 {
+                let at = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| sum * f64::from(k) / 100.0 + term);
+                // 5.8⁻²⁰, and the rounding of both sums.
+                assert!((at(&kept) / at(&series) - 1.0).abs() < 2e-15, "{ratio} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn factors_are_those_of_integrals() {
+        for (m, factor) in factors(4.0, &[2, 3]).as_flattened().iter().enumerate() {
+            // ∫ t (1-t) tᵐ dt from 0 to 1, four times.
+            let exact = 4.0 * (1.0 / (m + 2) as f64 - 1.0 / (m + 3) as f64);
+            // The difference loses the digits of m.
+            assert!((factor / exact - 1.0).abs() < 4e-16 * (m + 3) as f64, "{m}");
+        }
+    }
+}

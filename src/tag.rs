@@ -1,0 +1,68 @@
+//! Tags: the first double of each buffer that the library initialises in the caller's memory.
+//!
+//! A tag holds the kind of the buffer, the version of its layout and one count, so that a call recognises uninitialised memory
+//! and the buffers of other versions by a comparison. It is a finite, normal double: it survives a text file with 17 digits.
+
+/// Version of the layout of contacts, states and workspaces.
+pub(crate) const LAYOUT: u64 = 3;
+
+/// What a buffer is: the leading 16 bits of its tag, those of a double of about 1e64.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(u16)]
+pub(crate) enum Kind {
+    State = 0x4d53,
+    UniformSampling = 0x4d55,
+    EventDriven = 0x4d45,
+    Samples = 0x4d4e,
+}
+
+const COUNT_BITS: u32 = 40;
+
+impl Kind {
+    #[inline(always)]
+    const fn leading_bits(self) -> u64 {
+        ((self as u64) << 8) | LAYOUT
+    }
+
+    /// The tag of a buffer of this kind with a count below 2^40.
+    #[inline(always)]
+    pub const fn tag(self, count: usize) -> f64 {
+        f64::from_bits((self.leading_bits() << COUNT_BITS) | (count as u64 & ((1 << COUNT_BITS) - 1)))
+    }
+
+    /// The count in a tag; `None` for what is no tag of this kind and layout.
+    #[inline(always)]
+    pub const fn count(self, tag: f64) -> Option<usize> {
+        let bits = tag.to_bits();
+        if bits >> COUNT_BITS == self.leading_bits() { Some((bits & ((1 << COUNT_BITS) - 1)) as usize) } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KINDS: [Kind; 4] = [Kind::State, Kind::UniformSampling, Kind::EventDriven, Kind::Samples];
+
+    #[test]
+    fn a_tag_holds_its_count_and_survives_as_text() {
+        for kind in KINDS {
+            for count in [0, 1, 31, 1 << 24, (1 << COUNT_BITS) - 1] {
+                let tag = kind.tag(count);
+                assert_eq!(kind.count(tag), Some(count));
+                assert!(tag.is_normal());
+                assert_eq!(std::format!("{tag:.17e}").parse(), Ok(tag));
+            }
+        }
+    }
+
+    #[test]
+    fn other_memory_has_no_tag() {
+        for kind in KINDS {
+            for other in [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, -kind.tag(3), f64::from_bits(kind.tag(3).to_bits() ^ (1 << 40))] {
+                assert_eq!(kind.count(other), None);
+            }
+            assert!(KINDS.iter().all(|one| *one == kind || one.count(kind.tag(3)).is_none()));
+        }
+    }
+}
