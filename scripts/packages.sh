@@ -128,40 +128,4 @@ uninstall() {
 }
 check 'uninstall leaves no file' uninstall
 
-# The interface and its record: what happens to a header that was changed in one way.
-check 'the interface is the recorded one' scripts/interface.sh
-changed() { # SED-SCRIPT [--record]: of a copy of the header, against a copy of the records
-    rm -rf "$work/abi" && cp -R packaging/abi "$work/abi" && sed "$1" include/microslip.h > "$work/changed.h" &&
-        ! cmp -s include/microslip.h "$work/changed.h" || return 1
-    if [ $# -gt 1 ]; then MSLIP_HEADER="$work/changed.h" MSLIP_RECORDS="$work/abi" scripts/interface.sh "$2" || return 1; fi
-    MSLIP_HEADER="$work/changed.h" MSLIP_RECORDS="$work/abi" scripts/interface.sh
-}
-# refused MESSAGE SED-SCRIPT [--record]
-refused() {
-    message=$1
-    shift
-    if changed "$@" > "$work/answer"; then return 1; fi
-    grep -q "$message" "$work/answer"
-}
-raised="s/^\(#define MSLIP_ABI_VERSION\) .*/\1 $((abi + 1))/"
-next_series='s/^\(#define MSLIP_VERSION_MAJOR\) .*/\1 1000/'
-argument='s/^size_t mslip_state_length(size_t/size_t mslip_state_length(int32_t/'
-gone='/^int32_t mslip_abi_version/d'
-field='s/double half_width;/float half_width;/'
-added='s/^size_t mslip_state_length/void mslip_new(void);\n&/'
-code='s/\(MSLIP_BAD_STATE\) 21/\1 22/; s/\(MSLIP_BAD_WORKSPACE\) 22/\1 21/'
-refused_and_not_recorded() { # WHAT SED-SCRIPT
-    check "$1 is refused" refused 'raise MSLIP_ABI_VERSION' "$2"
-    check "$1 is not recorded" refused 'raise MSLIP_ABI_VERSION' "$2" --record
-}
-refused_and_not_recorded 'another argument' "$argument"
-refused_and_not_recorded 'a missing function' "$gone"
-refused_and_not_recorded 'another member' "$field"
-refused_and_not_recorded 'another status code' "$code"
-check 'what is new is to be recorded' refused 'make interface-record' "$added"
-check 'and is, on demand' changed "$added" --record
-check 'another interface is another series of versions' refused 'Raise the version' "$argument; $raised" --record
-check 'with which it is accepted' changed "$argument; $raised; $next_series" --record
-check 'a status code keeps its name for good' refused 'two names' "$code; $raised; $next_series" --record
-
 counts
