@@ -77,20 +77,29 @@ pkg_config_client() { # PREFIX
         LD_LIBRARY_PATH=$1/lib "$work/pkg/client_c" && LD_LIBRARY_PATH=$1/lib "$work/pkg/client_fortran"
 }
 check 'pkg-config' pkg_config_client "$static"
-cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...; the directory has a blank in its name, which must not matter
+cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...; the name of the directory has a blank, which must not matter
     build=$work/cmake/$1
     number=$2
     shift 2
     cmake -S "$clients/cmake" -B "$build" -DCMAKE_Fortran_COMPILER="$FC" "$@" && offline cmake --build "$build" &&
         (cd "$build" && ctest --output-on-failure | tee ctest.log) && grep -q "tests passed.* out of $number\$" "$build/ctest.log"
 }
-check 'CMake: find_package' cmake_client "find package" 2 -DCMAKE_PREFIX_PATH="$static"
+for generator in Ninja 'Unix Makefiles'; do
+    check "CMake: find_package, $generator" cmake_client "find package, $generator" 3 -G "$generator" -DCMAKE_PREFIX_PATH="$static"
+done
+check 'CMake: find_package, one Fortran target' cmake_client "one Fortran target" 2 -DFORTRAN_CLIENTS=1 -DCMAKE_PREFIX_PATH="$static"
+check 'CMake: find_package, no Fortran compiler' cmake_client "C only" 1 -DFORTRAN_CLIENTS=0 -DCMAKE_Fortran_COMPILER=false \
+    -DCMAKE_PREFIX_PATH="$static"
 
-# Clients that build the library with themselves. Cargo's directory is that of the tarball, so that it builds once; by
-# FetchContent all is as by default.
-check 'CMake: add_subdirectory' cmake_client "add subdirectory" 2 -G Ninja -DMICROSLIP_SOURCE="$tree" \
-    -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
-check 'CMake: FetchContent' cmake_client "fetch content" 2 -DMICROSLIP_URL="$tree.tar.gz"
+# Clients that build the library as part of their own build. All but FetchContent, which tests the defaults, share the target directory of
+# cargo with the tarball, so that it compiles once.
+for generator in Ninja 'Unix Makefiles'; do
+    check "CMake: add_subdirectory, $generator" cmake_client "add subdirectory, $generator" 3 -G "$generator" \
+        -DMICROSLIP_SOURCE="$tree" -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
+done
+check 'CMake: add_subdirectory, no Fortran compiler' cmake_client "C only, add subdirectory" 1 -DFORTRAN_CLIENTS=0 \
+    -DCMAKE_Fortran_COMPILER=false -DMICROSLIP_SOURCE="$tree" -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
+check 'CMake: FetchContent' cmake_client "fetch content" 3 -DMICROSLIP_URL="$tree.tar.gz"
 meson_client() {
     mkdir -p "$work/meson/subprojects" && cp "$clients/client.c" "$clients/client.f90" "$clients/meson/meson.build" "$work/meson" &&
         ln -s "$tree" "$work/meson/subprojects/microslip" &&
@@ -122,7 +131,7 @@ shared_client() {
     pkg_config_client "$shared" && [ "$(needs "$work/pkg/client_c")" = "$so" ] && [ "$(needs "$work/pkg/client_fortran")" = "$so" ]
 }
 check 'pkg-config: clients of the shared library' shared_client
-check 'CMake: clients of both libraries' cmake_client "both libraries" 3 -DCMAKE_PREFIX_PATH="$shared"
+check 'CMake: clients of both libraries' cmake_client "both libraries" 4 -DCMAKE_PREFIX_PATH="$shared"
 uninstall() {
     make -C "$tree" uninstall PREFIX="$shared" && [ -z "$(find "$shared" ! -type d)" ]
 }
