@@ -17,7 +17,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions instructions-record \
-	counting-dependencies figures host stress fuzz header docs interface-record dist clean help
+	counting-dependencies figures host stress fuzz header docs dist clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -144,10 +144,6 @@ header:
 docs:
 	@scripts/dependencies.sh docs
 	scripts/docs.sh
-
-## interface-record: record what is new in the interface of the header, in packaging/abi/
-interface-record:
-	scripts/interface.sh --record
 
 ## dist: the source as target/microslip-VERSION.tar.gz, which builds without a network
 dist:

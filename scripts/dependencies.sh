@@ -1,34 +1,34 @@
 #!/bin/sh
-# dependencies.sh GROUP...: see that the tools of each group are there.
+# dependencies.sh GROUP...: check that the tools of each group are installed.
 #
-#   fortran   the compiler
+#   fortran   the Fortran compiler
 #   demo      Fortran with LAPACK, and gnuplot
 #   mpi       Fortran with LAPACK, Open MPI, and zlib
 #   bench     the C compiler, and gnuplot
 #   figures   gnuplot
-#   host      what CalculiX is built with, and gnuplot
+#   host      build dependencies of CalculiX, and gnuplot
 #   fuzz      the C++ compiler
-#   packages  the build tools of clients
-#   docs      what makes the reference from comments
-#   counting  what counts instructions
-#   guest     other compilers, linkers, and what watches memory and threads
+#   packages  build tools of clients, and Fortran with LAPACK
+#   docs      the generator of the reference documentation
+#   counting  counting instructions
+#   guest     other compilers and linkers, sanitizers, valgrind
 #   accuracy  GMP and MPFR
-#   test      all that `make test` uses
+#   test      everything for `make test`
 #
-# What is missing is installed when root runs this on Debian or a relative of it, else named.
+# Missing packages are installed if run as root on Debian or a derivative, and listed otherwise.
 set -eu
 
 missing=
 
-# need PACKAGE COMMAND: the package that brings the command.
+# need PACKAGE COMMAND: the package with the command.
 need() {
     command -v "$2" > /dev/null 2>&1 || missing="$missing $1"
 }
 
-# need_library PACKAGE NAME: the package that lets the Fortran compiler link with the library.
+# need_library PACKAGE NAME: the package with the library, as found by the Fortran compiler.
 need_library() {
     for file in "lib$2.so" "lib$2.a"; do
-        # The compiler answers with the bare name when it knows no such file.
+        # The compiler prints the bare name if it does not find the file.
         [ "$(gfortran -print-file-name="$file" 2> /dev/null || echo "$file")" = "$file" ] || return 0
     done
     missing="$missing $1"
@@ -64,7 +64,7 @@ counting() {
     need valgrind valgrind
 }
 
-# need_header PACKAGE NAME: the package that brings what the C compiler includes.
+# need_header PACKAGE NAME: the package with the header, as found by the C compiler.
 need_header() {
     echo "#include <$2>" | gcc -E - > /dev/null 2>&1 || missing="$missing $1"
 }
@@ -84,14 +84,14 @@ figures() {
     need gnuplot-nox gnuplot
 }
 
-# need_venv: what makes Python's environments, for tools that Debian has not.
+# need_venv: Python's virtual environments, for tools that Debian does not package.
 need_venv() {
     need python3 python3
     python3 -c 'import ensurepip' 2> /dev/null || missing="$missing python3-venv"
 }
 
 packages() {
-    fortran
+    demo
     need gcc gcc
     need make make
     need cmake cmake
@@ -115,7 +115,7 @@ host() {
     need_library libarpack2-dev arpack
 }
 
-# need_clang PACKAGE OPTION: the package without which clang cannot link with the option.
+# need_clang PACKAGE OPTION: the package that clang needs to link with the option.
 need_clang() {
     probe=$(mktemp)
     echo 'int main(void) { return 0; }' | clang "$2" -x c - -o "$probe" 2> /dev/null || missing="$missing $1"
