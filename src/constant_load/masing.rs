@@ -5,7 +5,7 @@
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::curve::CurveEvaluator;
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, push};
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Transition, push};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::law::{Evaluator, Point, Response};
@@ -51,7 +51,9 @@ impl Evaluator for BranchEvaluator<'_> {
 /// A step from a state to a displacement: what it leads to, before anything is written.
 #[derive(Debug, Clone, Copy)]
 pub struct Step {
-    branch: Branch,
+    /// Number of reversals on the stack after it.
+    depth: usize,
+    /// Whether the newest of them is the point at which it starts.
     reversed: bool,
     initial: InitialCurve,
     start: Point,
@@ -60,50 +62,50 @@ pub struct Step {
     dissipated: f64,
 }
 
-/// Finds the step of a contact from a state to a displacement \[m\]; its energy only if `with_energy`.
+/// Checks the inputs of a step.
 ///
 /// # Errors
 /// `BadState`, `StateTooShort`, `BadDisplacement`.
 #[inline(always)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64, with_energy: bool) -> Result<Step, Error> {
-    let memory = state::read(state)?;
-    check_displacement(displacement)?;
-    Ok(if with_energy {
-        Step::with_energy(contact, &memory, displacement)
-    } else {
-        Step::new(contact, &memory, displacement)
-    })
+pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
+    state::check_header(state)?;
+    check_displacement(displacement)
+}
+
+/// Finds the step of a contact from a state to a displacement \[m\], both checked; its energy only if `with_energy`.
+#[must_use]
+#[inline(always)]
+pub fn step(contact: &Contact, state: &[f64], displacement: f64, with_energy: bool) -> Step {
+    if with_energy {
+        return step_with_energy(contact, state, displacement);
+    }
+    let memory = state::memory(state);
+    let transition = memory.locate(contact, displacement, |_| {});
+    Step::new(contact, &memory, &transition, displacement, 0.0)
+}
+
+#[inline(never)]
+fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+    let memory = state::memory(state);
+    let mut energy = Dissipation::new(contact);
+    let transition = memory.locate(contact, displacement, |segment| energy.add(segment));
+    let dissipated = if displacement == memory.now.displacement { 0.0 } else { energy.total() };
+    Step::new(contact, &memory, &transition, displacement, dissipated)
 }
 
 impl Step {
     #[inline(always)]
-    fn new(contact: &Contact, memory: &Memory, displacement: f64) -> Step {
-        Step::along(contact, memory, displacement, None)
-    }
-
-    #[inline(never)]
-    fn with_energy(contact: &Contact, memory: &Memory, displacement: f64) -> Step {
-        Step::along(contact, memory, displacement, Some(Dissipation::new(contact)))
-    }
-
-    #[inline(always)]
-    fn along(contact: &Contact, memory: &Memory, displacement: f64, mut energy: Option<Dissipation>) -> Step {
-        let transition = memory.locate(contact, displacement, |segment| {
-            if let Some(energy) = &mut energy {
-                energy.add(segment);
-            }
-        });
-        let branch = transition.branch;
+    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64, dissipated: f64) -> Step {
+        let Transition { branch, reversed } = *transition;
         let Response { force, stiffness } = branch.response(contact, displacement);
-        let stays = displacement == memory.now.displacement;
         Step {
-            branch,
-            reversed: transition.reversed,
+            depth: branch.depth,
+            reversed,
             initial: memory.initial.after(contact, &branch, displacement),
             start: memory.now,
             end: Point { displacement, force },
             stiffness,
-            dissipated: energy.filter(|_| !stays).map_or(0.0, Dissipation::total),
+            dissipated,
         }
     }
 
@@ -131,7 +133,7 @@ impl Step {
     /// Writes the step into the state from which it was found, or into a copy of that.
     #[inline(always)]
     pub fn write(&self, contact: &Contact, state: &mut [f64]) {
-        let mut depth = self.branch.depth;
+        let mut depth = self.depth;
         if self.reversed {
             let reversals = state::reversals_mut(state);
             depth = push(contact, self.initial.offset, reversals, depth - 1, self.start);
@@ -156,19 +158,16 @@ pub struct PathOutput<'a> {
 /// # Errors
 /// `BadState`, `StateTooShort`, `BadDisplacement`.
 pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
-    state::read(state)?;
+    state::check_header(state)?;
     path.iter().try_for_each(|&displacement| check_displacement(displacement))
 }
 
-/// Advances a state along a path of displacements \[m\] that was checked.
-///
-/// # Errors
-/// Those of [`check_path`].
+/// Advances a state along a path of displacements \[m\], both checked.
 #[inline(always)]
-pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
     let PathOutput { mut force, mut stiffness, mut dissipated } = output;
     for (i, &displacement) in path.iter().enumerate() {
-        let step = step(contact, state, displacement, dissipated.is_some())?;
+        let step = step(contact, state, displacement, dissipated.is_some());
         step.write(contact, state);
         let values = [step.force(), step.stiffness(), step.dissipated()];
         for (output, value) in [&mut force, &mut stiffness, &mut dissipated].into_iter().zip(values) {
@@ -177,23 +176,19 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
             }
         }
     }
-    Ok(())
 }
 
 /// Nested reversals of the copy in which a path runs whose last state is discarded.
 const REVERSALS_OF_COPY: usize = 128;
 
-/// Advances along a path in a copy of the state, on the stack.
-///
-/// # Errors
-/// Those of [`check_path`].
+/// Advances along a path, both checked, in a copy of the state, on the stack.
 #[inline(never)]
-pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], output: PathOutput) -> Result<(), Error> {
+pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], output: PathOutput) {
     let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
     let length = state.len().min(copy.len());
     let copy = copy.get_mut(..length).unwrap_or(&mut []);
-    state::copy(contact, state, copy)?;
-    path(contact, copy, displacement, output)
+    state::copy(contact, state, copy);
+    path(contact, copy, displacement, output);
 }
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
@@ -235,7 +230,7 @@ mod tests {
     fn apply(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
         let mut force = f64::NAN;
         for displacement in path {
-            let step = step(contact, state, displacement * contact.slip_displacement, false).unwrap();
+            let step = step(contact, state, displacement * contact.slip_displacement, false);
             step.write(contact, state);
             force = step.force();
         }
@@ -267,7 +262,7 @@ mod tests {
         let mut good = unloaded(3);
         apply(&contact, &mut good, &[0.5, -0.2, 0.1]);
         let rejects = |state: &[f64], error: Error| {
-            assert_eq!(step(&contact, state, 0.0, false).map(|_| ()), Err(error));
+            assert_eq!(check_step(state, 0.0), Err(error));
             assert_eq!(check_path(state, &[0.0]), Err(error));
             assert_eq!(shear_tractions(&contact, state, &[0.0], &mut [0.0]), Err(error));
             assert_eq!(state_error(state), Err(error));
@@ -282,7 +277,7 @@ mod tests {
         apply(&contact, &mut good, &[0.05]);
         rejects(good.get(..state_length(2)).unwrap(), Error::BadState);
         assert_eq!(state_init(&mut [0.0; state_length(0) - 1]), Err(Error::StateTooShort));
-        assert_eq!(step(&contact, &good, f64::NAN, false).map(|_| ()), Err(Error::BadDisplacement));
+        assert_eq!(check_step(&good, f64::NAN), Err(Error::BadDisplacement));
     }
 
     #[test]
@@ -328,9 +323,9 @@ mod tests {
         for (number, displacement) in scattered(200, 3).enumerate() {
             // Up to gross slip and beyond, from the virgin state on.
             let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
-            let first = step(&contact, &state, target, true).unwrap();
+            let first = step(&contact, &state, target, true);
             first.write(&contact, &mut state);
-            let again = step(&contact, &state, target, true).unwrap();
+            let again = step(&contact, &state, target, true);
             assert_eq!(again.dissipated(), 0.0);
             assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
             let before = state.clone();
@@ -364,8 +359,8 @@ mod tests {
                 let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
                 let output =
                     |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
-                path_in_copy(&contact, &state, &path, output(&mut discarded)).unwrap();
-                super::path(&contact, &mut state, &path, output(&mut kept)).unwrap();
+                path_in_copy(&contact, &state, &path, output(&mut discarded));
+                super::path(&contact, &mut state, &path, output(&mut kept));
                 assert_eq!(discarded, kept);
             }
         }
@@ -379,7 +374,7 @@ mod tests {
                 let force = apply(&contact, &mut state, &[amplitude]);
                 let mut sum = 0.0;
                 for target in [-0.3 * amplitude, -amplitude, amplitude] {
-                    let step = step(&contact, &state, target * contact.slip_displacement, true).unwrap();
+                    let step = step(&contact, &state, target * contact.slip_displacement, true);
                     sum += step.dissipated();
                     step.write(&contact, &mut state);
                 }
@@ -391,7 +386,7 @@ mod tests {
                 let part = 0.1 * amplitude;
                 let mut inner = 0.0;
                 for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
-                    let step = step(&contact, &state, target * contact.slip_displacement, true).unwrap();
+                    let step = step(&contact, &state, target * contact.slip_displacement, true);
                     inner += step.dissipated();
                     step.write(&contact, &mut state);
                 }
@@ -440,7 +435,7 @@ mod tests {
         for displacement in [-1e17 * contact.slip_displacement, -1e150, 1e150] {
             let mut state = unloaded(3);
             let forces = [(); 3].map(|()| {
-                let step = step(&contact, &state, displacement, false).unwrap();
+                let step = step(&contact, &state, displacement, false);
                 step.write(&contact, &mut state);
                 step.force()
             });

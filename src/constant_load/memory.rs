@@ -58,6 +58,8 @@ pub(crate) struct Branch {
     pub end: f64,
     /// Masing scale: 2 after a reversal, 1 on the initial loading curve.
     pub scale: f64,
+    /// Its inverse.
+    pub inverse_scale: f64,
     pub gross_slip: bool,
 }
 
@@ -74,7 +76,7 @@ impl Branch {
     /// exceeds that of gross slip by rounding is cut off there.
     #[inline(always)]
     pub fn distance(&self, slip_displacement: f64, displacement: f64) -> f64 {
-        let distance = (displacement - self.start.displacement).abs() / self.scale;
+        let distance = (displacement - self.start.displacement).abs() * self.inverse_scale;
         if distance > slip_displacement { slip_displacement } else { distance }
     }
 }
@@ -109,6 +111,10 @@ pub(crate) struct Transition {
 }
 
 impl Memory<'_> {
+    /// That of an unloaded contact.
+    pub const UNLOADED: Memory<'static> =
+        Memory { initial: InitialCurve::UNLOADED, now: Point { displacement: 0.0, force: 0.0 }, reversals: &[] };
+
     #[inline(always)]
     pub fn depth(&self) -> usize {
         self.reversals.len()
@@ -135,13 +141,14 @@ impl Memory<'_> {
                 direction,
                 end: offset + direction * contact.slip_displacement,
                 scale: 1.0,
+                inverse_scale: 1.0,
                 gross_slip: slip_direction != 0.0,
             };
         }
         let start = self.reversal(depth);
         let end =
             if depth >= 2 { self.reversal(depth - 1).displacement } else { 2.0 * offset - start.displacement };
-        Branch { depth, start, direction, end, scale: 2.0, gross_slip: false }
+        Branch { depth, start, direction, end, scale: 2.0, inverse_scale: 0.5, gross_slip: false }
     }
 
     /// The branch that continues one at its end: that of the enclosing loop once a loop is closed, the initial loading curve
@@ -178,20 +185,34 @@ impl Memory<'_> {
             let branch = Branch { gross_slip: false, ..self.branch(contact, 0, direction) };
             return Transition { branch, reversed: false };
         }
-        let mut reversed = direction * heading < 0.0;
-        let mut branch = self.branch(contact, self.depth() + usize::from(reversed), direction);
-        let mut at = from;
-        let slip_displacement = contact.slip_displacement;
+        let reversed = direction * heading < 0.0;
+        let branch = self.branch(contact, self.depth() + usize::from(reversed), direction);
+        if branch.contains(target) {
+            on_segment(branch.segment(contact.slip_displacement, from, target));
+            return Transition { branch, reversed };
+        }
+        Transition { branch: self.close_loops(contact, branch, target, on_segment), reversed: false }
+    }
+
+    /// The branch on which a displacement beyond the end of `branch` lies.
+    #[inline(never)]
+    fn close_loops(
+        &self,
+        contact: &Contact,
+        mut branch: Branch,
+        target: f64,
+        mut on_segment: impl FnMut(Segment),
+    ) -> Branch {
+        let (mut at, slip_displacement) = (self.now.displacement, contact.slip_displacement);
         while !branch.contains(target) {
             let segment = branch.segment(slip_displacement, at, branch.end);
             // The initial loading curve ends at gross slip exactly.
             on_segment(Segment { end: if branch.depth == 0 { slip_displacement } else { segment.end }, ..segment });
             at = branch.end;
             branch = self.continuation(contact, &branch);
-            reversed = false;
         }
         on_segment(branch.segment(slip_displacement, at, target));
-        Transition { branch, reversed }
+        branch
     }
 }
 

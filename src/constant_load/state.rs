@@ -42,40 +42,49 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Reads a state: its memory, and how many reversals it holds.
+/// Checks what every call checks of a state: its length, its tag, and the number of reversals.
 ///
 /// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that was not initialised, was cut, or
+/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that was not initialised, was truncated, or
 /// belongs to another version.
 #[inline(always)]
-pub(crate) fn read(state: &[f64]) -> Result<Memory<'_>, Error> {
-    let &[tag, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
-        return Err(Error::StateTooShort);
-    };
-    let reversals: &[Reversal] = reversals.as_chunks().0;
-    if reversals.len() < MIN_REVERSALS {
+pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
+    if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
     }
-    let depth = Kind::State.count(tag).ok_or(Error::BadState)?;
-    let reversals = reversals.get(..depth).ok_or(Error::BadState)?;
-    let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
-    Ok(Memory { initial, now, reversals })
+    check_tag(state.first().copied().unwrap_or(0.0), state.len())
 }
 
 /// Rejects the tag of what is no state of that length.
 #[inline(always)]
 pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-    let depth = Kind::State.count(tag).ok_or(Error::BadState)?;
-    if depth <= state_length.saturating_sub(HEADER) / PER_REVERSAL { Ok(()) } else { Err(Error::BadState) }
+    match Kind::State.count(tag) {
+        Some(depth) if HEADER + PER_REVERSAL * depth <= state_length => Ok(()),
+        _ => Err(Error::BadState),
+    }
 }
 
-/// Copies a state into one that may hold fewer reversals.
+/// The memory in a state whose header was checked.
+#[inline(always)]
+pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
+    let &[tag, displacement, slip_direction, force, offset, ref reversals @ ..] = state else { return Memory::UNLOADED };
+    let used = PER_REVERSAL * Kind::State.count(tag).unwrap_or(0);
+    let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
+    Memory { initial, now, reversals: reversals.get(..used).unwrap_or(&[]).as_chunks().0 }
+}
+
+/// Reads a state.
 ///
 /// # Errors
-/// Those of [`read`], for both.
-pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) -> Result<(), Error> {
-    let memory = read(from)?;
-    state_init(to)?;
+/// Those of [`check_header`].
+pub(crate) fn read(state: &[f64]) -> Result<Memory<'_>, Error> {
+    check_header(state)?;
+    Ok(memory(state))
+}
+
+/// Copies a state that was checked into one that may hold fewer reversals.
+pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) {
+    let memory = memory(from);
     let reversals = reversals_mut(to);
     let mut depth = 0;
     for &[displacement, force, error] in memory.reversals {
@@ -85,7 +94,6 @@ pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) -> Result<()
         }
     }
     write_header(to, depth, memory.initial, memory.now);
-    Ok(())
 }
 
 /// The reversals of a state, used or not.

@@ -21,10 +21,9 @@ pub(crate) struct SteadyState<'c, 's> {
 impl<'c, 's> SteadyState<'c, 's> {
     #[inline(always)]
     pub fn new(contact: &'c Contact, reversals: &'s mut [Reversal], with_energy: bool) -> SteadyState<'c, 's> {
-        let initial = InitialCurve::UNLOADED;
-        let memory = Memory { initial, now: Point { displacement: 0.0, force: 0.0 }, reversals: &[] };
         let energy = with_energy.then(|| Dissipation::new(contact));
-        SteadyState { contact, energy, initial, branch: memory.branch(contact, 0, 1.0), reversals, depth: 0 }
+        let branch = Memory::UNLOADED.branch(contact, 0, 1.0);
+        SteadyState { contact, energy, initial: InitialCurve::UNLOADED, branch, reversals, depth: 0 }
     }
 
     /// The branch that follows the present one at its end.

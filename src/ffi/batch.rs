@@ -153,7 +153,7 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
             let state_old = states_old.wrapping_add(i * state_length);
             for &target in target {
                 // SAFETY: those of item i, as above; the reference ends before the new state is written.
-                let step = masing::step(contact, unsafe { input(state_old, state_length) }?, target, !dissipated.is_null())?;
+                let step = masing::step(contact, unsafe { input(state_old, state_length) }?, target, !dissipated.is_null());
                 // SAFETY: aligned; valid by the function's contract.
                 unsafe {
                     write_state(contact, &step, state_length, state_old, at(states_new, i * state_length));

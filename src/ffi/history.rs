@@ -105,8 +105,12 @@ pub unsafe extern "C" fn mslip_masing_update(
         // SAFETY: by the function's contract.
         let contact = unsafe { pointers::contact(contact) }?;
         [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-        let step = masing::step(contact, unsafe { state_input(state_length, state_old) }?, displacement, !dissipated.is_null())?;
+        let step = {
+            // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+            let state = unsafe { state_input(state_length, state_old) }?;
+            masing::check_step(state, displacement)?;
+            masing::step(contact, state, displacement, !dissipated.is_null())
+        };
         // SAFETY: aligned; valid by the function's contract.
         unsafe {
             write_state(contact, &step, state_length, state_old, state_new);
@@ -189,7 +193,8 @@ pub unsafe extern "C" fn mslip_masing_path(
         let output = PathOutput { force, stiffness, dissipated };
         masing::check_path(start, path)?;
         if state_new.is_null() {
-            return masing::path_in_copy(contact, start, path, output);
+            masing::path_in_copy(contact, start, path, output);
+            return Ok(());
         }
         if !ptr::eq(state_old, state_new) {
             // SAFETY: aligned; valid by the function's contract.
@@ -197,19 +202,20 @@ pub unsafe extern "C" fn mslip_masing_path(
         }
         // SAFETY: as above; the reference to the old state, which may be the same memory, is not used any more.
         let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-        path_dispatched(contact, state, path, output)
+        path_dispatched(contact, state, path, output);
+        Ok(())
     };
     status(advance())
 }
 
-fn path_dispatched(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+fn path_dispatched(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
     dispatch_simd!(
         masing::path,
         contact: &Contact,
         state: &mut [f64],
         path: &[f64],
-        output: PathOutput => Result<(), Error>
-    )
+        output: PathOutput => ()
+    );
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).
