@@ -136,7 +136,7 @@ fuzz:
 	@scripts/dependencies.sh fuzz
 	scripts/fuzz.sh
 
-## header: make include/microslip.h from the Rust source
+## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
 header:
 	$(CARGO) run --quiet --package xtask -- header
 

@@ -1,23 +1,23 @@
 module checks
-  ! Counting checks: each failure is printed with its values, none stops the program.
+  ! Checks that are counted: a failure is printed with its values and does not stop the program.
   use microslip, only: mslip_int, mslip_real, mslip_status_text
   implicit none
   private
   public :: wp, untouched, check, check_status, check_close, check_same, report
 
   integer, parameter :: wp = mslip_real
-  ! What outputs hold before a call, to see that a refused call left them alone.
+  ! The value of outputs before a call, to check that a rejected call does not modify them.
   real(wp), parameter :: untouched = -777.0_wp
 
   integer :: passed = 0, failed = 0
 
 contains
 
-  subroutine check(name, holds)
+  subroutine check(name, condition)
     character(len=*), intent(in) :: name
-    logical, intent(in) :: holds
+    logical, intent(in) :: condition
 
-    if (holds) then
+    if (condition) then
       passed = passed + 1
     else
       failed = failed + 1
@@ -37,7 +37,7 @@ contains
   end subroutine check_status
 
   subroutine check_close(name, value, expected, tolerance)
-    ! The difference over the expected value; over 1 where 0 is expected.
+    ! The difference relative to the expected value, or absolute if 0 is expected.
     character(len=*), intent(in) :: name
     real(wp), intent(in) :: value, expected, tolerance
 
@@ -52,7 +52,7 @@ contains
   end subroutine check_close
 
   subroutine check_same(name, values, expected)
-    ! Equal in every bit that counts.
+    ! Equal values; 0 and -0 are equal.
     character(len=*), intent(in) :: name
     real(wp), intent(in) :: values(:), expected(:)
 

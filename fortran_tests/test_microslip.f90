@@ -1,6 +1,6 @@
 program test_microslip
-  ! The Fortran module against the model: reference values of 50 digits and more, relations that the model has to satisfy,
-  ! and what the module adds to the C interface.
+  ! The Fortran module against the model: reference values of 50 digits and more, relations that the model must satisfy,
+  ! and the checks and conversions of the module itself.
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, ieee_value
   use microslip
   use checks
@@ -11,21 +11,25 @@ program test_microslip
 
   type(mslip_contact) :: cylinder, flat, open_contact
 
-  call prepare()
+  call initialise()
   call test_library()
   call test_contacts()
-  call test_refused_parameters()
+  call test_rejected_parameters()
   call test_tractions_and_slip()
   call test_monotonic()
   call test_history()
   call test_state()
+  call test_bounded_memory()
+  call test_trial_step()
+  call test_checks()
   call test_masing_tractions()
   call test_cycles()
   call test_harmonic_force()
-  call test_between_reversals()
+  call test_event_driven()
   call test_jacobian()
   call test_workspace()
-  call test_interface()
+  call test_batch()
+  call test_index()
   call test_equivalents()
   call test_elliptic()
   call test_open_contact()
@@ -55,25 +59,25 @@ contains
     p%material(2) = mslip_material(young_modulus=2.0e11_wp, poisson_ratio=0.29_wp)
   end function flat_parameters
 
-  subroutine prepare()
+  subroutine initialise()
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
     call mslip_contact_init(cylinder_parameters(), cylinder, status)
-    call check_status('prepare the cylinder', status, MSLIP_OK)
+    call check_status('initialise the cylinder', status, MSLIP_OK)
     call mslip_contact_init(flat_parameters(), flat, status)
-    call check_status('prepare the rounded flat', status, MSLIP_OK)
+    call check_status('initialise the rounded flat', status, MSLIP_OK)
     p = flat_parameters()
     p%normal_force = 0.0_wp
     call mslip_contact_init(p, open_contact, status)
-    call check_status('prepare the open contact', status, MSLIP_OK)
-  end subroutine prepare
+    call check_status('initialise the open contact', status, MSLIP_OK)
+  end subroutine initialise
 
-  function no_number() result(nan)
+  function quiet_nan() result(nan)
     real(wp) :: nan
 
     nan = ieee_value(nan, ieee_quiet_nan)
-  end function no_number
+  end function quiet_nan
 
   function is_nan(x) result(nan)
     ! The intrinsic one is of another kind than the logical of the compiler option -fdefault-integer-8.
@@ -83,7 +87,7 @@ contains
     nan = ieee_is_nan(x)
   end function is_nan
 
-  function fresh_state(reversals) result(state)
+  function initial_state(reversals) result(state)
     integer(mslip_size), intent(in) :: reversals
     real(wp) :: state(mslip_state_length(reversals))
 
@@ -91,24 +95,24 @@ contains
 
     call mslip_state_init(state, status)
     call check_status('initialise a state', status, MSLIP_OK)
-  end function fresh_state
+  end function initial_state
 
   subroutine test_library()
     integer(mslip_int), parameter :: codes(*) = [MSLIP_OK, MSLIP_NULL_POINTER, MSLIP_BAD_FLAT_HALF_WIDTH, &
       MSLIP_BAD_EDGE_RADIUS, MSLIP_BAD_LENGTH, MSLIP_BAD_NORMAL_FORCE, MSLIP_BAD_FRICTION_COEFFICIENT, &
       MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO, MSLIP_BAD_DISPLACEMENT_REFERENCE, MSLIP_BAD_SEMI_AXIS_X, &
       MSLIP_BAD_SEMI_AXIS_Y, MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, MSLIP_BAD_CONTACT, MSLIP_BAD_STATE, &
-      MSLIP_BAD_WORKSPACE, MSLIP_STATE_TOO_SHORT, MSLIP_STATE_FULL, MSLIP_WORKSPACE_TOO_SHORT, MSLIP_BAD_FORCE, &
+      MSLIP_BAD_WORKSPACE, MSLIP_STATE_TOO_SHORT, MSLIP_WORKSPACE_TOO_SHORT, MSLIP_BAD_FORCE, &
       MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_POSITION, MSLIP_BAD_AMPLITUDE, &
       MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_COUNT, MSLIP_BAD_RULE, &
-      MSLIP_NOT_AVAILABLE, MSLIP_BAD_ARRAY_SIZE, MSLIP_BAD_ALIGNMENT]
+      MSLIP_NOT_AVAILABLE, MSLIP_BAD_INDEX, MSLIP_BAD_ARRAY_SIZE, MSLIP_BAD_ALIGNMENT]
     character(len=:), allocatable :: version
     integer :: i, j
     logical :: distinct
 
-    call check_status('version of the interface', mslip_abi_version(), MSLIP_MODULE_ABI_VERSION)
+    call check_status('interface version', mslip_abi_version(), MSLIP_MODULE_ABI_VERSION)
     version = mslip_version()
-    call check('version is three numbers: '//version, &
+    call check('the version has three parts: '//version, &
       verify(version, '0123456789.') == 0 .and. count([(version(i:i) == '.', i = 1, len(version))]) == 2)
     distinct = .true.
     do i = 2, size(codes)
@@ -116,10 +120,10 @@ contains
         if (mslip_status_text(codes(i)) == mslip_status_text(codes(j))) distinct = .false.
       end do
     end do
-    call check('every status has a sentence of its own', distinct)
-    call check('a sentence names its parameter', index(mslip_status_text(MSLIP_BAD_EDGE_RADIUS), 'edge_radius') > 0)
-    call check('a sentence for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
-    call check('size of a contact', storage_size(cylinder) == 8*1992)
+    call check('every status has a message of its own', distinct)
+    call check('a message names its parameter', index(mslip_status_text(MSLIP_BAD_EDGE_RADIUS), 'edge_radius') > 0)
+    call check('a message for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
+    call check('size of a contact: no padding', storage_size(cylinder) == 64*(6 + size(cylinder%reserved)))
     call check('size of a material', storage_size(mslip_material(1.0_wp, 0.3_wp)) == 2*64)
     call check('size of the parameters', storage_size(flat_parameters()) == 10*64)
   end subroutine test_library
@@ -143,7 +147,7 @@ contains
     call check_close('flat: initial stiffness', flat%initial_stiffness, 5.259680847566269756335484e8_wp, tight)
     call check_close('flat: slip energy', flat%slip_energy, 1.267343110930086121804144e-6_wp, tight)
 
-    ! Like bodies, Poisson's ratio 0.3: the corrected compliance is the paper's less a known constant.
+    ! Equal materials, Poisson's ratio 0.3: the corrected compliance is the paper's minus a known constant.
     p = flat_parameters()
     p%material(:) = mslip_material(2.0e11_wp, 0.3_wp)
     call mslip_contact_init(p, uncorrected, status)
@@ -157,7 +161,7 @@ contains
       uncorrected%initial_stiffness*ln_term/(ln_term - shift), tight)
   end subroutine test_contacts
 
-  subroutine test_refused_parameters()
+  subroutine test_rejected_parameters()
     type(mslip_parameters) :: p
     type(mslip_contact) :: contact
     integer(mslip_int) :: status
@@ -165,39 +169,39 @@ contains
     call mslip_contact_init(p, contact, status)
     call check_status('parameters never set', status, MSLIP_BAD_FLAT_HALF_WIDTH)
     call mslip_parameters_default(p)
-    call check('default: numbers unset', is_nan(p%edge_radius) .and. is_nan(p%material(2)%poisson_ratio))
+    call check('default: values unset', is_nan(p%edge_radius) .and. is_nan(p%material(2)%poisson_ratio))
     call check_status('default: displacement reference', p%displacement_reference, MSLIP_CENTRE_POINT)
     call mslip_contact_init(p, contact, status)
     call check_status('parameters not set after default', status, MSLIP_BAD_FLAT_HALF_WIDTH)
     p = flat_parameters()
     p%flat_half_width = -1.0e-4_wp
-    call refused('flat half-width', p, MSLIP_BAD_FLAT_HALF_WIDTH)
+    call check_rejected('flat half-width', p, MSLIP_BAD_FLAT_HALF_WIDTH)
     p = flat_parameters()
     p%edge_radius = 0.0_wp
-    call refused('edge radius', p, MSLIP_BAD_EDGE_RADIUS)
+    call check_rejected('edge radius', p, MSLIP_BAD_EDGE_RADIUS)
     p = flat_parameters()
     p%length = ieee_value(1.0_wp, ieee_positive_inf)
-    call refused('infinite length', p, MSLIP_BAD_LENGTH)
+    call check_rejected('infinite length', p, MSLIP_BAD_LENGTH)
     p%length = 1.0e-4_wp
-    call refused('short length', p, MSLIP_LENGTH_TOO_SHORT)
+    call check_rejected('short length', p, MSLIP_LENGTH_TOO_SHORT)
     p = flat_parameters()
     p%normal_force = -1.0_wp
-    call refused('normal force', p, MSLIP_BAD_NORMAL_FORCE)
+    call check_rejected('normal force', p, MSLIP_BAD_NORMAL_FORCE)
     p = flat_parameters()
-    p%friction_coefficient = no_number()
-    call refused('friction coefficient', p, MSLIP_BAD_FRICTION_COEFFICIENT)
+    p%friction_coefficient = quiet_nan()
+    call check_rejected('friction coefficient', p, MSLIP_BAD_FRICTION_COEFFICIENT)
     p = flat_parameters()
     p%material(2)%young_modulus = 0.0_wp
-    call refused('Young modulus', p, MSLIP_BAD_YOUNG_MODULUS)
+    call check_rejected('Young modulus', p, MSLIP_BAD_YOUNG_MODULUS)
     p = flat_parameters()
     p%material(1)%poisson_ratio = 0.6_wp
-    call refused('Poisson ratio', p, MSLIP_BAD_POISSON_RATIO)
+    call check_rejected('Poisson ratio', p, MSLIP_BAD_POISSON_RATIO)
     p = flat_parameters()
     p%displacement_reference = 7_mslip_int
-    call refused('displacement reference', p, MSLIP_BAD_DISPLACEMENT_REFERENCE)
-  end subroutine test_refused_parameters
+    call check_rejected('displacement reference', p, MSLIP_BAD_DISPLACEMENT_REFERENCE)
+  end subroutine test_rejected_parameters
 
-  subroutine refused(name, p, expected)
+  subroutine check_rejected(name, p, expected)
     character(len=*), intent(in) :: name
     type(mslip_parameters), intent(in) :: p
     integer(mslip_int), intent(in) :: expected
@@ -207,12 +211,12 @@ contains
     real(wp) :: force
 
     call mslip_contact_init(p, contact, status)
-    call check_status('refused: '//name, status, expected)
+    call check_status('rejected: '//name, status, expected)
     force = untouched
     call mslip_monotonic_force(contact, 1.0e-7_wp, status, force)
-    call check_status('refused: '//name//': the contact stays unprepared', status, MSLIP_BAD_CONTACT)
-    call check_same('refused: '//name//': nothing written', [force, contact%half_width], [untouched, 0.0_wp])
-  end subroutine refused
+    call check_status('rejected: '//name//': the contact stays uninitialised', status, MSLIP_BAD_CONTACT)
+    call check_same('rejected: '//name//': nothing written', [force, contact%half_width], [untouched, 0.0_wp])
+  end subroutine check_rejected
 
   subroutine test_tractions_and_slip()
     real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp, &
@@ -235,24 +239,24 @@ contains
     call mslip_tractions(flat, 240.0_wp, x, status, other)
     call check_same('pressure alone', other, pressure)
     call mslip_tractions(flat, 240.0_wp, x, status)
-    call check_status('tractions, nothing wanted', status, MSLIP_OK)
+    call check_status('tractions, nothing requested', status, MSLIP_OK)
     call mslip_tractions(flat, flat%slip_force, x, status, pressure, shear)
     call check_close('gross slip: shear is friction times pressure', shear(2), 0.5_wp*pressure(2), tight)
     other = untouched
     call mslip_tractions(flat, 1.001_wp*flat%slip_force, x, status, other)
     call check_status('tractions beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
-    call mslip_tractions(flat, no_number(), x, status, other)
-    call check_status('tractions of a force that is not a number', status, MSLIP_BAD_FORCE)
-    call mslip_tractions(flat, 1.0_wp, [x(1:3), no_number()], status, other)
-    call check_status('tractions at a position that is not a number', status, MSLIP_BAD_POSITION)
-    call check_same('refused tractions: nothing written', other, spread(untouched, 1, 4))
+    call mslip_tractions(flat, quiet_nan(), x, status, other)
+    call check_status('tractions of a force that is NaN', status, MSLIP_BAD_FORCE)
+    call mslip_tractions(flat, 1.0_wp, [x(1:3), quiet_nan()], status, other)
+    call check_status('tractions at a position that is NaN', status, MSLIP_BAD_POSITION)
+    call check_same('rejected tractions: nothing written', other, spread(untouched, 1, 4))
 
     call mslip_slip(flat, 280.0_wp, slip_x, status, slip, damage)
     call check_status('slip', status, MSLIP_OK)
     call check_close('slip near the stick zone', slip(1), 1.967416135320787743593932e-9_wp, 1.0e-10_wp)
     call check_close('slip near the rim', slip(2), 9.403969409667750594649537e-9_wp, 1.0e-10_wp)
     call check_close('damage near the stick zone', damage(1), 1.524392901733578085021671e-1_wp, 1.0e-10_wp)
-    call check_same('no slip where it sticks', [slip(3), damage(3)], [0.0_wp, 0.0_wp])
+    call check_same('no slip in the stick zone', [slip(3), damage(3)], [0.0_wp, 0.0_wp])
     call mslip_slip(flat, 280.0_wp, slip_x, status, damage=other(1:3))
     call check_same('damage alone', other(1:3), damage)
     call mslip_slip(flat, 280.0_wp, slip_x, status, other(1:3))
@@ -284,7 +288,7 @@ contains
     one = untouched
     call mslip_monotonic_displacement(flat, 401.0_wp, status, one)
     call check_status('displacement beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
-    call check_same('refused displacement: nothing written', [one], [untouched])
+    call check_same('rejected displacement: nothing written', [one], [untouched])
 
     call mslip_monotonic_force(cylinder, [1.898911765590387203629847e-6_wp, 4.0e-6_wp, -4.0e-6_wp], status, back, stiffness, stick)
     call check_status('monotonic force', status, MSLIP_OK)
@@ -300,25 +304,25 @@ contains
     call mslip_monotonic_force(flat, 0.0_wp, status, stiffness=two, stick_half_width=three)
     call check_close('flat: stiffness at 0', two, flat%initial_stiffness, tight)
     call check_close('flat: stick half-width at 0', three, flat%half_width, tight)
-    call mslip_monotonic_force(flat, no_number(), status, one)
-    call check_status('displacement that is not a number', status, MSLIP_BAD_DISPLACEMENT)
+    call mslip_monotonic_force(flat, quiet_nan(), status, one)
+    call check_status('displacement that is NaN', status, MSLIP_BAD_DISPLACEMENT)
   end subroutine test_monotonic
 
   subroutine test_history()
-    ! A random history, its forces checked against 1,500 sliders.
+    ! A random history; the expected forces are those of 1,500 sliders.
     real(wp), parameter :: displacement(*) = [1.914742209093313144178863e-6_wp, 2.611273826781315490221623e-6_wp, &
       -6.135044920310610393080018e-7_wp, 5.952452643016515262749271e-7_wp, 3.353829542160012347620313e-6_wp, &
       6.231586436802244498376485e-7_wp, -3.399302160532311508598117e-6_wp, 1.439628185901378384090651e-7_wp]
     real(wp), parameter :: expected(*) = [9.228650897869313018877909e2_wp, 1.238496256519557238194705e3_wp, &
       -3.244442460629692682092653e2_wp, 2.703737152270186349707299e2_wp, 1.467713029999999903099788e3_wp, &
       1.387644856827132352327478e2_wp, -1.467713029999999903099788e3_wp, 2.446969700644779323837263e2_wp]
-    real(wp), dimension(mslip_state_length(8_mslip_size)) :: state, start, last
+    real(wp), dimension(mslip_state_length(8_mslip_size)) :: state, next, start, last
     real(wp), dimension(size(displacement)) :: force, stiffness, dissipated, step_force, step_stiffness, step_dissipated
     integer :: i
     integer(mslip_int) :: status
 
-    start = fresh_state(8_mslip_size)
-    call mslip_masing_path(cylinder, start, displacement, status, force, stiffness, dissipated, last)
+    start = initial_state(8_mslip_size)
+    call mslip_masing_path(cylinder, start, displacement, last, status, force, stiffness, dissipated)
     call check_status('path', status, MSLIP_OK)
     do i = 1, size(displacement)
       call check_close('force of a history', force(i), expected(i), tight)
@@ -327,8 +331,10 @@ contains
 
     state = start
     do i = 1, size(displacement)
-      call mslip_masing_update(cylinder, state, displacement(i), status, step_force(i), step_stiffness(i), step_dissipated(i))
+      call mslip_masing_update(cylinder, state, displacement(i), next, status, step_force(i), step_stiffness(i), &
+        step_dissipated(i))
       call check_status('step', status, MSLIP_OK)
+      state = next
     end do
     call check_same('steps and path: force', step_force, force)
     call check_same('steps and path: stiffness', step_stiffness, stiffness)
@@ -336,128 +342,209 @@ contains
     call check_same('steps and path: state', state, last)
 
     state = start
-    call mslip_masing_path(cylinder, state, displacement, status, step_force, step_stiffness, step_dissipated)
+    do i = 1, size(displacement)
+      call mslip_masing_advance(cylinder, state, displacement(i), status, step_force(i), step_stiffness(i), &
+        step_dissipated(i))
+      call check_status('step in place', status, MSLIP_OK)
+    end do
+    call check_same('steps in place: results', [step_force, step_stiffness, step_dissipated], [force, stiffness, dissipated])
+    call check_same('steps in place: state', state, last)
+
+    state = start
+    call mslip_masing_path_advance(cylinder, state, displacement, status, step_force, step_stiffness, step_dissipated)
     call check_status('path in place', status, MSLIP_OK)
     call check_same('path in place: results', [step_force, step_stiffness, step_dissipated], [force, stiffness, dissipated])
     call check_same('path in place: state', state, last)
     state = start
-    call mslip_masing_path(cylinder, state, displacement, status, dissipated=step_dissipated)
+    call mslip_masing_path_advance(cylinder, state, displacement, status, dissipated=step_dissipated)
     call check_same('path in place: energy alone', step_dissipated, dissipated)
     state = untouched
-    call mslip_masing_path(cylinder, start, displacement, status, state_new=state)
+    call mslip_masing_path(cylinder, start, displacement, state, status)
     call check_status('path, only the state', status, MSLIP_OK)
     call check_same('path, only the state: state', state, last)
-    call mslip_masing_path(cylinder, start, [displacement(1:7), no_number()], status, step_force, &
-      state_new=state)
-    call check_status('path to no number', status, MSLIP_BAD_DISPLACEMENT)
-    call check_same('refused path: nothing written', [state, step_force], [last, force])
+    call mslip_masing_path(cylinder, start, [displacement(1:7), quiet_nan()], state, status, step_force)
+    call check_status('path to NaN', status, MSLIP_BAD_DISPLACEMENT)
+    call mslip_masing_path_advance(cylinder, state, [displacement(1:7), quiet_nan()], status, step_force)
+    call check_status('path in place to NaN', status, MSLIP_BAD_DISPLACEMENT)
+    call check_same('rejected path: nothing written', [state, step_force], [last, force])
   end subroutine test_history
 
   subroutine test_state()
-    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, kept, branched, never
-    real(wp) :: short(mslip_state_length(1_mslip_size)), full(mslip_state_length(1_mslip_size))
-    real(wp) :: force, stiffness, dissipated, before, upper, middle, total
+    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, before, branched, never
+    real(wp) :: force, stiffness, dissipated, other(3), upper, middle, total
     integer(mslip_int) :: status
     integer :: i
 
-    state = fresh_state(4_mslip_size)
-    call mslip_masing_update(flat, state, 6.0e-7_wp, status, upper)
+    state = initial_state(4_mslip_size)
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, upper)
     call mslip_monotonic_force(flat, 6.0e-7_wp, status, force)
-    call check_close('first loading is the monotonic curve', upper, force, tight)
-    kept = state
-    call mslip_masing_update(flat, state, 1.0e-7_wp, status, force, stiffness)
-    call mslip_monotonic_force(flat, 2.5e-7_wp, status, middle, before)
-    call check_close('unloading: twice the curve of half the displacement', force, upper - 2.0_wp*middle, tight)
-    call check_close('unloading: stiffness', stiffness, before, tight)
-    call mslip_masing_update(flat, state, 6.0e-7_wp, status, force)
+    call check_close('initial loading is the monotonic curve', upper, force, tight)
+    before = state
+    call mslip_masing_advance(flat, state, 1.0e-7_wp, status, force, stiffness)
+    call mslip_monotonic_force(flat, 2.5e-7_wp, status, middle, other(1))
+    call check_close('unloading: twice the curve at half the displacement', force, upper - 2.0_wp*middle, tight)
+    call check_close('unloading: stiffness', stiffness, other(1), tight)
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, force)
     call check_close('return-point memory: the loop closes', force, upper, tight)
-    call mslip_masing_update(flat, state, 7.0e-7_wp, status, force)
+    call mslip_masing_advance(flat, state, 7.0e-7_wp, status, force)
     call mslip_monotonic_force(flat, 7.0e-7_wp, status, middle)
-    call check_close('return-point memory: back on the first curve', force, middle, tight)
+    call check_close('return-point memory: back on the initial loading curve', force, middle, tight)
 
     branched = untouched
-    call mslip_masing_update(flat, kept, 1.0e-7_wp, status, force, stiffness, dissipated, branched)
-    call check_status('separate state', status, MSLIP_OK)
-    state = kept
-    call mslip_masing_update(flat, state, 1.0e-7_wp, status, before, middle, total)
-    call check_same('separate and in place: results', [force, stiffness, dissipated], [before, middle, total])
-    call check_same('separate and in place: state', branched, state)
-    call trial_step(kept, 1.0e-7_wp, before)
-    call check_same('a step from a state that is only read', [before], [force])
-    call mslip_masing_update(flat, state, 1.0e-7_wp, status, dissipated=dissipated)
-    call check_same('a step of no length dissipates nothing', [dissipated], [0.0_wp])
-    call mslip_masing_update(flat, state, 3.0e-7_wp, status)
-    call check_status('step, nothing wanted', status, MSLIP_OK)
+    call mslip_masing_update(flat, before, 1.0e-7_wp, branched, status, force, stiffness, dissipated)
+    call check_status('step', status, MSLIP_OK)
+    state = before
+    call mslip_masing_advance(flat, state, 1.0e-7_wp, status, other(1), other(2), other(3))
+    call check_same('step and step in place: results', other, [force, stiffness, dissipated])
+    call check_same('step and step in place: state', state, branched)
+    call mslip_masing_advance(flat, state, 1.0e-7_wp, status, dissipated=dissipated)
+    call check_same('a step of zero dissipates nothing', [dissipated], [0.0_wp])
+    call mslip_masing_advance(flat, state, 3.0e-7_wp, status)
+    call check_status('step, nothing requested', status, MSLIP_OK)
 
-    ! One cycle of the force dissipates what the energy function says.
-    state = fresh_state(4_mslip_size)
-    call mslip_masing_update(flat, state, 6.0e-7_wp, status)
+    ! The steps of one cycle dissipate the energy per cycle.
+    state = initial_state(4_mslip_size)
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status)
     total = 0
     do i = 1, 2
-      call mslip_masing_update(flat, state, real(2*i - 3, wp)*6.0e-7_wp, status, dissipated=dissipated)
+      call mslip_masing_advance(flat, state, real(2*i - 3, wp)*6.0e-7_wp, status, dissipated=dissipated)
       total = total + dissipated
     end do
-    call mslip_dissipated_energy(flat, upper, before, status)
-    call check_close('energy of a cycle', total, before, 1.0e-10_wp)
+    call mslip_dissipated_energy(flat, upper, middle, status)
+    call check_close('energy of a cycle', total, middle, 1.0e-10_wp)
 
-    short = fresh_state(1_mslip_size)
-    call mslip_masing_path(flat, short, [6.0e-7_wp, 0.0_wp], status)
-    call check_status('as many reversals as the state holds', status, MSLIP_OK)
-    full = short
+    before = state
     force = untouched
-    call mslip_masing_update(flat, short, 3.0e-7_wp, status, force)
-    call check_status('more reversals than the state holds', status, MSLIP_STATE_FULL)
-    call check_same('full state: nothing written', [force, short], [untouched, full])
-    call mslip_masing_update(flat, short, no_number(), status, force)
-    call check_status('step to no number', status, MSLIP_BAD_DISPLACEMENT)
+    call mslip_masing_advance(flat, state, quiet_nan(), status, force)
+    call check_status('step to NaN', status, MSLIP_BAD_DISPLACEMENT)
     never = 0
-    call mslip_masing_update(flat, never, 3.0e-7_wp, status, force)
+    call mslip_masing_advance(flat, never, 3.0e-7_wp, status, force)
     call check_status('state never initialised', status, MSLIP_BAD_STATE)
-    call check_same('refused step: nothing written', [force, never], [untouched, spread(0.0_wp, 1, size(never))])
+    call check_same('rejected steps: nothing written', [force, state, never], &
+      [untouched, before, spread(0.0_wp, 1, size(never))])
     call mslip_state_init(never(1:1), status)
-    call check_status('state without room', status, MSLIP_STATE_TOO_SHORT)
+    call check_status('state of one value', status, MSLIP_STATE_TOO_SHORT)
     call mslip_state_init(never(1:0), status)
     call check_status('state without elements', status, MSLIP_STATE_TOO_SHORT)
+    call check('fewer than 2 reversals count as 2', mslip_state_length(0_mslip_size) == mslip_state_length(2_mslip_size))
   end subroutine test_state
+
+  subroutine test_bounded_memory()
+    ! A slowly decaying vibration nests hundreds of reversals. The shortest state never returns an error, and its force
+    ! differs from that of a state without merged reversals by no more than the reported error.
+    integer, parameter :: steps = 400
+    real(wp) :: short(mslip_state_length(2_mslip_size)), long(mslip_state_length(int(steps, mslip_size)))
+    real(wp) :: displacement(steps), short_force(steps), long_force(steps), short_error, long_error
+    integer(mslip_int) :: status
+    integer :: i
+
+    short = initial_state(2_mslip_size)
+    long = initial_state(int(steps, mslip_size))
+    call mslip_state_error(short, short_error, status)
+    call check_status('error of the initial state', status, MSLIP_OK)
+    call check_same('the initial state has no error', [short_error], [0.0_wp])
+    do i = 1, steps
+      displacement(i) = 6.0e-7_wp*(-0.99_wp)**(i - 1)
+      call mslip_masing_advance(flat, short, displacement(i), status, short_force(i))
+      call check_status('decaying vibration, short state', status, MSLIP_OK)
+      call mslip_masing_advance(flat, long, displacement(i), status, long_force(i))
+      call check_status('decaying vibration, long state', status, MSLIP_OK)
+      call mslip_state_error(short, short_error, status)
+      call check('the error is a bound', abs(short_force(i) - long_force(i)) <= short_error + tight*flat%slip_force)
+    end do
+    call mslip_state_error(long, long_error, status)
+    call check('merged reversals have an error', short_error > 0.0_wp)
+    call check_same('no merged reversals, no error', [long_error], [0.0_wp])
+
+    short = initial_state(2_mslip_size)
+    call mslip_masing_path_advance(flat, short, displacement, status, long_force)
+    call check_status('decaying vibration, path', status, MSLIP_OK)
+    call check_same('decaying vibration: steps and path', long_force, short_force)
+    call mslip_masing_advance(flat, short, 4.0_wp*flat%slip_displacement, status)
+    call mslip_state_error(short, short_error, status)
+    call check_same('gross slip resets the error', [short_error], [0.0_wp])
+    short = 0
+    short_error = untouched
+    call mslip_state_error(short, short_error, status)
+    call check_status('error of a state never initialised', status, MSLIP_BAD_STATE)
+    call check_same('rejected state: nothing written', [short_error], [untouched])
+  end subroutine test_bounded_memory
+
+  subroutine test_trial_step()
+    ! Trial steps do not change the accepted state.
+    real(wp) :: accepted(mslip_state_length(2_mslip_size)), copy(mslip_state_length(2_mslip_size)), first, again
+    integer(mslip_int) :: status
+
+    accepted = initial_state(2_mslip_size)
+    call mslip_masing_path_advance(flat, accepted, [6.0e-7_wp, 1.0e-7_wp], status)
+    copy = accepted
+    call trial_step(accepted, 3.0e-7_wp, first)
+    call trial_step(accepted, -9.0e-7_wp, again)
+    call trial_step(accepted, 3.0e-7_wp, again)
+    call check_same('trial steps do not change the accepted state', [accepted, again], [copy, first])
+  end subroutine test_trial_step
 
   subroutine trial_step(state, displacement, force)
     real(wp), intent(in) :: state(:), displacement
     real(wp), intent(out) :: force
 
-    real(wp) :: scratch(size(state))
+    real(wp) :: trial(size(state))
     integer(mslip_int) :: status
 
     force = untouched
-    call mslip_masing_update(flat, state, displacement, status, force, state_new=scratch)
+    call mslip_masing_update(flat, state, displacement, trial, status, force)
     call check_status('trial step', status, MSLIP_OK)
   end subroutine trial_step
 
+  subroutine test_checks()
+    type(mslip_contact) :: contact
+    real(wp) :: state(mslip_state_length(2_mslip_size))
+    integer(mslip_int) :: status
+
+    call mslip_contact_check(flat, status)
+    call check_status('check of a contact', status, MSLIP_OK)
+    call mslip_contact_check(open_contact, status)
+    call check_status('check of an open contact', status, MSLIP_OK)
+    call mslip_contact_check(contact, status)
+    call check_status('check of a contact never initialised', status, MSLIP_BAD_CONTACT)
+
+    state = initial_state(2_mslip_size)
+    call mslip_masing_path_advance(flat, state, [6.0e-7_wp, 1.0e-7_wp], status)
+    call mslip_state_check(state, status)
+    call check_status('check of a state', status, MSLIP_OK)
+    call mslip_state_check(state(:2), status)
+    call check_status('check of a state too short', status, MSLIP_STATE_TOO_SHORT)
+    state = 0
+    call mslip_state_check(state, status)
+    call check_status('check of a state never initialised', status, MSLIP_BAD_STATE)
+  end subroutine test_checks
+
   subroutine test_masing_tractions()
     real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp]
-    real(wp) :: state(mslip_state_length(4_mslip_size)), kept(mslip_state_length(4_mslip_size))
+    real(wp) :: state(mslip_state_length(4_mslip_size)), copy(mslip_state_length(4_mslip_size))
     real(wp), dimension(3) :: pressure, shear, loading, reversed
     real(wp) :: upper, force
     integer(mslip_int) :: status
 
-    state = fresh_state(4_mslip_size)
+    state = initial_state(4_mslip_size)
     call mslip_masing_tractions(flat, state, x, status, pressure, shear)
-    call check_status('tractions of the virgin state', status, MSLIP_OK)
-    call check_same('no shear in the virgin state', shear, [0.0_wp, 0.0_wp, 0.0_wp])
-    call mslip_masing_update(flat, state, 6.0e-7_wp, status, upper)
+    call check_status('tractions of the initial state', status, MSLIP_OK)
+    call check_same('no shear in the initial state', shear, [0.0_wp, 0.0_wp, 0.0_wp])
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, upper)
     call mslip_masing_tractions(flat, state, x, status, shear=shear)
     call mslip_tractions(flat, upper, x, status, loading, reversed)
     call check_same('pressure does not depend on the history', pressure, loading)
-    call check_close('shear of first loading', shear(3), reversed(3), 1.0e-10_wp)
+    call check_close('shear of initial loading', shear(3), reversed(3), 1.0e-10_wp)
     loading = reversed
-    call mslip_masing_update(flat, state, -1.0e-7_wp, status, force)
-    kept = state
+    call mslip_masing_advance(flat, state, -1.0e-7_wp, status, force)
+    copy = state
     call mslip_masing_tractions(flat, state, x, status, pressure, shear)
     call mslip_tractions(flat, (upper - force)/2.0_wp, x, status, shear=reversed)
     call check_close('shear after a reversal, centre', shear(1), loading(1) - 2.0_wp*reversed(1), 1.0e-10_wp)
     call check_close('shear after a reversal, edge', shear(2), loading(2) - 2.0_wp*reversed(2), 1.0e-10_wp)
-    call check_same('tractions leave the state alone', state, kept)
+    call check_same('tractions do not change the state', state, copy)
     call mslip_masing_tractions(flat, state, x, status)
-    call check_status('tractions of a state, nothing wanted', status, MSLIP_OK)
+    call check_status('tractions of a state, nothing requested', status, MSLIP_OK)
   end subroutine test_masing_tractions
 
   subroutine test_cycles()
@@ -494,7 +581,7 @@ contains
     one = untouched
     call mslip_dissipated_energy(flat, -1.0_wp, one, status)
     call check_status('energy of a negative amplitude', status, MSLIP_BAD_FORCE_AMPLITUDE)
-    call check_same('refused energy: nothing written', [one], [untouched])
+    call check_same('rejected energy: nothing written', [one], [untouched])
 
     call mslip_complex_stiffness(cylinder, amplitude, status, k_real, k_imag, dk_real, dk_imag)
     call check_status('complex stiffness', status, MSLIP_OK)
@@ -546,7 +633,7 @@ contains
     call mslip_harmonic_force(flat, workspace, displacement, status, dissipated=power)
     call check_same('energy alone', [power], [lost])
     call mslip_harmonic_force(flat, workspace, displacement, status)
-    call check_status('harmonic force, nothing wanted', status, MSLIP_OK)
+    call check_status('harmonic force, nothing requested', status, MSLIP_OK)
 
     ! The energy of the samples and the power of the harmonics agree as far as three harmonics and the sampling allow.
     power = 0
@@ -563,39 +650,39 @@ contains
     call check_close('energy of a cycle', lost, pi*again(2)*6.0e-7_wp**2, tight)
     call check('no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
     force = untouched
-    call mslip_harmonic_force(flat, workspace, [displacement(1:6), no_number()], status, force)
-    call check_status('harmonic force of no number', status, MSLIP_BAD_DISPLACEMENT)
-    call check_same('refused harmonic force: nothing written', force, spread(untouched, 1, 7))
+    call mslip_harmonic_force(flat, workspace, [displacement(1:6), quiet_nan()], status, force)
+    call check_status('harmonic force of NaN', status, MSLIP_BAD_DISPLACEMENT)
+    call check_same('rejected harmonic force: nothing written', force, spread(untouched, 1, 7))
   end subroutine test_harmonic_force
 
-  subroutine test_between_reversals()
+  subroutine test_event_driven()
     integer(mslip_size), parameter :: harmonics = 3, samples = 64
-    integer(mslip_int), parameter :: rule = MSLIP_BETWEEN_REVERSALS
+    integer(mslip_int), parameter :: rule = MSLIP_EVENT_DRIVEN
     real(wp), parameter :: amplitude = 6.0e-7_wp, cosine(*) = [0.0_wp, amplitude, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples, rule)), force(7), jacobian(7, 7)
     real(wp) :: lost, k_real, k_imag
     integer(mslip_int) :: status
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
-    call check_status('workspace between reversals', status, MSLIP_OK)
+    call check_status('event-driven workspace', status, MSLIP_OK)
     call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, lost)
-    call check_status('harmonic force between reversals', status, MSLIP_OK)
+    call check_status('event-driven harmonic force', status, MSLIP_OK)
     ! Under one cosine the first harmonic is the complex stiffness, to rounding.
     call mslip_complex_stiffness(flat, amplitude, status, k_real, k_imag)
-    call check_close('between reversals: first cosine', force(2), k_real*amplitude, tight)
-    call check_close('between reversals: first sine', -force(3), k_imag*amplitude, tight)
-    call check_close('between reversals: energy of a cycle', lost, pi*k_imag*amplitude**2, tight)
-    call check('between reversals: no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
-    ! A change of phase turns the force.
-    call check_close('between reversals: turned, real', jacobian(3, 3), k_real, tight)
-    call check_close('between reversals: turned, imaginary', jacobian(2, 3), k_imag, tight)
+    call check_close('event-driven: first cosine', force(2), k_real*amplitude, tight)
+    call check_close('event-driven: first sine', -force(3), k_imag*amplitude, tight)
+    call check_close('event-driven: energy of a cycle', lost, pi*k_imag*amplitude**2, tight)
+    call check('event-driven: no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
+    ! A change of phase rotates the force.
+    call check_close('event-driven: change of phase, real', jacobian(3, 3), k_real, tight)
+    call check_close('event-driven: change of phase, imaginary', jacobian(2, 3), k_imag, tight)
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, 2_mslip_int)
-    call check_status('rule that is none', status, MSLIP_BAD_RULE)
-    call check('no length for a rule that is none', mslip_harmonic_workspace_length(harmonics, samples, 2_mslip_int) == 0)
-    call check('the default is equidistant', mslip_harmonic_workspace_length(harmonics, samples) &
-      == mslip_harmonic_workspace_length(harmonics, samples, MSLIP_EQUIDISTANT))
-  end subroutine test_between_reversals
+    call check_status('unknown rule', status, MSLIP_BAD_RULE)
+    call check('no length for an unknown rule', mslip_harmonic_workspace_length(harmonics, samples, 2_mslip_int) == 0)
+    call check('the default is uniform sampling', mslip_harmonic_workspace_length(harmonics, samples) &
+      == mslip_harmonic_workspace_length(harmonics, samples, MSLIP_UNIFORM_SAMPLING))
+  end subroutine test_event_driven
 
   subroutine test_jacobian()
     integer(mslip_size), parameter :: harmonics = 2, samples = 64
@@ -624,17 +711,23 @@ contains
     integer(mslip_size), parameter :: harmonics = 2, samples = 64
     real(wp), parameter :: displacement(5) = 1.0e-7_wp
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(5), expected(5)
-    real(wp) :: roomy(mslip_harmonic_workspace_length(harmonics, samples) + 9)
-    integer(mslip_int) :: status
+    real(wp) :: longer(mslip_harmonic_workspace_length(harmonics, samples) + 9)
+    real(wp) :: event_driven(mslip_harmonic_workspace_length(harmonics, samples, MSLIP_EVENT_DRIVEN))
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: status, rule
     integer :: n
 
     n = size(workspace)
     workspace = untouched
     force = untouched
+    found = -1
+    rule = -1
     call mslip_harmonic_force(flat, workspace, displacement, status, force)
     call check_status('workspace never initialised', status, MSLIP_BAD_WORKSPACE)
     call mslip_harmonic_force(flat, workspace(1:2), displacement, status, force)
-    call check_status('workspace of two numbers', status, MSLIP_BAD_WORKSPACE)
+    call check_status('workspace of two values', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_harmonic_workspace_size(workspace, found(1), found(2), rule, status)
+    call check_status('size of a workspace never initialised', status, MSLIP_BAD_WORKSPACE)
     call mslip_harmonic_workspace_init(0_mslip_size, samples, workspace, status)
     call check_status('no harmonics', status, MSLIP_BAD_HARMONICS)
     call mslip_harmonic_workspace_init(harmonics, 4_mslip_size, workspace, status)
@@ -643,21 +736,32 @@ contains
     call check_status('workspace too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
     call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:2), status)
     call check_status('workspace too short by far', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call check_same('refused workspace: nothing written', [workspace, force], spread(untouched, 1, n + 5))
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:0), status)
+    call check_status('workspace without elements', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call check_same('rejected workspace: nothing written', [workspace, force], spread(untouched, 1, n + 5))
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
     call mslip_harmonic_force(flat, workspace(1:n - 1), displacement, status, force)
     call check_status('part of a workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_harmonic_workspace_size(workspace(1:n - 1), found(1), found(2), rule, status)
+    call check_status('size of a part of a workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call check('rejected workspace: no size', all(found == -1) .and. rule == -1)
+    call mslip_harmonic_workspace_size(workspace, found(1), found(2), rule, status)
+    call check_status('size of a workspace', status, MSLIP_OK)
+    call check('size of a workspace', all(found == [harmonics, samples]) .and. rule == MSLIP_UNIFORM_SAMPLING)
+    call mslip_harmonic_workspace_init(harmonics, samples, event_driven, status, MSLIP_EVENT_DRIVEN)
+    call mslip_harmonic_workspace_size(event_driven, found(1), found(2), rule, status)
+    call check('size of an event-driven workspace', all(found == [harmonics, samples]) .and. rule == MSLIP_EVENT_DRIVEN)
     call mslip_harmonic_force(flat, workspace, displacement, status, expected)
-    call mslip_harmonic_workspace_init(harmonics, samples, roomy, status)
+    call mslip_harmonic_workspace_init(harmonics, samples, longer, status)
     call check_status('workspace longer than needed', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, roomy, displacement, status, force)
+    call mslip_harmonic_force(flat, longer, displacement, status, force)
     call check_same('workspace longer than needed: force', force, expected)
     call check('no length without harmonics', mslip_harmonic_workspace_length(0_mslip_size, samples) == 0)
-    call check('no length beyond what can be addressed', mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size) == 0)
+    call check('no length beyond the address space', mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size) == 0)
   end subroutine test_workspace
 
-  subroutine test_interface()
-    ! Three contacts at once give, bit for bit, what each gives alone; the second is skipped where flags are given.
+  subroutine test_batch()
+    ! A batch of three contacts gives, bit for bit, the results of each alone; the second is skipped if there are flags.
     integer(mslip_size), parameter :: harmonics = 1, samples = 64
     integer(mslip_int), parameter :: active(*) = [1_mslip_int, 0_mslip_int, 1_mslip_int]
     real(wp), parameter :: amplitude(*) = [6.0e-7_wp, 2.0e-6_wp, 9.0e-7_wp]
@@ -673,60 +777,131 @@ contains
     integer :: i
 
     contacts = [flat, cylinder, flat]
-    call mslip_interface_complex_stiffness(contacts, amplitude, status, k_real=a, k_imag=b, dk_real=c, dk_imag=d)
-    call check_status('interface: complex stiffness', status, MSLIP_OK)
+    call mslip_batch_complex_stiffness(contacts, amplitude, status, k_real=a, k_imag=b, dk_real=c, dk_imag=d)
+    call check_status('batch: complex stiffness', status, MSLIP_OK)
     do i = 1, 3
       call mslip_complex_stiffness(contacts(i), amplitude(i), status, one(1), one(2), one(3), alone(1))
-      call check_same('interface: complex stiffness of each', [a(i), b(i), c(i), d(i)], [one, alone(1)])
+      call check_same('batch: complex stiffness of each', [a(i), b(i), c(i), d(i)], [one, alone(1)])
     end do
     one = untouched
-    call mslip_interface_complex_stiffness(contacts, amplitude, status, active, one)
-    call check_same('interface: complex stiffness, one skipped', one, [a(1), untouched, a(3)])
+    call mslip_batch_complex_stiffness(contacts, amplitude, status, active=active, k_real=one)
+    call check_same('batch: complex stiffness, one skipped', one, [a(1), untouched, a(3)])
 
     do i = 1, 3
-      start(:, i) = fresh_state(4_mslip_size)
+      start(:, i) = initial_state(4_mslip_size)
     end do
+    states = start
     updated = untouched
-    call mslip_interface_masing_update(contacts, start, amplitude, status, force=a, stiffness=b, dissipated=c, states_new=updated)
-    call check_status('interface: step', status, MSLIP_OK)
+    call mslip_batch_masing_update(contacts, states, amplitude, updated, status, force=a, stiffness=b, dissipated=c)
+    call check_status('batch: step', status, MSLIP_OK)
+    call check_same('batch: the states before the step are kept', [states], [start])
     do i = 1, 3
       alone = start(:, i)
-      call mslip_masing_update(contacts(i), alone, amplitude(i), status, one(1), one(2), one(3))
-      call check_same('interface: step of each', [a(i), b(i), c(i)], one)
-      call check_same('interface: state of each', updated(:, i), alone)
+      call mslip_masing_advance(contacts(i), alone, amplitude(i), status, one(1), one(2), one(3))
+      call check_same('batch: step of each', [a(i), b(i), c(i)], one)
+      call check_same('batch: state of each', updated(:, i), alone)
     end do
+    call mslip_batch_masing_advance(contacts, states, amplitude, status)
+    call check_status('batch: step in place, nothing requested', status, MSLIP_OK)
+    call check_same('batch: step in place', [states], [updated])
     states = start
-    call mslip_interface_masing_update(contacts, states, amplitude, status)
-    call check_status('interface: step in place, nothing wanted', status, MSLIP_OK)
-    call check_same('interface: step in place', [states], [updated])
-    states = start
-    call mslip_interface_masing_update(contacts, states, amplitude, status, force=one, stiffness=d, dissipated=energy)
-    call check_same('interface: step in place: results', [one, d, energy], [a, b, c])
+    call mslip_batch_masing_advance(contacts, states, amplitude, status, force=one, stiffness=d, dissipated=energy)
+    call check_same('batch: step in place: results', [one, d, energy], [a, b, c])
     states = start
     d = untouched
-    call mslip_interface_masing_update(contacts, states, amplitude, status, active, d)
-    call check_same('interface: step, one skipped', d, [a(1), untouched, a(3)])
-    call check_same('interface: state of the one skipped', states(:, 2), start(:, 2))
-    call check_same('interface: state of the last', states(:, 3), updated(:, 3))
+    call mslip_batch_masing_advance(contacts, states, amplitude, status, active=active, force=d)
+    call check_same('batch: step in place, one skipped', d, [a(1), untouched, a(3)])
+    call check_same('batch: step in place, states', [states], [updated(:, 1), start(:, 2), updated(:, 3)])
+    states = untouched
+    call mslip_batch_masing_update(contacts, start, amplitude, states, status, active=active)
+    call check_same('batch: step, one skipped', [states], &
+      [updated(:, 1), spread(untouched, 1, size(updated, 1)), updated(:, 3)])
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
-    call mslip_interface_harmonic_force(contacts, workspace, coefficients, status, force=force, jacobian=jacobian, dissipated=a)
-    call check_status('interface: harmonic force', status, MSLIP_OK)
+    call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, force=force, jacobian=jacobian, dissipated=a)
+    call check_status('batch: harmonic force', status, MSLIP_OK)
     do i = 1, 3
       call mslip_harmonic_force(contacts(i), workspace, coefficients(:, i), status, one, single, b(i))
-      call check_same('interface: harmonic force of each', [one, single], [force(:, i), jacobian(:, :, i)])
+      call check_same('batch: harmonic force of each', [one, single], [force(:, i), jacobian(:, :, i)])
     end do
-    call check_same('interface: energy of each', a, b)
+    call check_same('batch: energy of each', a, b)
     flagged = untouched
-    call mslip_interface_harmonic_force(contacts, workspace, coefficients, status, active, flagged)
-    call check_same('interface: harmonic force, one skipped', [flagged], [force(:, 1), spread(untouched, 1, 3), force(:, 3)])
+    call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, active=active, force=flagged)
+    call check_same('batch: harmonic force, one skipped', [flagged], [force(:, 1), spread(untouched, 1, 3), force(:, 3)])
 
     contacts(3) = mslip_contact()
     states = start
-    call mslip_interface_masing_update(contacts, states, amplitude, status)
-    call check_status('interface: one contact was never prepared', status, MSLIP_BAD_CONTACT)
-    call check_same('interface: refused, no state changed', [states], [start])
-  end subroutine test_interface
+    call mslip_batch_masing_advance(contacts, states, amplitude, status)
+    call check_status('batch: one contact was never initialised', status, MSLIP_BAD_CONTACT)
+    call check_same('batch: rejected, no state changed', [states], [start])
+  end subroutine test_batch
+
+  subroutine test_index()
+    ! Five items share two contacts, or more contacts than are used; indices count from 1.
+    integer(mslip_size), parameter :: harmonics = 1, samples = 64
+    integer, parameter :: items = 5
+    integer(mslip_int), parameter :: index(items) = [2_mslip_int, 1_mslip_int, 1_mslip_int, 2_mslip_int, 1_mslip_int]
+    integer(mslip_int), parameter :: bad(4) = [0_mslip_int, 3_mslip_int, -huge(1_mslip_int), huge(1_mslip_int)]
+    real(wp), parameter :: amplitude(items) = [6.0e-7_wp, 2.0e-6_wp, 9.0e-7_wp, 3.0e-7_wp, 1.0e-7_wp]
+    type(mslip_contact) :: contacts(2), each(items)
+    real(wp), dimension(items) :: a, b
+    real(wp), dimension(mslip_state_length(2_mslip_size), items) :: start, states, expected
+    real(wp), dimension(3, items) :: coefficients, force, expected_force
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples))
+    integer(mslip_int) :: status, wrong(items), active(items)
+    integer :: i
+
+    contacts = [flat, cylinder]
+    each = contacts(index)
+    start = spread(initial_state(2_mslip_size), 2, items)
+    coefficients = 0
+    coefficients(2, :) = amplitude
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+
+    call mslip_batch_complex_stiffness(contacts, amplitude, status, index, k_real=a)
+    call check_status('index: complex stiffness', status, MSLIP_OK)
+    call mslip_batch_complex_stiffness(each, amplitude, status, k_real=b)
+    call check_same('index: complex stiffness', a, b)
+    call mslip_batch_masing_update(each, start, amplitude, expected, status, force=b)
+    call mslip_batch_masing_update(contacts, start, amplitude, states, status, index, force=a)
+    call check_status('index: step', status, MSLIP_OK)
+    call check_same('index: step', [a, [states]], [b, [expected]])
+    states = start
+    call mslip_batch_masing_advance(contacts, states, amplitude, status, index, force=a)
+    call check_status('index: step in place', status, MSLIP_OK)
+    call check_same('index: step in place', [a, [states]], [b, [expected]])
+    call mslip_batch_harmonic_force(each, workspace, coefficients, status, force=expected_force)
+    call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, index, force=force)
+    call check_status('index: harmonic force', status, MSLIP_OK)
+    call check_same('index: harmonic force', [force], [expected_force])
+    call mslip_batch_complex_stiffness(each, amplitude(1:2), status, [5_mslip_int, 1_mslip_int], k_real=a(1:2))
+    call mslip_complex_stiffness(each(5), amplitude(1), status, a(3))
+    call check_same('index: more contacts than items', a(1:1), a(3:3))
+
+    do i = 1, size(bad)
+      wrong = index
+      wrong(4) = bad(i)
+      a = untouched
+      states = untouched
+      force = untouched
+      call mslip_batch_complex_stiffness(contacts, amplitude, status, wrong, k_real=a)
+      call check_status('bad index: complex stiffness', status, MSLIP_BAD_INDEX)
+      call mslip_batch_masing_update(contacts, start, amplitude, states, status, wrong, force=a)
+      call check_status('bad index: step', status, MSLIP_BAD_INDEX)
+      call mslip_batch_masing_advance(contacts, states, amplitude, status, wrong, force=a)
+      call check_status('bad index: step in place', status, MSLIP_BAD_INDEX)
+      call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, wrong, force=force)
+      call check_status('bad index: harmonic force', status, MSLIP_BAD_INDEX)
+      call check_same('bad index: nothing written', [a, [states], [force]], &
+        spread(untouched, 1, size(a) + size(states) + size(force)))
+    end do
+    active = 1
+    active(4) = 0
+    call mslip_batch_complex_stiffness(contacts, amplitude, status, index, active, a)
+    call check_status('index and flags', status, MSLIP_OK)
+    call mslip_batch_complex_stiffness(each, amplitude, status, k_real=b)
+    call check_same('index and flags', a, [b(1:3), untouched, b(5)])
+  end subroutine test_index
 
   subroutine test_equivalents()
     integer, parameter :: sliders = 40, points = 4000
@@ -750,7 +925,7 @@ contains
     k = untouched
     call mslip_jenkins_equivalent(flat, -1.0_wp, k, s, status)
     call check_status('Jenkins element at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
-    call check_same('refused Jenkins element: nothing written', [k], [untouched])
+    call check_same('rejected Jenkins element: nothing written', [k], [untouched])
     call mslip_jenkins_equivalent(open_contact, 1.0e-6_wp, k, s, status)
     call check_status('Jenkins element of an open contact', status, MSLIP_OK)
     call check_same('Jenkins element of an open contact: no force, no stiffness', [k, s], [0.0_wp, 0.0_wp])
@@ -778,14 +953,14 @@ contains
 
   subroutine test_elliptic()
     type(mslip_elliptic_parameters) :: p
-    type(mslip_contact) :: sphere, other
+    type(mslip_contact) :: sphere
     real(wp) :: displacement, energy, pressure(2), shear(2), peak
     integer(mslip_int) :: status
 
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('elliptic parameters never set', status, MSLIP_BAD_SEMI_AXIS_X)
     call mslip_elliptic_parameters_default(p)
-    call check('elliptic default: numbers unset', is_nan(p%semi_axis_x) .and. is_nan(p%material(2)%poisson_ratio))
+    call check('elliptic default: values unset', is_nan(p%semi_axis_x) .and. is_nan(p%material(2)%poisson_ratio))
     p%semi_axis_x = 1.186981199180470441384427e-5_wp
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('second axis not set', status, MSLIP_BAD_SEMI_AXIS_Y)
@@ -795,10 +970,8 @@ contains
     p%material = [mslip_material(1.0e9_wp, 0.45_wp), mslip_material(1.0e9_wp, 0.45_wp)]
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('sphere', status, MSLIP_OK)
-    call mslip_contact_init_like(mslip_parameters(), sphere, other, status)
-    call check_status('like a sphere, parameters never set', status, MSLIP_BAD_FLAT_HALF_WIDTH)
-    call mslip_contact_init_like(mslip_parameters(), other, sphere, status)
-    call check_status('like a contact never prepared', status, MSLIP_BAD_CONTACT)
+    call mslip_contact_check(sphere, status)
+    call check_status('check of a sphere', status, MSLIP_OK)
     call check_close('sphere: initial stiffness', sphere%initial_stiffness, 1.056268030416436432300851e4_wp, tight)
     call check_close('sphere: Mindlin', sphere%initial_stiffness, &
       8.0_wp*p%semi_axis_x/(2.0_wp*(2.0_wp - 0.45_wp)*2.0_wp*(1.0_wp + 0.45_wp)/1.0e9_wp), tight)
@@ -826,8 +999,8 @@ contains
     call mslip_monotonic_force(open_contact, 1.0e-6_wp, status, a(1), a(2), a(3))
     call check_status('open contact: monotonic force', status, MSLIP_OK)
     call check_same('open contact: no force, stiffness or width', a, [0.0_wp, 0.0_wp, 0.0_wp])
-    state = fresh_state(1_mslip_size)
-    call mslip_masing_path(open_contact, state, [1.0e-6_wp, 0.0_wp, 1.0e-6_wp], status, a, b)
+    state = initial_state(1_mslip_size)
+    call mslip_masing_path_advance(open_contact, state, [1.0e-6_wp, 0.0_wp, 1.0e-6_wp], status, a, b)
     call check_status('open contact: path', status, MSLIP_OK)
     call check_same('open contact: no force on a path', [a, b], spread(0.0_wp, 1, 6))
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
@@ -837,23 +1010,20 @@ contains
   end subroutine test_open_contact
 
   subroutine test_array_sizes()
-    ! Each array in turn is of another size; nothing may be written.
+    ! Each array in turn has another size; nothing may be written.
     integer(mslip_size), parameter :: harmonics = 1, samples = 16
     real(wp), parameter :: zeros(3) = 0, zeros_32(3, 2) = 0
-    integer(mslip_int), parameter :: flags(3) = 1
+    integer(mslip_int), parameter :: ones(3) = 1
     type(mslip_contact) :: pair(2)
     real(wp) :: state(mslip_state_length(2_mslip_size))
     real(wp), dimension(mslip_state_length(2_mslip_size), 3) :: states, news
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples))
     real(wp) :: three(3), two(2), m32(3, 2), m33(3, 3), m332(3, 3, 2)
     integer(mslip_int) :: status
-    integer :: i
 
     pair = [flat, cylinder]
-    state = fresh_state(2_mslip_size)
-    do i = 1, 3
-      states(:, i) = state
-    end do
+    state = initial_state(2_mslip_size)
+    states = spread(state, 2, 3)
     news = untouched
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
     three = untouched
@@ -874,29 +1044,29 @@ contains
     call mslip_monotonic_displacement(flat, zeros, status, compliance=two)
     call wrong_size('monotonic displacement, compliance', status)
     call mslip_monotonic_displacement(flat, zeros, status, stick_half_width=two)
-    call wrong_size('monotonic displacement, stick half width', status)
+    call wrong_size('monotonic displacement, stick half-width', status)
     call mslip_monotonic_force(flat, zeros, status, force=two)
     call wrong_size('monotonic force, force', status)
     call mslip_monotonic_force(flat, zeros, status, stiffness=two)
     call wrong_size('monotonic force, stiffness', status)
     call mslip_monotonic_force(flat, zeros, status, stick_half_width=two)
-    call wrong_size('monotonic force, stick half width', status)
-    call mslip_masing_update(flat, state, 1.0e-7_wp, status, state_new=two)
+    call wrong_size('monotonic force, stick half-width', status)
+    call mslip_masing_update(flat, state, 1.0e-7_wp, two, status)
     call wrong_size('step, new state', status)
-    call mslip_masing_path(flat, state, zeros, status, force=two)
-    call wrong_size('path, force', status)
-    call mslip_masing_path(flat, state, zeros, status, stiffness=two)
-    call wrong_size('path, stiffness', status)
-    call mslip_masing_path(flat, state, zeros, status, dissipated=two)
-    call wrong_size('path, dissipated', status)
-    call mslip_masing_path(flat, state, zeros, status, force=two, state_new=news(:, 1))
-    call wrong_size('path with a new state, force', status)
-    call mslip_masing_path(flat, state, zeros, status, stiffness=two, state_new=news(:, 1))
-    call wrong_size('path with a new state, stiffness', status)
-    call mslip_masing_path(flat, state, zeros, status, dissipated=two, state_new=news(:, 1))
-    call wrong_size('path with a new state, dissipated', status)
-    call mslip_masing_path(flat, state, zeros, status, state_new=two)
+    call mslip_masing_path(flat, state, zeros, two, status)
     call wrong_size('path, new state', status)
+    call mslip_masing_path(flat, state, zeros, news(:, 1), status, force=two)
+    call wrong_size('path, force', status)
+    call mslip_masing_path(flat, state, zeros, news(:, 1), status, stiffness=two)
+    call wrong_size('path, stiffness', status)
+    call mslip_masing_path(flat, state, zeros, news(:, 1), status, dissipated=two)
+    call wrong_size('path, dissipated', status)
+    call mslip_masing_path_advance(flat, state, zeros, status, force=two)
+    call wrong_size('path in place, force', status)
+    call mslip_masing_path_advance(flat, state, zeros, status, stiffness=two)
+    call wrong_size('path in place, stiffness', status)
+    call mslip_masing_path_advance(flat, state, zeros, status, dissipated=two)
+    call wrong_size('path in place, dissipated', status)
     call mslip_masing_tractions(flat, state, zeros, status, pressure=two)
     call wrong_size('tractions of a state, pressure', status)
     call mslip_masing_tractions(flat, state, zeros, status, shear=two)
@@ -919,54 +1089,66 @@ contains
     call wrong_size('harmonic force, force', status)
     call mslip_harmonic_force(flat, workspace, zeros, status, jacobian=m32)
     call wrong_size('harmonic force, Jacobian', status)
-    call mslip_interface_complex_stiffness(pair, zeros, status)
-    call wrong_size('interface, amplitude', status)
-    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, flags)
-    call wrong_size('interface, flags of the stiffness', status)
-    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, k_real=three)
-    call wrong_size('interface, k real', status)
-    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, k_imag=three)
-    call wrong_size('interface, k imag', status)
-    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, dk_real=three)
-    call wrong_size('interface, dk real', status)
-    call mslip_interface_complex_stiffness(pair, zeros(1:2), status, dk_imag=three)
-    call wrong_size('interface, dk imag', status)
-    call mslip_interface_masing_update(pair, states, zeros(1:2), status)
-    call wrong_size('interface in place, states', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros, status)
-    call wrong_size('interface in place, displacement', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, flags)
-    call wrong_size('interface in place, flags', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, force=three)
-    call wrong_size('interface in place, force', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, stiffness=three)
-    call wrong_size('interface in place, stiffness', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, dissipated=three)
-    call wrong_size('interface in place, dissipated', status)
-    call mslip_interface_masing_update(pair, states, zeros(1:2), status, states_new=news)
-    call wrong_size('interface, states', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, states_new=news)
-    call wrong_size('interface, new states', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros, status, states_new=news(:, 1:2))
-    call wrong_size('interface, displacement', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, flags, states_new=news(:, 1:2))
-    call wrong_size('interface, flags', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, force=three, states_new=news(:, 1:2))
-    call wrong_size('interface, force', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, stiffness=three, states_new=news(:, 1:2))
-    call wrong_size('interface, stiffness', status)
-    call mslip_interface_masing_update(pair, states(:, 1:2), zeros(1:2), status, dissipated=three, states_new=news(:, 1:2))
-    call wrong_size('interface, dissipated', status)
-    call mslip_interface_harmonic_force(pair, workspace, m33, status)
-    call wrong_size('interface, coefficients of the displacements', status)
-    call mslip_interface_harmonic_force(pair, workspace, zeros_32, status, flags)
-    call wrong_size('interface, flags of the harmonic force', status)
-    call mslip_interface_harmonic_force(pair, workspace, zeros_32, status, force=m33)
-    call wrong_size('interface, coefficients of the forces', status)
-    call mslip_interface_harmonic_force(pair, workspace, zeros_32, status, jacobian=m332(:, 1:2, :))
-    call wrong_size('interface, Jacobians', status)
-    call mslip_interface_harmonic_force(pair, workspace, zeros_32, status, dissipated=three)
-    call wrong_size('interface, energies', status)
+    call mslip_batch_complex_stiffness(pair, zeros, status)
+    call wrong_size('batch, amplitude', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, ones)
+    call wrong_size('batch, index of the stiffness', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, active=ones)
+    call wrong_size('batch, flags of the stiffness', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, k_real=three)
+    call wrong_size('batch, k real', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, k_imag=three)
+    call wrong_size('batch, k imag', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, dk_real=three)
+    call wrong_size('batch, dk real', status)
+    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, dk_imag=three)
+    call wrong_size('batch, dk imag', status)
+    call mslip_batch_masing_advance(pair, states, zeros(1:2), status)
+    call wrong_size('batch in place, states', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros, status)
+    call wrong_size('batch in place, displacement', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, ones)
+    call wrong_size('batch in place, index', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, active=ones)
+    call wrong_size('batch in place, flags', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, force=three)
+    call wrong_size('batch in place, force', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, stiffness=three)
+    call wrong_size('batch in place, stiffness', status)
+    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, dissipated=three)
+    call wrong_size('batch in place, dissipated', status)
+    call mslip_batch_masing_update(pair, states, zeros(1:2), news, status)
+    call wrong_size('batch, states', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news, status)
+    call wrong_size('batch, new states', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(1:2, 1:2), status)
+    call wrong_size('batch, length of the new states', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros, news(:, 1:2), status)
+    call wrong_size('batch, displacement', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, ones)
+    call wrong_size('batch, index', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, active=ones)
+    call wrong_size('batch, flags', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, force=three)
+    call wrong_size('batch, force', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, stiffness=three)
+    call wrong_size('batch, stiffness', status)
+    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, dissipated=three)
+    call wrong_size('batch, dissipated', status)
+    call mslip_batch_harmonic_force(pair, workspace, m33, status)
+    call wrong_size('batch, coefficients of the displacements', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32(1:2, :), status)
+    call wrong_size('batch, too few coefficients of the displacements', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, ones)
+    call wrong_size('batch, index of the harmonic force', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, active=ones)
+    call wrong_size('batch, flags of the harmonic force', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, force=m33)
+    call wrong_size('batch, coefficients of the forces', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, jacobian=m332(:, 1:2, :))
+    call wrong_size('batch, Jacobians', status)
+    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, dissipated=three)
+    call wrong_size('batch, energies', status)
     call mslip_iwan_equivalent(flat, three, two, status)
     call wrong_size('Iwan model', status)
     call check_same('wrong sizes: nothing written', [three, two, [m33], [m332], [news]], spread(untouched, 1, 32 + size(news)))
@@ -985,7 +1167,7 @@ contains
     real(wp) :: x(6), shear(6), dense(3), table(2, mslip_state_length(2_mslip_size)), state(mslip_state_length(2_mslip_size))
     real(wp) :: force, expected
     type(mslip_contact) :: contacts(4)
-    integer(mslip_int) :: status, active(6)
+    integer(mslip_int) :: status, index(6), active(6)
 
     x = [0.0_wp, untouched, 2.0e-4_wp, untouched, 5.05e-4_wp, untouched]
     shear = untouched
@@ -993,30 +1175,43 @@ contains
     call check_status('strides: tractions', status, MSLIP_OK)
     call mslip_tractions(flat, 100.0_wp, [0.0_wp, 2.0e-4_wp, 5.05e-4_wp], status, shear=dense)
     call check_same('strides: tractions of each', shear(1::2), dense)
-    call check_same('strides: nothing between', shear(2::2), spread(untouched, 1, 3))
-    associate (places => x(1::2))  ! gfortran forgets the stride of a name where an argument is to be contiguous
+    call check_same('strides: gaps are not written', shear(2::2), spread(untouched, 1, 3))
+    associate (places => x(1::2))  ! gfortran loses the stride of an associate name if the dummy argument is contiguous
       call mslip_tractions(flat, 100.0_wp, places, status, shear=x(2::2))
     end associate
-    call check_same('strides: under a name', x(2::2), dense)
+    call check_same('strides: associate name', x(2::2), dense)
 
-    state = fresh_state(2_mslip_size)
+    state = initial_state(2_mslip_size)
     table(1, :) = state
     table(2, :) = untouched
-    call mslip_masing_update(flat, table(1, :), 3.0e-7_wp, status, force)
-    call mslip_masing_update(flat, state, 3.0e-7_wp, status, expected)
+    call mslip_masing_advance(flat, table(1, :), 3.0e-7_wp, status, force)
+    call mslip_masing_advance(flat, state, 3.0e-7_wp, status, expected)
     call check_same('strides: state', [table(1, :), force], [state, expected])
+    call mslip_masing_update(flat, table(1, :), 2.0e-7_wp, table(2, :), status, force)
+    call mslip_masing_advance(flat, state, 2.0e-7_wp, status, expected)
+    call check_same('strides: new state', [table(2, :), force], [state, expected])
+    associate (row => table(2, :))
+      call mslip_state_check(row, status)
+      call check_status('strides: state that is only read', status, MSLIP_OK)
+    end associate
 
     contacts = [flat, open_contact, cylinder, open_contact]
     active = [1_mslip_int, 0_mslip_int, 0_mslip_int, 0_mslip_int, 1_mslip_int, 0_mslip_int]
     dense = untouched
-    call mslip_interface_complex_stiffness(contacts(1::2), [0.0_wp, 0.0_wp], status, active(1:4:2), dense(1:2))
+    call mslip_batch_complex_stiffness(contacts(1::2), [0.0_wp, 0.0_wp], status, active=active(1:4:2), k_real=dense(1:2))
     call check_status('strides: contacts', status, MSLIP_OK)
     call check_same('strides: contacts and flags', dense, [flat%initial_stiffness, untouched, untouched])
+    index = [3_mslip_int, 0_mslip_int, 1_mslip_int, 0_mslip_int, 3_mslip_int, 0_mslip_int]
+    call mslip_batch_complex_stiffness(contacts, spread(0.0_wp, 1, 3), status, index(1::2), k_real=dense)
+    call check_same('strides: index', dense, &
+      [cylinder%initial_stiffness, flat%initial_stiffness, cylinder%initial_stiffness])
 
     call mslip_monotonic_force(flat, x(1:0), status, shear(1:0))
     call check_status('no points', status, MSLIP_OK)
-    call mslip_interface_complex_stiffness(contacts(1:0), x(1:0), status, active(1:0), shear(1:0))
+    call mslip_batch_complex_stiffness(contacts(1:0), x(1:0), status, index(1:0), active(1:0), shear(1:0))
     call check_status('no contacts', status, MSLIP_OK)
+    call mslip_batch_masing_advance(contacts(1:0), table(:, 1:0), x(1:0), status)
+    call check_status('no states', status, MSLIP_OK)
   end subroutine test_strides
 
 end program test_microslip

@@ -6,109 +6,137 @@ module microslip
   !! The module needs a Fortran 2008 compiler and is shipped as source, because module files depend on the compiler:
   !! compile it with the program and link `-lmicroslip -lm`.
   !!
-  !! **Units.** Any one consistent set; the text names SI. Forces are totals, not per unit length. A positive
-  !! displacement gives a positive force.
+  !! ## Conventions
   !!
-  !! **Arguments.** The order is: inputs, required outputs, `status`, optional arguments. The number of points is the
-  !! size of the arrays; all arrays of one call that hold a number for each point have the same size. An optional
-  !! output that is absent is not computed. Sections with strides are allowed. But of a name for one, `associate
-  !! (row => table(1, :))`, gfortran 12 forgets the stride where the argument is changed: there pass `table(1, :)` itself.
+  !! **Units.** Any one consistent set; the text names SI. Forces are totals, not per unit length.
   !!
-  !! **Errors.** `status` is `MSLIP_OK`, or a code that `mslip_status_text` explains; then no other argument was
-  !! changed. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. A number that is infinite or not a number is
-  !! refused. A contact, state or workspace that was never initialised is recognised and refused.
+  !! **Signs.** A positive displacement gives a positive force, the internal force of the contact.
   !!
-  !! **Threads.** Nothing is kept between calls: any thread may call anything on its own data, and contacts, once
-  !! prepared, may be shared. A call takes at most 40 kB of stack (`OMP_STACKSIZE`).
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_loc, &
-    c_null_ptr, c_ptr, c_size_t
+  !! **Arguments.** The order is: required arguments in the order of C, `status`, optional arguments. Lengths are the sizes
+  !! of the arrays; all arrays of a call with one value per point have the same size. An optional output that is absent
+  !! is not computed. Sections with strides are allowed. But of an associate name, `associate (row => table(1, :))`,
+  !! gfortran 12 may lose the stride: pass `table(1, :)` itself.
+  !!
+  !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, states and workspaces are
+  !! plain data: they may be copied, written to restart files and sent through MPI. Components of a contact are results; do
+  !! not set them. Memory that comes from outside the process is validated in full by `mslip_contact_check` and
+  !! `mslip_state_check`. Nothing is allocated, except that a batch call copies its `index`, 4 bytes per item, because it
+  !! counts from 1 and that of C from 0, and that the compiler copies sections with strides.
+  !!
+  !! **Aliasing.** An output must not share memory with any other argument. For a step in place there are the procedures
+  !! named `_advance`.
+  !!
+  !! **Threads.** Any thread may call any procedure on its own data. Contacts may be shared; each thread needs a workspace of
+  !! its own. A call takes at most 40 kB of stack (`OMP_STACKSIZE`). Do not compile the module with options that make local
+  !! variables static (gfortran: `-fno-automatic`) if several threads call it.
+  !!
+  !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument
+  !! is modified. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. Infinite values and NaN are rejected, and so is
+  !! a contact, state or workspace that was never initialised.
+  !!
+  !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them. A Jacobian
+  !! has the derivative of force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a
+  !! default NumPy array of the same memory holds its transpose.
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
   implicit none
   private
 
   public :: mslip_version, mslip_abi_version, mslip_status_text
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
-  public :: mslip_contact_init, mslip_contact_init_like, mslip_contact_init_elliptic
+  public :: mslip_contact_init, mslip_contact_init_elliptic, mslip_contact_check
   public :: mslip_tractions, mslip_slip
   public :: mslip_monotonic_displacement, mslip_monotonic_force
-  public :: mslip_state_length, mslip_state_init
-  public :: mslip_masing_update, mslip_masing_path, mslip_masing_tractions
+  public :: mslip_state_length, mslip_state_init, mslip_state_check, mslip_state_error
+  public :: mslip_masing_update, mslip_masing_advance, mslip_masing_path, mslip_masing_path_advance
+  public :: mslip_masing_tractions
   public :: mslip_hysteresis_loop, mslip_dissipated_energy, mslip_complex_stiffness
-  public :: mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_force
-  public :: mslip_interface_complex_stiffness, mslip_interface_masing_update, mslip_interface_harmonic_force
+  public :: mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_workspace_size
+  public :: mslip_harmonic_force
+  public :: mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance
+  public :: mslip_batch_harmonic_force
   public :: mslip_jenkins_equivalent, mslip_iwan_equivalent
 
-  integer, parameter, public :: mslip_real = c_double  !! Kind of every real number.
+  integer, parameter, public :: mslip_real = c_double  !! Kind of every real value.
   integer, parameter, public :: mslip_int = c_int32_t  !! Kind of status codes, flags and choices.
   integer, parameter, public :: mslip_size = c_size_t  !! Kind of counts and lengths.
 
-  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 2
-    !! Version of the C interface that this module was written for (`MSLIP_ABI_VERSION` of the C header; Fortran does not
-    !! tell that name from the function `mslip_abi_version`, with which it is to be compared).
-
+  ! <generated: constants>
+  integer(mslip_int), parameter, public :: MSLIP_NULL_POINTER = 1  !! a required pointer is NULL
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FLAT_HALF_WIDTH = 2  !! flat_half_width must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3  !! edge_radius must be finite and > 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4  !! length must be finite and > 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5  !! normal_force must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6  !! friction_coefficient must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! each young_modulus must be finite and > 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! each poisson_ratio must be between 0 and 0.5
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT_REFERENCE = 9
+    !! displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10  !! semi_axis_x must be finite and > 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11  !! semi_axis_y must be finite and > 0
+  integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12
+    !! length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness
+  integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
+    !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
+  integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
+    !! invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
+  integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
+    !! invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library
+  integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22
+    !! invalid workspace: uninitialised, or created by an incompatible version of the library
+  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23  !! state_length must be at least mslip_state_length(0)
+  integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
+    !! workspace_length must be at least the value of mslip_harmonic_workspace_length
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! a force must be finite
+  integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! a force must not exceed mu N in magnitude
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32
+    !! a displacement must be finite and at most 1e150 in magnitude
+  integer(mslip_int), parameter, public :: MSLIP_BAD_POSITION = 33  !! a position x must be finite
+  integer(mslip_int), parameter, public :: MSLIP_BAD_AMPLITUDE = 34  !! a displacement amplitude must be between 0 and 1e150
+  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE_AMPLITUDE = 35  !! a force amplitude must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! the number of harmonics must be between 1 and 2^24
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37
+    !! the number of samples must exceed twice the number of harmonics and be at most 2^24
+  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! the number of sliders must be between 1 and 65536
+  integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
+  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! not available for this kind of contact
+  integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41  !! an index must refer to one of the n_contacts contacts
+  integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
+    !! an array is too long to be addressed, or (in Fortran) array sizes do not agree
+  integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
+    !! misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
+  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 3
+    !! Version of this interface: incremented whenever a name, a meaning or a size changes.
   integer(mslip_int), parameter, public :: MSLIP_CENTRE_POINT = 0
-    !! The displacement is that of the centre of the contact, as in the paper.
+    !! Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
   integer(mslip_int), parameter, public :: MSLIP_RIGID_STRIP = 1
-    !! The displacement is that of a rigid strip: Eq. 10 corrected to three-dimensional contact mechanics.
-  integer(mslip_int), parameter, public :: MSLIP_EQUIDISTANT = 0
-    !! `rule`: samples at equal distances.
-  integer(mslip_int), parameter, public :: MSLIP_BETWEEN_REVERSALS = 1
-    !! `rule`: Gauss-Legendre nodes between the instants at which the displacement turns, a loop closes or gross slip starts.
+    !! Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
+  integer(mslip_int), parameter, public :: MSLIP_UNIFORM_SAMPLING = 0
+    !! Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
+  integer(mslip_int), parameter, public :: MSLIP_EVENT_DRIVEN = 1
+    !! Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
+  integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
+  ! </generated>
 
-  ! Status codes: the numbers of the C header, fixed for good.
-  integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Done.
-  integer(mslip_int), parameter, public :: MSLIP_NULL_POINTER = 1  !! Never from this module: an argument of a C function was NULL.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FLAT_HALF_WIDTH = 2  !! `flat_half_width` is to be >= 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3  !! `edge_radius` is to be > 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4  !! `length` is to be > 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5  !! `normal_force` is to be >= 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6  !! `friction_coefficient` is to be >= 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! `young_modulus` is to be > 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! `poisson_ratio` is to be 0 to 0.5.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT_REFERENCE = 9  !! `displacement_reference` is none of those.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10  !! `semi_axis_x` is to be > 0.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11  !! `semi_axis_y` is to be > 0.
-  integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12  !! The length does not suit the half-width of contact.
-  integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13  !! The parameters together give numbers out of range.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20  !! The contact was never prepared.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21  !! The state was never initialised.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22  !! The workspace was never initialised.
-  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23  !! See `mslip_state_length`.
-  integer(mslip_int), parameter, public :: MSLIP_STATE_FULL = 24  !! The state cannot hold one more reversal.
-  integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25  !! See `mslip_harmonic_workspace_length`.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! A force is not finite.
-  integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! A force exceeds `slip_force`.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32  !! A displacement is not finite, or exceeds 1e150.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_POSITION = 33  !! A position is not finite.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_AMPLITUDE = 34  !! An amplitude is to be 0 to 1e150.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE_AMPLITUDE = 35  !! A force amplitude is to be >= 0 and finite.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_HARMONICS = 36  !! The number of harmonics is to be 1 to 2**24.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SAMPLES = 37  !! Samples: more than twice the harmonics, up to 2**24.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! The number of sliders is to be 1 to 65536.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! `rule` is none of those.
-  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! Elliptical contacts have no slip.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90  !! Sizes of arrays disagree.
-  integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91  !! An array does not stand at a multiple of 8 bytes.
-
-  ! A number nobody has set: outside the range of every parameter, so that mslip_contact_init refuses it by name.
+  ! Outside the range of every parameter, so that mslip_contact_init rejects a value left unset by name.
   real(mslip_real), parameter :: unset = -2.0_mslip_real
 
   type, bind(c), public :: mslip_material
-    !! Isotropic linear elastic body.
-    real(mslip_real) :: young_modulus = unset  !! Young's modulus, Pa, > 0.
+    !! Isotropic, linearly elastic material of one body.
+    real(mslip_real) :: young_modulus = unset  !! Young's modulus E > 0 [Pa].
     real(mslip_real) :: poisson_ratio = unset  !! Poisson's ratio, 0 to 0.5.
   end type mslip_material
 
   type, bind(c), public :: mslip_parameters
-    !! Flat with rounded edges pressed on a flat (Eq. 1-24). A number left unset is refused by `mslip_contact_init`.
-    real(mslip_real) :: flat_half_width = unset  !! Half-width a of the flat, m, >= 0; 0 is a Hertzian cylinder.
+    !! Flat with rounded edges on a flat (Eq. 1-24). `mslip_contact_init` rejects a value left unset.
+    real(mslip_real) :: flat_half_width = unset  !! Half-width a >= 0 of the flat [m]; 0 is a Hertzian cylinder.
     real(mslip_real) :: edge_radius = unset
-      !! Radius R of the edges, m, > 0. Eq. 1 is taken with twice its printed right-hand side, which alone tends to
-      !! Hertz's cylinder as a tends to 0; passing 2R gives the relation as printed.
+      !! Radius R > 0 of the edges [m]. Eq. 1 is used with twice its printed right-hand side, which alone tends to Hertz's
+      !! cylinder as a tends to 0; passing 2R gives the relation as printed.
     real(mslip_real) :: length = unset
-      !! Length L along the line of contact, m; 2L has to exceed the half-width of contact b, and the initial stiffness
-      !! has to be positive.
-    real(mslip_real) :: normal_force = unset  !! Normal force N, N, >= 0; 0 is an open contact: no force, no stiffness.
-    real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu, >= 0.
+      !! Length L along the line of contact [m]; 2L must exceed the half-width b of the contact, and the initial stiffness
+      !! must be positive.
+    real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact: no force, no stiffness.
+    real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
     integer(mslip_int) :: displacement_reference = MSLIP_CENTRE_POINT
       !! `MSLIP_CENTRE_POINT`, as in the paper, or `MSLIP_RIGID_STRIP`.
@@ -116,57 +144,42 @@ module microslip
   end type mslip_parameters
 
   type, bind(c), public :: mslip_elliptic_parameters
-    !! Elliptical Hertzian contact (section 3.3); a sphere where both axes are equal. A number left unset is refused by
-    !! `mslip_contact_init_elliptic`.
-    real(mslip_real) :: semi_axis_x = unset  !! Semi-axis in the direction of the tangential force, m, > 0.
-    real(mslip_real) :: semi_axis_y = unset  !! Semi-axis across the tangential force, m, > 0.
-    real(mslip_real) :: normal_force = unset  !! Normal force N, N, >= 0; 0 is an open contact.
-    real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu, >= 0.
+    !! Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal. `mslip_contact_init_elliptic` rejects a
+    !! value left unset.
+    real(mslip_real) :: semi_axis_x = unset  !! Semi-axis along the tangential force [m], > 0.
+    real(mslip_real) :: semi_axis_y = unset  !! Semi-axis across the tangential force [m], > 0.
+    real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact.
+    real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
   end type mslip_elliptic_parameters
 
-  integer, parameter :: contact_bytes = 1992, readable_numbers = 6
-  integer, parameter :: reserved_numbers = contact_bytes/8 - readable_numbers
-
+  ! The reserved components are public, because `write` rejects types with private ones.
+  ! <generated: types>
   type, bind(c), public :: mslip_contact
-    !! A contact, prepared once by `mslip_contact_init` or `mslip_contact_init_elliptic` and then only read. Plain data: it
-    !! may be copied, written to restart files and sent through MPI. The numbers below are results; do not set them.
-    real(mslip_real) :: composite_modulus = 0  !! E*, Pa (Eq. 2).
-    real(mslip_real) :: half_width = 0  !! Half-width of contact b, m; of an elliptical contact the x semi-axis.
-    real(mslip_real) :: slip_force = 0  !! mu N, N: the tangential force in gross slip.
-    real(mslip_real) :: slip_displacement = 0  !! Displacement at which gross slip starts, m.
-    real(mslip_real) :: initial_stiffness = 0  !! Derivative of the force by the displacement at 0, N/m.
-    real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip, J (Eq. 16).
-    real(mslip_real) :: reserved(reserved_numbers) = 0  !! Not to be changed; public, for `write` takes no private component.
+    !! A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be
+    !! copied, stored and sent. An open contact (N = 0) has zero width, force and stiffness.
+    real(mslip_real) :: composite_modulus = 0  !! E*, Eq. 2 [Pa].
+    real(mslip_real) :: half_width = 0  !! Half-width b of the contact under its normal force [m]; elliptical: semi_axis_x.
+    real(mslip_real) :: slip_force = 0  !! mu N [N].
+    real(mslip_real) :: slip_displacement = 0  !! Displacement at the onset of gross slip on the monotonic curve [m].
+    real(mslip_real) :: initial_stiffness = 0  !! dT/d(displacement) at 0 [N/m].
+    real(mslip_real) :: slip_energy = 0  !! Dissipated per cycle at incipient gross slip [J].
+    real(mslip_real) :: reserved(241) = 0  !! Tables: neither to be read nor to be written.
   end type mslip_contact
+  ! </generated>
 
-  ! A workspace begins with numbers of this module, by which the sizes of the arrays can be checked: the mark of an
-  ! initialised workspace, its length, and the number 2H+1 of coefficients. The workspace of the C function follows.
-  integer, parameter :: workspace_header = 3
-  integer(c_int64_t), parameter :: workspace_mark = transfer(-5.7238113e286_mslip_real, 0_c_int64_t)
-
-  ! Where an array without elements lies: c_loc is defined for arrays with elements only.
+  ! The address of arrays without elements: c_loc is defined for arrays with elements only.
   real(mslip_real), target :: no_elements(1) = 0
 
   interface mslip_monotonic_displacement
-    !! Displacement under a force grown monotonically from 0.
+    !! Displacement under a monotonically increased force.
     module procedure monotonic_displacement_scalar, monotonic_displacement_array
   end interface mslip_monotonic_displacement
 
   interface mslip_monotonic_force
-    !! Force at a displacement grown monotonically from 0.
+    !! Force at a monotonically increased displacement.
     module procedure monotonic_force_scalar, monotonic_force_array
   end interface mslip_monotonic_force
-
-  interface mslip_masing_update
-    !! One step of the displacement, with return-point memory; in place, or with the new state in `state_new`.
-    module procedure masing_update_in_place, masing_update_separate
-  end interface mslip_masing_update
-
-  interface mslip_masing_path
-    !! Many steps of the displacement, with return-point memory; in place, or with the last state in `state_new`.
-    module procedure masing_path_in_place, masing_path_separate
-  end interface mslip_masing_path
 
   interface mslip_dissipated_energy
     !! Energy dissipated per cycle of the force.
@@ -178,282 +191,283 @@ module microslip
     module procedure complex_stiffness_scalar, complex_stiffness_array
   end interface mslip_complex_stiffness
 
-  interface mslip_interface_masing_update
-    !! One step of the displacement of many contacts; in place, or with the new states in `states_new`.
-    module procedure interface_masing_update_in_place, interface_masing_update_separate
-  end interface mslip_interface_masing_update
+  interface address_of
+    ! C address of a required array, or of an optional scalar: NULL if absent.
+    module procedure address_of_array, address_of_scalar
+  end interface address_of
 
-  interface locate
-    ! C address of an array, and whether it has the size it should. Called for those optional arrays only that are
-    ! present: handed on absent, a contiguous one is taken by compilers' sanitizers for a NULL pointer in use.
-    module procedure locate_array, locate_matrix, locate_matrices, locate_flags
-  end interface locate
+  interface check_array
+    ! C address of an array, and MSLIP_BAD_ARRAY_SIZE for another shape than the required one. To be called for the
+    ! optional arrays that are present only: if an absent one is handed on, sanitizers report the use of a NULL pointer.
+    module procedure check_vector, check_matrix, check_matrices, check_flags
+  end interface check_array
 
   interface
-
-    pure function mslip_abi_version() bind(c, name='mslip_abi_version') result(version)
-      !! Version of the interface of the linked library. The module belongs to the library where this equals
-      !! `MSLIP_MODULE_ABI_VERSION`.
-      import :: mslip_int
-      integer(mslip_int) :: version  !! Version of the interface, > 0.
-    end function mslip_abi_version
-
-    subroutine mslip_parameters_default(parameters) bind(c, name='mslip_parameters_default')
-      !! Every number unset (not a number, so that one forgotten is refused), `MSLIP_CENTRE_POINT`.
-      import :: mslip_parameters
-      type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
-    end subroutine mslip_parameters_default
-
-    subroutine mslip_elliptic_parameters_default(parameters) bind(c, name='mslip_elliptic_parameters_default')
-      !! Every number unset (not a number, so that one forgotten is refused).
-      import :: mslip_elliptic_parameters
-      type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
-    end subroutine mslip_elliptic_parameters_default
-
-    pure function mslip_state_length(reversals) bind(c, name='mslip_state_length') result(length)
-      !! Length of a state that holds so many nested reversals of the displacement. May dimension an array.
-      import :: mslip_size
-      integer(mslip_size), value, intent(in) :: reversals  !! Nested reversals, >= 0.
-      integer(mslip_size) :: length  !! Numbers that the state has to have.
-    end function mslip_state_length
-
-  end interface
-
-  ! The C functions behind the procedures of this module; type(c_ptr) is what may be NULL, or may be given twice.
-  interface
-
     pure function c_strlen(text) bind(c, name='strlen') result(length)
       import :: c_ptr, c_size_t
       type(c_ptr), value, intent(in) :: text
       integer(c_size_t) :: length
     end function c_strlen
+  end interface
 
-    pure function c_version() bind(c, name='mslip_version') result(text)
-      import :: c_ptr
-      type(c_ptr) :: text
+  ! <generated: functions>
+  interface
+
+    pure function c_version() bind(c, name='mslip_version')
+      import
+      type(c_ptr) :: c_version
     end function c_version
 
-    pure function c_status_text(status) bind(c, name='mslip_status_text') result(text)
-      import :: c_ptr, mslip_int
-      integer(mslip_int), value, intent(in) :: status
-      type(c_ptr) :: text
+    pure function c_abi_version() bind(c, name='mslip_abi_version')
+      import
+      integer(c_int32_t) :: c_abi_version
+    end function c_abi_version
+
+    pure function c_status_text(status) bind(c, name='mslip_status_text')
+      import
+      integer(c_int32_t), value :: status
+      type(c_ptr) :: c_status_text
     end function c_status_text
 
-    function c_contact_init(parameters, contact) bind(c, name='mslip_contact_init') result(status)
-      import :: mslip_contact, mslip_int, mslip_parameters
-      type(mslip_parameters), intent(in) :: parameters
+    subroutine c_parameters_default(p) bind(c, name='mslip_parameters_default')
+      import
+      type(mslip_parameters), intent(inout) :: p
+    end subroutine c_parameters_default
+
+    subroutine c_elliptic_parameters_default(p) bind(c, name='mslip_elliptic_parameters_default')
+      import
+      type(mslip_elliptic_parameters), intent(inout) :: p
+    end subroutine c_elliptic_parameters_default
+
+    function c_contact_init(p, contact) bind(c, name='mslip_contact_init')
+      import
+      type(mslip_parameters), intent(in) :: p
       type(mslip_contact), intent(inout) :: contact
-      integer(mslip_int) :: status
+      integer(c_int32_t) :: c_contact_init
     end function c_contact_init
 
-    function c_contact_init_like(parameters, like, contact) bind(c, name='mslip_contact_init_like') result(status)
-      import :: mslip_contact, mslip_int, mslip_parameters
-      type(mslip_parameters), intent(in) :: parameters
-      type(mslip_contact), intent(in) :: like
+    function c_contact_init_elliptic(p, contact) bind(c, name='mslip_contact_init_elliptic')
+      import
+      type(mslip_elliptic_parameters), intent(in) :: p
       type(mslip_contact), intent(inout) :: contact
-      integer(mslip_int) :: status
-    end function c_contact_init_like
-
-    function c_contact_init_elliptic(parameters, contact) bind(c, name='mslip_contact_init_elliptic') result(status)
-      import :: mslip_contact, mslip_elliptic_parameters, mslip_int
-      type(mslip_elliptic_parameters), intent(in) :: parameters
-      type(mslip_contact), intent(inout) :: contact
-      integer(mslip_int) :: status
+      integer(c_int32_t) :: c_contact_init_elliptic
     end function c_contact_init_elliptic
 
-    function c_tractions(contact, force, n, x, pressure, shear) bind(c, name='mslip_tractions') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_contact_check(contact) bind(c, name='mslip_contact_check')
+      import
       type(mslip_contact), intent(in) :: contact
-      real(mslip_real), value, intent(in) :: force
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: x(*)
-      type(c_ptr), value, intent(in) :: pressure, shear
-      integer(mslip_int) :: status
+      integer(c_int32_t) :: c_contact_check
+    end function c_contact_check
+
+    function c_tractions(contact, force, n, x, pressure, shear) bind(c, name='mslip_tractions')
+      import
+      type(mslip_contact), intent(in) :: contact
+      real(c_double), value :: force
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: x(*)
+      type(c_ptr), value :: pressure, shear
+      integer(c_int32_t) :: c_tractions
     end function c_tractions
 
-    function c_slip(contact, force, n, x, slip, damage) bind(c, name='mslip_slip') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_slip(contact, force, n, x, slip, damage) bind(c, name='mslip_slip')
+      import
       type(mslip_contact), intent(in) :: contact
-      real(mslip_real), value, intent(in) :: force
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: x(*)
-      type(c_ptr), value, intent(in) :: slip, damage
-      integer(mslip_int) :: status
+      real(c_double), value :: force
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: x(*)
+      type(c_ptr), value :: slip, damage
+      integer(c_int32_t) :: c_slip
     end function c_slip
 
     function c_monotonic_displacement(contact, n, force, displacement, compliance, stick_half_width) &
-      bind(c, name='mslip_monotonic_displacement') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+      bind(c, name='mslip_monotonic_displacement')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: force(*)
-      type(c_ptr), value, intent(in) :: displacement, compliance, stick_half_width
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: force(*)
+      type(c_ptr), value :: displacement, compliance, stick_half_width
+      integer(c_int32_t) :: c_monotonic_displacement
     end function c_monotonic_displacement
 
     function c_monotonic_force(contact, n, displacement, force, stiffness, stick_half_width) &
-      bind(c, name='mslip_monotonic_force') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+      bind(c, name='mslip_monotonic_force')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: displacement(*)
-      type(c_ptr), value, intent(in) :: force, stiffness, stick_half_width
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: displacement(*)
+      type(c_ptr), value :: force, stiffness, stick_half_width
+      integer(c_int32_t) :: c_monotonic_force
     end function c_monotonic_force
 
-    function c_state_init(state_length, state) bind(c, name='mslip_state_init') result(status)
-      import :: c_ptr, mslip_int, mslip_size
-      integer(mslip_size), value, intent(in) :: state_length
-      type(c_ptr), value, intent(in) :: state
-      integer(mslip_int) :: status
+    pure function c_state_length(reversals) bind(c, name='mslip_state_length')
+      import
+      integer(c_size_t), value :: reversals
+      integer(c_size_t) :: c_state_length
+    end function c_state_length
+
+    function c_state_init(state_length, state) bind(c, name='mslip_state_init')
+      import
+      integer(c_size_t), value :: state_length
+      type(c_ptr), value :: state
+      integer(c_int32_t) :: c_state_init
     end function c_state_init
 
-    function c_masing_update(contact, state_length, state0, displacement, state1, force, stiffness, dissipated) &
-      bind(c, name='mslip_masing_update') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_state_check(state_length, state) bind(c, name='mslip_state_check')
+      import
+      integer(c_size_t), value :: state_length
+      real(c_double), intent(in) :: state(*)
+      integer(c_int32_t) :: c_state_check
+    end function c_state_check
+
+    function c_state_error(state_length, state, force_error) bind(c, name='mslip_state_error')
+      import
+      integer(c_size_t), value :: state_length
+      real(c_double), intent(in) :: state(*)
+      type(c_ptr), value :: force_error
+      integer(c_int32_t) :: c_state_error
+    end function c_state_error
+
+    function c_masing_update(contact, state_length, state_old, displacement, state_new, force, stiffness, &
+      dissipated) bind(c, name='mslip_masing_update')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: state_length
-      type(c_ptr), value, intent(in) :: state0
-      real(mslip_real), value, intent(in) :: displacement
-      type(c_ptr), value, intent(in) :: state1, force, stiffness, dissipated
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: state_length
+      type(c_ptr), value :: state_old, state_new, force, stiffness, dissipated
+      real(c_double), value :: displacement
+      integer(c_int32_t) :: c_masing_update
     end function c_masing_update
 
-    function c_masing_path(contact, state_length, state0, n, displacement, state1, force, stiffness, dissipated) &
-      bind(c, name='mslip_masing_path') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_masing_path(contact, state_length, state_old, n, displacement, state_new, force, stiffness, &
+      dissipated) bind(c, name='mslip_masing_path')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: state_length
-      type(c_ptr), value, intent(in) :: state0
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: displacement(*)
-      type(c_ptr), value, intent(in) :: state1, force, stiffness, dissipated
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: state_length, n
+      type(c_ptr), value :: state_old, state_new, force, stiffness, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_masing_path
     end function c_masing_path
 
     function c_masing_tractions(contact, state_length, state, n, x, pressure, shear) &
-      bind(c, name='mslip_masing_tractions') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+      bind(c, name='mslip_masing_tractions')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: state_length
-      type(c_ptr), value, intent(in) :: state
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: x(*)
-      type(c_ptr), value, intent(in) :: pressure, shear
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: state_length, n
+      real(c_double), intent(in) :: state(*), x(*)
+      type(c_ptr), value :: pressure, shear
+      integer(c_int32_t) :: c_masing_tractions
     end function c_masing_tractions
 
-    function c_hysteresis_loop(contact, amplitude, n, displacement, force) &
-      bind(c, name='mslip_hysteresis_loop') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_hysteresis_loop(contact, amplitude, n, displacement, force) bind(c, name='mslip_hysteresis_loop')
+      import
       type(mslip_contact), intent(in) :: contact
-      real(mslip_real), value, intent(in) :: amplitude
-      integer(mslip_size), value, intent(in) :: n
-      type(c_ptr), value, intent(in) :: displacement, force
-      integer(mslip_int) :: status
+      real(c_double), value :: amplitude
+      integer(c_size_t), value :: n
+      type(c_ptr), value :: displacement, force
+      integer(c_int32_t) :: c_hysteresis_loop
     end function c_hysteresis_loop
 
-    function c_dissipated_energy(contact, n, force_amplitude, energy) &
-      bind(c, name='mslip_dissipated_energy') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+    function c_dissipated_energy(contact, n, force_amplitude, energy) bind(c, name='mslip_dissipated_energy')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: force_amplitude(*)
-      type(c_ptr), value, intent(in) :: energy
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: force_amplitude(*)
+      type(c_ptr), value :: energy
+      integer(c_int32_t) :: c_dissipated_energy
     end function c_dissipated_energy
 
     function c_complex_stiffness(contact, n, amplitude, k_real, k_imag, dk_real, dk_imag) &
-      bind(c, name='mslip_complex_stiffness') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
+      bind(c, name='mslip_complex_stiffness')
+      import
       type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: n
-      real(mslip_real), intent(in) :: amplitude(*)
-      type(c_ptr), value, intent(in) :: k_real, k_imag, dk_real, dk_imag
-      integer(mslip_int) :: status
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: amplitude(*)
+      type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
+      integer(c_int32_t) :: c_complex_stiffness
     end function c_complex_stiffness
 
+    function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
+      bind(c, name='mslip_jenkins_equivalent')
+      import
+      type(mslip_contact), intent(in) :: contact
+      real(c_double), value :: amplitude
+      type(c_ptr), value :: stiffness, slip_force
+      integer(c_int32_t) :: c_jenkins_equivalent
+    end function c_jenkins_equivalent
+
+    function c_iwan_equivalent(contact, n, stiffness, slip_force, force_error) bind(c, name='mslip_iwan_equivalent')
+      import
+      type(mslip_contact), intent(in) :: contact
+      integer(c_size_t), value :: n
+      type(c_ptr), value :: stiffness, slip_force, force_error
+      integer(c_int32_t) :: c_iwan_equivalent
+    end function c_iwan_equivalent
+
     pure function c_harmonic_workspace_length(harmonics, samples, rule) &
-      bind(c, name='mslip_harmonic_workspace_length_rule') result(length)
-      import :: mslip_int, mslip_size
-      integer(mslip_size), value, intent(in) :: harmonics, samples
-      integer(mslip_int), value, intent(in) :: rule
-      integer(mslip_size) :: length
+      bind(c, name='mslip_harmonic_workspace_length')
+      import
+      integer(c_size_t), value :: harmonics, samples
+      integer(c_int32_t), value :: rule
+      integer(c_size_t) :: c_harmonic_workspace_length
     end function c_harmonic_workspace_length
 
     function c_harmonic_workspace_init(harmonics, samples, rule, workspace_length, workspace) &
-      bind(c, name='mslip_harmonic_workspace_init_rule') result(status)
-      import :: c_ptr, mslip_int, mslip_size
-      integer(mslip_size), value, intent(in) :: harmonics, samples, workspace_length
-      integer(mslip_int), value, intent(in) :: rule
-      type(c_ptr), value, intent(in) :: workspace
-      integer(mslip_int) :: status
+      bind(c, name='mslip_harmonic_workspace_init')
+      import
+      integer(c_size_t), value :: harmonics, samples, workspace_length
+      integer(c_int32_t), value :: rule
+      type(c_ptr), value :: workspace
+      integer(c_int32_t) :: c_harmonic_workspace_init
     end function c_harmonic_workspace_init
 
+    function c_harmonic_workspace_size(workspace, harmonics, samples, rule) &
+      bind(c, name='mslip_harmonic_workspace_size')
+      import
+      real(c_double), intent(in) :: workspace(*)
+      type(c_ptr), value :: harmonics, samples, rule
+      integer(c_int32_t) :: c_harmonic_workspace_size
+    end function c_harmonic_workspace_size
+
     function c_harmonic_force(contact, workspace, displacement, force, jacobian, dissipated) &
-      bind(c, name='mslip_harmonic_force') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real
+      bind(c, name='mslip_harmonic_force')
+      import
       type(mslip_contact), intent(in) :: contact
-      type(c_ptr), value, intent(in) :: workspace
-      real(mslip_real), intent(in) :: displacement(*)
-      type(c_ptr), value, intent(in) :: force, jacobian, dissipated
-      integer(mslip_int) :: status
+      type(c_ptr), value :: workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_harmonic_force
     end function c_harmonic_force
 
-    function c_interface_complex_stiffness(n, contacts, active, amplitude, k_real, k_imag, dk_real, dk_imag) &
-      bind(c, name='mslip_interface_complex_stiffness') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
-      integer(mslip_size), value, intent(in) :: n
+    function c_batch_complex_stiffness(n, n_contacts, contacts, index, active, amplitude, k_real, k_imag, dk_real, &
+      dk_imag) bind(c, name='mslip_batch_complex_stiffness')
+      import
+      integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value, intent(in) :: active
-      real(mslip_real), intent(in) :: amplitude(*)
-      type(c_ptr), value, intent(in) :: k_real, k_imag, dk_real, dk_imag
-      integer(mslip_int) :: status
-    end function c_interface_complex_stiffness
+      type(c_ptr), value :: index, active, k_real, k_imag, dk_real, dk_imag
+      real(c_double), intent(in) :: amplitude(*)
+      integer(c_int32_t) :: c_batch_complex_stiffness
+    end function c_batch_complex_stiffness
 
-    function c_interface_masing_update(n, contacts, active, state_length, states0, displacement, states1, &
-      force, stiffness, dissipated) bind(c, name='mslip_interface_masing_update') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
-      integer(mslip_size), value, intent(in) :: n
+    function c_batch_masing_update(n, n_contacts, contacts, index, active, state_length, states_old, displacement, &
+      states_new, force, stiffness, dissipated) bind(c, name='mslip_batch_masing_update')
+      import
+      integer(c_size_t), value :: n, n_contacts, state_length
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value, intent(in) :: active
-      integer(mslip_size), value, intent(in) :: state_length
-      type(c_ptr), value, intent(in) :: states0
-      real(mslip_real), intent(in) :: displacement(*)
-      type(c_ptr), value, intent(in) :: states1, force, stiffness, dissipated
-      integer(mslip_int) :: status
-    end function c_interface_masing_update
+      type(c_ptr), value :: index, active, states_old, states_new, force, stiffness, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_batch_masing_update
+    end function c_batch_masing_update
 
-    function c_interface_harmonic_force(n, contacts, active, workspace, displacement, force, jacobian, dissipated) &
-      bind(c, name='mslip_interface_harmonic_force') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_real, mslip_size
-      integer(mslip_size), value, intent(in) :: n
+    function c_batch_harmonic_force(n, n_contacts, contacts, index, active, workspace, displacement, force, &
+      jacobian, dissipated) bind(c, name='mslip_batch_harmonic_force')
+      import
+      integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value, intent(in) :: active, workspace
-      real(mslip_real), intent(in) :: displacement(*)
-      type(c_ptr), value, intent(in) :: force, jacobian, dissipated
-      integer(mslip_int) :: status
-    end function c_interface_harmonic_force
-
-    function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
-      bind(c, name='mslip_jenkins_equivalent') result(status)
-      import :: mslip_contact, mslip_int, mslip_real
-      type(mslip_contact), intent(in) :: contact
-      real(mslip_real), value, intent(in) :: amplitude
-      real(mslip_real), intent(inout) :: stiffness, slip_force
-      integer(mslip_int) :: status
-    end function c_jenkins_equivalent
-
-    function c_iwan_equivalent(contact, n, stiffness, slip_force, force_error) &
-      bind(c, name='mslip_iwan_equivalent') result(status)
-      import :: c_ptr, mslip_contact, mslip_int, mslip_size
-      type(mslip_contact), intent(in) :: contact
-      integer(mslip_size), value, intent(in) :: n
-      type(c_ptr), value, intent(in) :: stiffness, slip_force, force_error
-      integer(mslip_int) :: status
-    end function c_iwan_equivalent
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_batch_harmonic_force
+    end function c_batch_harmonic_force
 
   end interface
+  ! </generated>
 
 contains
 
@@ -467,8 +481,16 @@ contains
     text = text_of(c_version())
   end function mslip_version
 
+  pure function mslip_abi_version() result(version)
+    !! Interface version of the linked library. The library belongs to the module if this equals
+    !! `MSLIP_MODULE_ABI_VERSION`.
+    integer(mslip_int) :: version  !! Interface version, > 0.
+
+    version = c_abi_version()
+  end function mslip_abi_version
+
   function mslip_status_text(status) result(text)
-    !! What a status code means: what is wrong and what is allowed, in one sentence. Any number may be asked for.
+    !! The message of a status code: what is wrong and what is allowed. Any value is accepted.
     integer(mslip_int), intent(in) :: status  !! A status code.
     character(len=c_strlen(c_status_text(status))) :: text  !! The text, without blanks around it.
 
@@ -476,613 +498,655 @@ contains
   end function mslip_status_text
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Preparing a contact
+  ! Parameters and contacts
+
+  subroutine mslip_parameters_default(parameters)
+    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`.
+    type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
+
+    call c_parameters_default(parameters)
+  end subroutine mslip_parameters_default
+
+  subroutine mslip_elliptic_parameters_default(parameters)
+    !! Every value unset (NaN, so that a forgotten one is rejected by name).
+    type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
+
+    call c_elliptic_parameters_default(parameters)
+  end subroutine mslip_elliptic_parameters_default
 
   subroutine mslip_contact_init(parameters, contact, status)
-    !! Prepare the contact of a flat with rounded edges on a flat (Eq. 1-24), a cylinder where the flat has no width.
+    !! Initialise the contact of a flat with rounded edges on a flat (Eq. 1-24), or of a cylinder if the flat has no width.
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
-    type(mslip_contact), intent(inout) :: contact  !! The prepared contact.
+    type(mslip_contact), intent(inout) :: contact  !! The contact.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, or the code of the first parameter out of range; `MSLIP_LENGTH_TOO_SHORT` where the length is too small
-      !! for the half-width of contact; `MSLIP_OUT_OF_RANGE` where a result is not a representable number.
+      !! `MSLIP_OK`, or the code of the first parameter out of range; `MSLIP_LENGTH_TOO_SHORT` if the length is too small
+      !! for the half-width of the contact; `MSLIP_OUT_OF_RANGE` if a derived quantity would be out of range.
 
     status = c_contact_init(parameters, contact)
   end subroutine mslip_contact_init
 
-  subroutine mslip_contact_init_like(parameters, like, contact, status)
-    !! Prepare a contact as `mslip_contact_init` does, with the same numbers in it, but faster where `like` has the same
-    !! shape: it differs in the friction coefficient only, or in scale by powers of 2.
-    type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
-    type(mslip_contact), intent(in) :: like  !! A prepared contact.
-    type(mslip_contact), intent(inout) :: contact  !! The prepared contact.
-    integer(mslip_int), intent(out) :: status  !! As from `mslip_contact_init`, or `MSLIP_BAD_CONTACT`.
-
-    status = c_contact_init_like(parameters, like, contact)
-  end subroutine mslip_contact_init_like
-
   subroutine mslip_contact_init_elliptic(parameters, contact, status)
-    !! Prepare an elliptical Hertzian contact (section 3.3), a sphere where both axes are equal.
+    !! Initialise an elliptical Hertz contact (section 3.3), a sphere if both semi-axes are equal.
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! Geometry, load and materials.
-    type(mslip_contact), intent(inout) :: contact  !! The prepared contact.
+    type(mslip_contact), intent(inout) :: contact  !! The contact.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, or the code of the first parameter out of range; `MSLIP_OUT_OF_RANGE` where a result is not a
-      !! representable number.
+      !! `MSLIP_OK`, or the code of the first parameter out of range; `MSLIP_OUT_OF_RANGE` if a derived quantity would be out
+      !! of range.
 
     status = c_contact_init_elliptic(parameters, contact)
   end subroutine mslip_contact_init_elliptic
+
+  subroutine mslip_contact_check(contact, status)
+    !! Validate a contact in full, such as one read from a file or received in a message.
+    type(mslip_contact), intent(in) :: contact  !! The contact.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or `MSLIP_BAD_CONTACT`.
+
+    status = c_contact_check(contact)
+  end subroutine mslip_contact_check
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Monotonic loading
 
   subroutine mslip_tractions(contact, force, x, status, pressure, shear)
-    !! Tractions along the width under a tangential force grown monotonically from 0 (Eq. 17-24). Those of an elliptical
-    !! contact are on the x axis.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: force  !! Tangential force, N; its magnitude is at most `slip_force`.
-    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m; outside the contact tractions are 0.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
-    real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
+    !! Tractions along the width under a monotonically increased force (Eq. 17-24); of an elliptical contact on the x axis.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m]; outside the contact tractions are 0.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure at each x [Pa].
+    real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction at each x [Pa].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(2)
-    logical :: agree
+    type(c_ptr) :: ptr(2)
 
     n = size(x, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(pressure)) call locate(pressure, n, at(1), agree)
-    if (present(shear)) call locate(shear, n, at(2), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_tractions(contact, force, n, x, at(1), at(2))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(pressure)) call check_array(pressure, n, ptr(1), status)
+    if (present(shear)) call check_array(shear, n, ptr(2), status)
+    if (status == MSLIP_OK) status = c_tractions(contact, force, n, x, ptr(1), ptr(2))
   end subroutine mslip_tractions
 
   subroutine mslip_slip(contact, force, x, status, slip, damage)
     !! Relative slip of the surfaces (Eq. 15) and frictional damage parameter, friction coefficient times pressure times
-    !! slip (section 3.5), under a tangential force grown monotonically from 0.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact, not an elliptical one (`MSLIP_NOT_AVAILABLE`).
-    real(mslip_real), intent(in) :: force  !! Tangential force, N; its magnitude is at most `slip_force`.
-    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: slip(:)  !! Slip, m, at each x; 0 where it sticks.
-    real(mslip_real), intent(inout), optional, target, contiguous :: damage(:)  !! Damage parameter, N/m, at each x.
+    !! slip (section 3.5), under a monotonically increased force.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact, not an elliptical one (`MSLIP_NOT_AVAILABLE`).
+    real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: slip(:)  !! Slip at each x [m]; 0 in the stick zone.
+    real(mslip_real), intent(inout), optional, target, contiguous :: damage(:)  !! Damage parameter at each x [N/m].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(2)
-    logical :: agree
+    type(c_ptr) :: ptr(2)
 
     n = size(x, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(slip)) call locate(slip, n, at(1), agree)
-    if (present(damage)) call locate(damage, n, at(2), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_slip(contact, force, n, x, at(1), at(2))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(slip)) call check_array(slip, n, ptr(1), status)
+    if (present(damage)) call check_array(damage, n, ptr(2), status)
+    if (status == MSLIP_OK) status = c_slip(contact, force, n, x, ptr(1), ptr(2))
   end subroutine mslip_slip
 
   subroutine monotonic_displacement_array(contact, force, status, displacement, compliance, stick_half_width)
-    !! Displacements under tangential forces each grown monotonically from 0 (Eq. 10); odd in the force.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
+    !! Displacements under forces, each monotonically increased from 0 (Eq. 10); odd in the force.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force(:)
-      !! Tangential forces, N; magnitudes at most `slip_force` (`MSLIP_FORCE_EXCEEDS_SLIP`).
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: displacement(:)  !! Displacement, m, for each force.
+      !! Tangential forces [N]; magnitudes are at most `slip_force` (`MSLIP_FORCE_EXCEEDS_SLIP`).
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: displacement(:)  !! Displacement under each force [m].
     real(mslip_real), intent(inout), optional, target, contiguous :: compliance(:)
-      !! Derivative of the displacement by the force, m/N; +infinity at `slip_force` where the flat has no width.
+      !! Derivative of the displacement with respect to the force [m/N]; +infinity at `slip_force` if the flat has no width.
     real(mslip_real), intent(inout), optional, target, contiguous :: stick_half_width(:)
-      !! Half-width of the stick zone, m, between the half-widths of the flat and of contact; of an elliptical contact
+      !! Half-width of the stick zone [m], between the half-widths of the flat and of the contact; of an elliptical contact
       !! the x semi-axis of the stick ellipse.
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(3)
-    logical :: agree
+    type(c_ptr) :: ptr(3)
 
     n = size(force, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(displacement)) call locate(displacement, n, at(1), agree)
-    if (present(compliance)) call locate(compliance, n, at(2), agree)
-    if (present(stick_half_width)) call locate(stick_half_width, n, at(3), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_monotonic_displacement(contact, n, force, at(1), at(2), at(3))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(displacement)) call check_array(displacement, n, ptr(1), status)
+    if (present(compliance)) call check_array(compliance, n, ptr(2), status)
+    if (present(stick_half_width)) call check_array(stick_half_width, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_monotonic_displacement(contact, n, force, ptr(1), ptr(2), ptr(3))
   end subroutine monotonic_displacement_array
 
   subroutine monotonic_displacement_scalar(contact, force, status, displacement, compliance, stick_half_width)
-    !! Displacement under a tangential force grown monotonically from 0 (Eq. 10); odd in the force.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: force  !! Tangential force, N; its magnitude is at most `slip_force`.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target :: displacement  !! Displacement, m.
+    !! Displacement under a force monotonically increased from 0 (Eq. 10); odd in the force.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: displacement  !! Displacement [m].
     real(mslip_real), intent(inout), optional, target :: compliance
-      !! Derivative of the displacement by the force, m/N; +infinity at `slip_force` where the flat has no width.
-    real(mslip_real), intent(inout), optional, target :: stick_half_width  !! Half-width of the stick zone, m.
+      !! Derivative of the displacement with respect to the force [m/N]; +infinity at `slip_force` if the flat has no width.
+    real(mslip_real), intent(inout), optional, target :: stick_half_width  !! Half-width of the stick zone [m].
 
     status = c_monotonic_displacement(contact, 1_mslip_size, [force], &
-      address_scalar(displacement), address_scalar(compliance), address_scalar(stick_half_width))
+      address_of(displacement), address_of(compliance), address_of(stick_half_width))
   end subroutine monotonic_displacement_scalar
 
   subroutine monotonic_force_array(contact, displacement, status, force, stiffness, stick_half_width)
-    !! Tangential forces at displacements each grown monotonically from 0: the inverse of Eq. 10, odd in the displacement.
-    !! Beyond `slip_displacement` the force stays at `slip_force` and the stiffness is 0.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: displacement(:)  !! Displacements, m; at most 1e150 in size.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force, N, at each displacement.
+    !! Forces at displacements, each monotonically increased from 0: the inverse of Eq. 10, odd in the displacement. Beyond
+    !! `slip_displacement` the force stays at `slip_force` and the stiffness is 0.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacements [m]; magnitudes are at most 1e150.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at each displacement [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
-      !! Derivative of the force by the displacement, N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: stick_half_width(:)  !! Half-width of the stick zone, m.
+      !! Derivative of the force with respect to the displacement [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: stick_half_width(:)  !! Half-width of the stick zone [m].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(3)
-    logical :: agree
+    type(c_ptr) :: ptr(3)
 
     n = size(displacement, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(force)) call locate(force, n, at(1), agree)
-    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
-    if (present(stick_half_width)) call locate(stick_half_width, n, at(3), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_monotonic_force(contact, n, displacement, at(1), at(2), at(3))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(force)) call check_array(force, n, ptr(1), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(2), status)
+    if (present(stick_half_width)) call check_array(stick_half_width, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_monotonic_force(contact, n, displacement, ptr(1), ptr(2), ptr(3))
   end subroutine monotonic_force_array
 
   subroutine monotonic_force_scalar(contact, displacement, status, force, stiffness, stick_half_width)
-    !! Tangential force at a displacement grown monotonically from 0: the inverse of Eq. 10, odd in the displacement.
-    !! Beyond `slip_displacement` the force stays at `slip_force` and the stiffness is 0.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: displacement  !! Displacement, m; at most 1e150 in size.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target :: force  !! Force, N.
-    real(mslip_real), intent(inout), optional, target :: stiffness  !! Derivative of the force by the displacement, N/m.
-    real(mslip_real), intent(inout), optional, target :: stick_half_width  !! Half-width of the stick zone, m.
+    !! Force at a displacement monotonically increased from 0: the inverse of Eq. 10, odd in the displacement. Beyond
+    !! `slip_displacement` the force stays at `slip_force` and the stiffness is 0.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: displacement  !! Displacement [m]; its magnitude is at most 1e150.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: force  !! Force [N].
+    real(mslip_real), intent(inout), optional, target :: stiffness
+      !! Derivative of the force with respect to the displacement [N/m].
+    real(mslip_real), intent(inout), optional, target :: stick_half_width  !! Half-width of the stick zone [m].
 
     status = c_monotonic_force(contact, 1_mslip_size, [displacement], &
-      address_scalar(force), address_scalar(stiffness), address_scalar(stick_half_width))
+      address_of(force), address_of(stiffness), address_of(stick_half_width))
   end subroutine monotonic_force_scalar
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Any history: Masing rule (Eq. 11, 12) with return-point memory
+  ! Any load history: Masing's rule (Eq. 11, 12) with return-point memory
+
+  pure function mslip_state_length(reversals) result(length)
+    !! Length of a state that holds the given number of nested reversals of the displacement exactly; fewer than 2 count as
+    !! 2. May dimension an array.
+    integer(mslip_size), intent(in) :: reversals  !! Nested reversals, >= 0.
+    integer(mslip_size) :: length  !! Length of the state.
+
+    length = c_state_length(reversals)
+  end function mslip_state_length
 
   subroutine mslip_state_init(state, status)
-    !! The virgin state: no displacement, no force, no memory.
+    !! Initialise a state: unloaded, no displacement, no force, no reversals.
     real(mslip_real), intent(inout), target, contiguous :: state(:)
-      !! The state; at least `mslip_state_length(0)` numbers. Its size decides how many nested reversals it holds; one that is
-      !! full goes on at the beginning of a longer array.
+      !! The state; at least `mslip_state_length(2)` values. Its size decides how many nested reversals it holds exactly. A
+      !! step that needs one more merges the two neighbouring reversals whose removal changes later forces least; see
+      !! `mslip_state_error`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or `MSLIP_STATE_TOO_SHORT`.
 
-    status = c_state_init(size(state, kind=mslip_size), address(state))
+    status = c_state_init(size(state, kind=mslip_size), address_of(state))
   end subroutine mslip_state_init
 
-  subroutine masing_update_in_place(contact, state, displacement, status, force, stiffness, dissipated)
-    !! One step, from where the state is to a displacement, in place.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
+  subroutine mslip_state_check(state, status)
+    !! Validate a state in full, such as one read from a file or received in a message.
+    real(mslip_real), intent(in) :: state(:)  !! The state.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_STATE` or `MSLIP_STATE_TOO_SHORT`.
+
+    status = c_state_check(size(state, kind=mslip_size), state)
+  end subroutine mslip_state_check
+
+  subroutine mslip_state_error(state, force_error, status)
+    !! Bound on the error of the forces that follow from a state, due to merged reversals.
+    real(mslip_real), intent(in) :: state(:)  !! The state.
+    real(mslip_real), intent(inout), target :: force_error
+      !! Bound on the error [N]; 0 if no reversals were merged since gross slip erased the memory.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+
+    status = c_state_error(size(state, kind=mslip_size), state, address_of(force_error))
+  end subroutine mslip_state_error
+
+  subroutine mslip_masing_update(contact, state_old, displacement, state_new, status, force, stiffness, dissipated)
+    !! One step: the state after a displacement is applied. The state before the step is kept.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step.
+    real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
+    real(mslip_real), intent(inout), target, contiguous :: state_new(:)
+      !! State after the step, of the same size; for a step in place use `mslip_masing_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: force  !! Force at the end of the step [N].
+    real(mslip_real), intent(inout), optional, target :: stiffness
+      !! Derivative of the force with respect to the displacement at the end of the step [N/m].
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
+
+    status = MSLIP_BAD_ARRAY_SIZE
+    if (size(state_new) == size(state_old)) status = c_masing_update(contact, size(state_old, kind=mslip_size), &
+      address_of(state_old), displacement, address_of(state_new), address_of(force), address_of(stiffness), &
+      address_of(dissipated))
+  end subroutine mslip_masing_update
+
+  subroutine mslip_masing_advance(contact, state, displacement, status, force, stiffness, dissipated)
+    !! One step in place: as `mslip_masing_update`, but the state after the step replaces the state before it.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step.
-    real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step, m; at most 1e150 in size.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`; `MSLIP_STATE_FULL` where the state would have to hold more reversals than it can; or what was refused.
-    real(mslip_real), intent(inout), optional, target :: force  !! Force at the end of the step, N.
+    real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: force  !! Force at the end of the step [N].
     real(mslip_real), intent(inout), optional, target :: stiffness
-      !! Derivative of the force by the displacement at the end of the step, N/m.
-    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step, J.
+      !! Derivative of the force with respect to the displacement at the end of the step [N/m].
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
 
-    status = c_masing_update(contact, size(state, kind=mslip_size), address(state), displacement, address(state), &
-      address_scalar(force), address_scalar(stiffness), address_scalar(dissipated))
-  end subroutine masing_update_in_place
+    status = c_masing_update(contact, size(state, kind=mslip_size), address_of(state), displacement, address_of(state), &
+      address_of(force), address_of(stiffness), address_of(dissipated))
+  end subroutine mslip_masing_advance
 
-  subroutine masing_update_separate(contact, state, displacement, status, force, stiffness, dissipated, state_new)
-    !! One step, from where the state is to a displacement; the state before the step is kept.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), target, contiguous :: state(:)  !! State before the step.
-    real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step, m; at most 1e150 in size.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`; `MSLIP_STATE_FULL` where the state would have to hold more reversals than it can; or what was refused.
-    real(mslip_real), intent(inout), optional, target :: force  !! Force at the end of the step, N.
-    real(mslip_real), intent(inout), optional, target :: stiffness
-      !! Derivative of the force by the displacement at the end of the step, N/m.
-    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step, J.
+  subroutine mslip_masing_path(contact, state_old, displacement, state_new, status, force, stiffness, dissipated)
+    !! A sequence of steps: the displacements are applied one after the other. The state before the first step is kept.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the first step.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step [m].
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
-      !! State after the step; another array than `state`, of the same size.
+      !! State after the last step, of the same size; for a path in place use `mslip_masing_path_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
+      !! Derivative of the force with respect to the displacement at the end of each step [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
 
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (size(state_new) /= size(state)) return
-    status = c_masing_update(contact, size(state, kind=mslip_size), address(state), displacement, address(state_new), &
-      address_scalar(force), address_scalar(stiffness), address_scalar(dissipated))
-  end subroutine masing_update_separate
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(4)
 
-  subroutine masing_path_in_place(contact, state, displacement, status, force, stiffness, dissipated)
-    !! Many steps, from where the state is through the displacements in turn, in place.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
+    n = size(displacement, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    call check_array(state_new, size(state_old, kind=mslip_size), ptr(1), status)
+    if (present(force)) call check_array(force, n, ptr(2), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(3), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(4), status)
+    if (status == MSLIP_OK) status = c_masing_path(contact, size(state_old, kind=mslip_size), address_of(state_old), n, &
+      displacement, ptr(1), ptr(2), ptr(3), ptr(4))
+  end subroutine mslip_masing_path
+
+  subroutine mslip_masing_path_advance(contact, state, displacement, status, force, stiffness, dissipated)
+    !! A sequence of steps in place: as `mslip_masing_path`, but the state after the last step replaces the state before the
+    !! first one.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before the first and after the last step.
-    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step, m.
-    integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`; a refused step refuses the whole path.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step, N.
+    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
-      !! Derivative of the force by the displacement at the end of each step, N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step, J.
+      !! Derivative of the force with respect to the displacement at the end of each step [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(3)
-    logical :: agree
+    type(c_ptr) :: ptr(3)
 
     n = size(displacement, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(force)) call locate(force, n, at(1), agree)
-    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
-    if (present(dissipated)) call locate(dissipated, n, at(3), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_masing_path(contact, size(state, kind=mslip_size), address(state), n, displacement, &
-      address(state), at(1), at(2), at(3))
-  end subroutine masing_path_in_place
-
-  subroutine masing_path_separate(contact, state, displacement, status, force, stiffness, dissipated, state_new)
-    !! Many steps, from where the state is through the displacements in turn; the first state is kept.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in), target, contiguous :: state(:)  !! State before the first step.
-    real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of each step, m.
-    integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`; a refused step refuses the whole path.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! Force at the end of each step, N.
-    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
-      !! Derivative of the force by the displacement at the end of each step, N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step, J.
-    real(mslip_real), intent(inout), target, contiguous :: state_new(:)
-      !! State after the last step; another array than `state`, of the same size.
-
-    integer(mslip_size) :: n
-    type(c_ptr) :: at(3)
-    logical :: agree
-
-    n = size(displacement, kind=mslip_size)
-    at = c_null_ptr
-    agree = size(state_new) == size(state)
-    if (present(force)) call locate(force, n, at(1), agree)
-    if (present(stiffness)) call locate(stiffness, n, at(2), agree)
-    if (present(dissipated)) call locate(dissipated, n, at(3), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_masing_path(contact, size(state, kind=mslip_size), address(state), n, displacement, &
-      address(state_new), at(1), at(2), at(3))
-  end subroutine masing_path_separate
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(force)) call check_array(force, n, ptr(1), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(2), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_masing_path(contact, size(state, kind=mslip_size), address_of(state), n, &
+      displacement, address_of(state), ptr(1), ptr(2), ptr(3))
+  end subroutine mslip_masing_path_advance
 
   subroutine mslip_masing_tractions(contact, state, x, status, pressure, shear)
-    !! Tractions along the width in a state (Eq. 17-24, one term for each reversal remembered).
-    type(mslip_contact), intent(in) :: contact  !! The contact that led to the state.
-    real(mslip_real), intent(in), target, contiguous :: state(:)  !! A state; it is not changed.
-    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre, m.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure, Pa, at each x.
-    real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction, Pa, at each x.
+    !! Tractions along the width in a state (Eq. 17-24, one term per reversal of the state).
+    type(mslip_contact), intent(in) :: contact  !! The contact of the state.
+    real(mslip_real), intent(in) :: state(:)  !! A state.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure at each x [Pa].
+    real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction at each x [Pa].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(2)
-    logical :: agree
+    type(c_ptr) :: ptr(2)
 
     n = size(x, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(pressure)) call locate(pressure, n, at(1), agree)
-    if (present(shear)) call locate(shear, n, at(2), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_masing_tractions(contact, size(state, kind=mslip_size), address(state), n, x, at(1), at(2))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(pressure)) call check_array(pressure, n, ptr(1), status)
+    if (present(shear)) call check_array(shear, n, ptr(2), status)
+    if (status == MSLIP_OK) status = c_masing_tractions(contact, size(state, kind=mslip_size), state, n, x, ptr(1), ptr(2))
   end subroutine mslip_masing_tractions
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Cycles
 
   subroutine mslip_hysteresis_loop(contact, amplitude, displacement, force, status)
-    !! The closed loop between +amplitude and -amplitude (Eq. 11, 12): n points of one period of amplitude*cos(t), from
-    !! t = 0, at equal distances of t. The point at t = 2 pi, equal to the first, is not among them.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement, m, 0 to 1e150.
-    real(mslip_real), intent(inout), target, contiguous :: displacement(:)  !! Displacement of each point, m.
-    real(mslip_real), intent(inout), target, contiguous :: force(:)  !! Force of each point, N.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+    !! The closed loop between +amplitude and -amplitude (Eq. 11, 12): n uniformly spaced points of one period of
+    !! amplitude*cos(t), from t = 0. The point at t = 2 pi, equal to the first, is left out.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150.
+    real(mslip_real), intent(inout), target, contiguous :: displacement(:)  !! Displacement of each point [m].
+    real(mslip_real), intent(inout), target, contiguous :: force(:)  !! Force of each point [N].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (size(force) /= size(displacement)) return
-    status = c_hysteresis_loop(contact, amplitude, size(force, kind=mslip_size), address(displacement), address(force))
+    if (size(force) == size(displacement)) status = c_hysteresis_loop(contact, amplitude, size(force, kind=mslip_size), &
+      address_of(displacement), address_of(force))
   end subroutine mslip_hysteresis_loop
 
   subroutine dissipated_energy_array(contact, force_amplitude, energy, status)
     !! Energy dissipated per cycle of the force between +amplitude and -amplitude (Eq. 13-16).
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: force_amplitude(:)  !! Amplitudes of the force, N, 0 to `slip_force`.
-    real(mslip_real), intent(inout), target, contiguous :: energy(:)  !! Energy per cycle, J, for each amplitude.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: force_amplitude(:)  !! Amplitudes of the force [N], 0 to `slip_force`.
+    real(mslip_real), intent(inout), target, contiguous :: energy(:)  !! Energy per cycle at each amplitude [J].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (size(energy) /= size(force_amplitude)) return
-    status = c_dissipated_energy(contact, size(energy, kind=mslip_size), force_amplitude, address(energy))
+    if (size(energy) == size(force_amplitude)) status = c_dissipated_energy(contact, size(energy, kind=mslip_size), &
+      force_amplitude, address_of(energy))
   end subroutine dissipated_energy_array
 
   subroutine dissipated_energy_scalar(contact, force_amplitude, energy, status)
     !! Energy dissipated per cycle of the force between +amplitude and -amplitude (Eq. 13-16).
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: force_amplitude  !! Amplitude of the force, N, 0 to `slip_force`.
-    real(mslip_real), intent(inout), target :: energy  !! Energy per cycle, J.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: force_amplitude  !! Amplitude of the force [N], 0 to `slip_force`.
+    real(mslip_real), intent(inout), target :: energy  !! Energy per cycle [J].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
 
-    status = c_dissipated_energy(contact, 1_mslip_size, [force_amplitude], address_scalar(energy))
+    status = c_dissipated_energy(contact, 1_mslip_size, [force_amplitude], address_of(energy))
   end subroutine dissipated_energy_scalar
 
   subroutine complex_stiffness_array(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! Harmonic contact stiffness K' + iK'' at amplitudes of the displacement (section 3.4): the first harmonic of the
-    !! force over that of the displacement, in rotating-vector form; K'' >= 0. And its derivatives by the amplitude.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
+    !! Complex (harmonic) contact stiffness K' + iK'' at amplitudes of the displacement (section 3.4): the first harmonic of
+    !! the force over that of the displacement, in rotating-vector form; K'' >= 0. Derivatives are with respect to the
+    !! amplitude.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: amplitude(:)
-      !! Amplitudes of the displacement, m, 0 to 1e150; 0 gives the initial stiffness.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! K', N/m, at each amplitude.
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! K'', N/m, at each amplitude.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude), N/m2.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude), N/m2.
+      !! Amplitudes of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! K' at each amplitude [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! K'' at each amplitude [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude) [N/m2].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude) [N/m2].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(4)
-    logical :: agree
+    type(c_ptr) :: ptr(4)
 
     n = size(amplitude, kind=mslip_size)
-    at = c_null_ptr
-    agree = .true.
-    if (present(k_real)) call locate(k_real, n, at(1), agree)
-    if (present(k_imag)) call locate(k_imag, n, at(2), agree)
-    if (present(dk_real)) call locate(dk_real, n, at(3), agree)
-    if (present(dk_imag)) call locate(dk_imag, n, at(4), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_complex_stiffness(contact, n, amplitude, at(1), at(2), at(3), at(4))
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(k_real)) call check_array(k_real, n, ptr(1), status)
+    if (present(k_imag)) call check_array(k_imag, n, ptr(2), status)
+    if (present(dk_real)) call check_array(dk_real, n, ptr(3), status)
+    if (present(dk_imag)) call check_array(dk_imag, n, ptr(4), status)
+    if (status == MSLIP_OK) status = c_complex_stiffness(contact, n, amplitude, ptr(1), ptr(2), ptr(3), ptr(4))
   end subroutine complex_stiffness_array
 
   subroutine complex_stiffness_scalar(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! Harmonic contact stiffness K' + iK'' at an amplitude of the displacement (section 3.4): the first harmonic of the
-    !! force over that of the displacement, in rotating-vector form; K'' >= 0. And its derivatives by the amplitude.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement, m, 0 to 1e150; 0 gives the initial stiffness.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target :: k_real  !! K', N/m.
-    real(mslip_real), intent(inout), optional, target :: k_imag  !! K'', N/m.
-    real(mslip_real), intent(inout), optional, target :: dk_real  !! dK'/d(amplitude), N/m2.
-    real(mslip_real), intent(inout), optional, target :: dk_imag  !! dK''/d(amplitude), N/m2.
+    !! Complex (harmonic) contact stiffness K' + iK'' at an amplitude of the displacement (section 3.4): the first harmonic
+    !! of the force over that of the displacement, in rotating-vector form; K'' >= 0. Derivatives are with respect to the
+    !! amplitude.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: k_real  !! K' [N/m].
+    real(mslip_real), intent(inout), optional, target :: k_imag  !! K'' [N/m].
+    real(mslip_real), intent(inout), optional, target :: dk_real  !! dK'/d(amplitude) [N/m2].
+    real(mslip_real), intent(inout), optional, target :: dk_imag  !! dK''/d(amplitude) [N/m2].
 
     status = c_complex_stiffness(contact, 1_mslip_size, [amplitude], &
-      address_scalar(k_real), address_scalar(k_imag), address_scalar(dk_real), address_scalar(dk_imag))
+      address_of(k_real), address_of(k_imag), address_of(dk_real), address_of(dk_imag))
   end subroutine complex_stiffness_scalar
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Several harmonics: alternating frequency/time
 
-  pure function mslip_harmonic_workspace_length(harmonics, samples, rule) result(needed)
-    !! Length of the workspace of `mslip_harmonic_force`; 0 where the arguments are out of range. May dimension an array.
-    !! It is larger than that of the C function of this name, and a workspace serves this module only.
+  pure function mslip_harmonic_workspace_length(harmonics, samples, rule) result(length)
+    !! Length of the workspace of `mslip_harmonic_force`; 0 if the arguments are out of range. May dimension an array.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
-    integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
-    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_EQUIDISTANT` (the default) or `MSLIP_BETWEEN_REVERSALS`.
-    integer(mslip_size) :: needed  !! Numbers that the workspace has to have.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    integer(mslip_int), intent(in), optional :: rule  !! As for `mslip_harmonic_workspace_init`.
+    integer(mslip_size) :: length  !! Length of the workspace.
 
-    needed = c_harmonic_workspace_length(harmonics, samples, chosen(rule))
     ! A C length beyond the largest integer of this kind arrives negative.
-    if (needed > 0 .and. needed <= huge(needed) - workspace_header) then
-      needed = needed + workspace_header
-    else
-      needed = 0
-    end if
+    length = max(c_harmonic_workspace_length(harmonics, samples, rule_or_default(rule)), 0_mslip_size)
   end function mslip_harmonic_workspace_length
 
   subroutine mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
-    !! Fill a workspace: tables of the cosines and sines, and room. Done once; each thread needs a workspace of its own.
+    !! Initialise a workspace: tables of cosines and sines, and scratch memory. Done once; each thread needs a workspace of
+    !! its own.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
-    integer(mslip_size), intent(in) :: samples  !! Instants of a period, > 2H.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
-      !! The workspace; at least `mslip_harmonic_workspace_length(harmonics, samples, rule)` numbers.
+      !! The workspace; at least `mslip_harmonic_workspace_length(harmonics, samples, rule)` values.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES`, `MSLIP_BAD_RULE` or `MSLIP_WORKSPACE_TOO_SHORT`.
     integer(mslip_int), intent(in), optional :: rule
-      !! `MSLIP_EQUIDISTANT`: samples at equal distances from t = 0 (the default). `MSLIP_BETWEEN_REVERSALS`: about as many
-      !! nodes between the instants at which the displacement turns, a loop closes or gross slip starts; far more accurate.
+      !! `MSLIP_UNIFORM_SAMPLING` (the default): uniformly spaced samples from t = 0. `MSLIP_EVENT_DRIVEN`: about as many
+      !! Gauss-Legendre nodes between the events (reversals, loop closures, onset of gross slip); far more accurate.
 
-    if (size(workspace) > workspace_header) then
-      status = c_harmonic_workspace_init(harmonics, samples, chosen(rule), &
-        size(workspace, kind=mslip_size) - workspace_header, c_loc(workspace(workspace_header + 1)))
-    else
-      status = c_harmonic_workspace_init(harmonics, samples, chosen(rule), 0_mslip_size, c_loc(no_elements))
-    end if
-    if (status /= MSLIP_OK) return
-    call mark_workspace(workspace, int(mslip_harmonic_workspace_length(harmonics, samples, rule), c_int64_t), &
-      int(2*harmonics + 1, c_int64_t))
+    status = c_harmonic_workspace_init(harmonics, samples, rule_or_default(rule), size(workspace, kind=mslip_size), &
+      address_of(workspace))
   end subroutine mslip_harmonic_workspace_init
 
+  subroutine mslip_harmonic_workspace_size(workspace, harmonics, samples, rule, status)
+    !! The arguments with which a workspace was initialised.
+    real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
+    integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
+    integer(mslip_size), intent(inout) :: samples  !! Samples per period.
+    integer(mslip_int), intent(inout) :: rule  !! `MSLIP_UNIFORM_SAMPLING` or `MSLIP_EVENT_DRIVEN`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_WORKSPACE` or `MSLIP_WORKSPACE_TOO_SHORT`.
+
+    integer(mslip_size), target :: sizes(2)
+    integer(mslip_int), target :: its_rule
+    integer(mslip_size) :: n
+
+    n = size(workspace, kind=mslip_size)
+    status = MSLIP_WORKSPACE_TOO_SHORT
+    ! C reads the header, which the shortest workspace contains.
+    if (n < c_harmonic_workspace_length(1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING)) return
+    status = c_harmonic_workspace_size(workspace, c_loc(sizes(1)), c_loc(sizes(2)), c_loc(its_rule))
+    if (status /= MSLIP_OK) return
+    if (n < c_harmonic_workspace_length(sizes(1), sizes(2), its_rule)) then
+      status = MSLIP_WORKSPACE_TOO_SHORT
+      return
+    end if
+    harmonics = sizes(1)
+    samples = sizes(2)
+    rule = its_rule
+  end subroutine mslip_harmonic_workspace_size
+
   subroutine mslip_harmonic_force(contact, workspace, displacement, status, force, jacobian, dissipated)
-    !! Fourier coefficients of the force under a periodic displacement, in the steady state: of the second of two periods
-    !! from the virgin state, by the rule of the workspace. All coefficients are in the order
-    !! [c0, cos 1, sin 1, cos 2, sin 2, ...].
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
-      !! An initialised workspace (`MSLIP_BAD_WORKSPACE`); it decides H.
-    real(mslip_real), intent(in) :: displacement(:)  !! 2H+1 coefficients of the displacement, m.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force, N.
+    !! Fourier coefficients of the force under a periodic displacement in the steady state, the second of two periods from the
+    !! unloaded state, by the rule of the workspace.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace; it decides H.
+    real(mslip_real), intent(in) :: displacement(:)  !! 2H+1 coefficients of the displacement [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
-      !! (2H+1, 2H+1): derivative of force coefficient i by displacement coefficient j in element (i, j), N/m; exact for
-      !! the sampled problem, and between reversals as good as the force.
-    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period, J.
+      !! (2H+1, 2H+1): derivatives of the force coefficients with respect to the displacement coefficients [N/m]; exact for
+      !! uniform sampling, and event-driven as accurate as the force.
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
 
     integer(mslip_size) :: m
-    type(c_ptr) :: at(2)
-    logical :: agree
+    type(c_ptr) :: ptr(2)
 
-    call open_workspace(workspace, m, status)
+    call count_coefficients(workspace, m, status)
     if (status /= MSLIP_OK) return
-    at = c_null_ptr
-    agree = size(displacement, kind=mslip_size) == m
-    if (present(force)) call locate(force, m, at(1), agree)
-    if (present(jacobian)) call locate(jacobian, [m, m], at(2), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_harmonic_force(contact, c_loc(workspace(workspace_header + 1)), displacement, at(1), at(2), &
-      address_scalar(dissipated))
+    ptr = c_null_ptr
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, m, ptr(1), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m], ptr(2), status)
+    if (status == MSLIP_OK) status = c_harmonic_force(contact, address_of(workspace), displacement, ptr(1), ptr(2), &
+      address_of(dissipated))
   end subroutine mslip_harmonic_force
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Many contacts at once: item i uses contacts(i), and is skipped where active(i) is 0
+  ! Batches: n items at once. Item i uses contacts(index(i)), or contacts(i) without an index
 
-  subroutine mslip_interface_complex_stiffness(contacts, amplitude, status, active, k_real, k_imag, dk_real, dk_imag)
-    !! `mslip_complex_stiffness` of n contacts.
-    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
-    real(mslip_real), intent(in) :: amplitude(:)  !! n amplitudes of the displacement, m, 0 to 1e150.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+  subroutine mslip_batch_complex_stiffness(contacts, amplitude, status, index, active, k_real, k_imag, dk_real, dk_imag)
+    !! `mslip_complex_stiffness` of n items. On an error of one item none is modified.
+    type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
+    real(mslip_real), intent(in) :: amplitude(:)  !! n amplitudes of the displacement [m], 0 to 1e150.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of contacts, from 1 (`MSLIP_BAD_INDEX`). Absent: `contacts` has n elements, one per item.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
-      !! n flags: where 0 the item is skipped and its outputs keep what they held. Absent: none is skipped.
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! n values of K', N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! n values of K'', N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! n values of dK'/d(amplitude), N/m2.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! n values of dK''/d(amplitude), N/m2.
+      !! n flags: an item with flag 0 is skipped, and its outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! n values of K' [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! n values of K'' [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! n values of dK'/d(amplitude) [N/m2].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! n values of dK''/d(amplitude) [N/m2].
 
     integer(mslip_size) :: n
-    type(c_ptr) :: at(5)
-    logical :: agree
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(6)
 
-    n = size(contacts, kind=mslip_size)
-    at = c_null_ptr
-    agree = size(amplitude, kind=mslip_size) == n
-    if (present(active)) call locate(active, n, at(1), agree)
-    if (present(k_real)) call locate(k_real, n, at(2), agree)
-    if (present(k_imag)) call locate(k_imag, n, at(3), agree)
-    if (present(dk_real)) call locate(dk_real, n, at(4), agree)
-    if (present(dk_imag)) call locate(dk_imag, n, at(5), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_interface_complex_stiffness(n, contacts, at(1), amplitude, at(2), at(3), at(4), at(5))
-  end subroutine mslip_interface_complex_stiffness
+    n = size(amplitude, kind=mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    if (present(k_real)) call check_array(k_real, n, ptr(3), status)
+    if (present(k_imag)) call check_array(k_imag, n, ptr(4), status)
+    if (present(dk_real)) call check_array(dk_real, n, ptr(5), status)
+    if (present(dk_imag)) call check_array(dk_imag, n, ptr(6), status)
+    if (status == MSLIP_OK) status = c_batch_complex_stiffness(n, size(contacts, kind=mslip_size), contacts, ptr(1), ptr(2), &
+      amplitude, ptr(3), ptr(4), ptr(5), ptr(6))
+  end subroutine mslip_batch_complex_stiffness
 
-  subroutine interface_masing_update_in_place(contacts, states, displacement, status, active, force, stiffness, dissipated)
-    !! `mslip_masing_update` of n contacts, in place. Where one is refused, none is updated.
-    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
-    real(mslip_real), intent(inout), target, contiguous :: states(:, :)
-      !! (state length, n): the state of each contact before and after the step.
-    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step, m.
-    integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`.
-    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
-      !! n flags: where 0 the item is skipped, its state and outputs keep what they held. Absent: none is skipped.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces, N.
-    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)  !! n stiffnesses, N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step, J.
-
-    integer(mslip_size) :: n
-    type(c_ptr) :: at(5)
-    logical :: agree
-
-    n = size(contacts, kind=mslip_size)
-    at = c_null_ptr
-    agree = size(displacement, kind=mslip_size) == n
-    if (present(active)) call locate(active, n, at(1), agree)
-    call locate(states, [size(states, 1, mslip_size), n], at(2), agree)
-    if (present(force)) call locate(force, n, at(3), agree)
-    if (present(stiffness)) call locate(stiffness, n, at(4), agree)
-    if (present(dissipated)) call locate(dissipated, n, at(5), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_interface_masing_update(n, contacts, at(1), size(states, 1, mslip_size), at(2), displacement, &
-      at(2), at(3), at(4), at(5))
-  end subroutine interface_masing_update_in_place
-
-  subroutine interface_masing_update_separate(contacts, states, displacement, status, active, force, stiffness, &
-    dissipated, states_new)
-    !! `mslip_masing_update` of n contacts; the states before the step are kept. Where one is refused, none is updated.
-    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
-    real(mslip_real), intent(in), target, contiguous :: states(:, :)
-      !! (state length, n): the state of each contact before the step.
-    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step, m.
-    integer(mslip_int), intent(out) :: status  !! As for `mslip_masing_update`.
-    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
-      !! n flags: where 0 the item is skipped, its new state and outputs keep what they held. Absent: none is skipped.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces, N.
-    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)  !! n stiffnesses, N/m.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step, J.
+  subroutine mslip_batch_masing_update(contacts, states_old, displacement, states_new, status, index, active, force, &
+    stiffness, dissipated)
+    !! `mslip_masing_update` of n items. On an error of one item none is modified.
+    type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
+    real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
+      !! (state length, n): the state of each item before the step.
+    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step [m].
     real(mslip_real), intent(inout), target, contiguous :: states_new(:, :)
-      !! (state length, n): the state of each contact after the step; another array than `states`, of the same shape.
-
-    integer(mslip_size) :: n
-    type(c_ptr) :: at(6)
-    logical :: agree
-
-    n = size(contacts, kind=mslip_size)
-    at = c_null_ptr
-    agree = size(displacement, kind=mslip_size) == n
-    if (present(active)) call locate(active, n, at(1), agree)
-    call locate(states, [size(states, 1, mslip_size), n], at(2), agree)
-    call locate(states_new, shape(states, mslip_size), at(3), agree)
-    if (present(force)) call locate(force, n, at(4), agree)
-    if (present(stiffness)) call locate(stiffness, n, at(5), agree)
-    if (present(dissipated)) call locate(dissipated, n, at(6), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_interface_masing_update(n, contacts, at(1), size(states, 1, mslip_size), at(2), displacement, &
-      at(3), at(4), at(5), at(6))
-  end subroutine interface_masing_update_separate
-
-  subroutine mslip_interface_harmonic_force(contacts, workspace, displacement, status, active, force, jacobian, dissipated)
-    !! `mslip_harmonic_force` of n contacts, with one workspace.
-    type(mslip_contact), intent(in) :: contacts(:)  !! n prepared contacts.
-    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
-      !! An initialised workspace (`MSLIP_BAD_WORKSPACE`); it decides H.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2H+1, n): coefficients of each displacement, m.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+      !! (state length, n): the state of each item after the step; for a step in place use `mslip_batch_masing_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of contacts, from 1 (`MSLIP_BAD_INDEX`). Absent: `contacts` has n elements, one per item.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
-      !! n flags: where 0 the item is skipped and its outputs keep what they held. Absent: none is skipped.
+      !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)  !! n stiffnesses [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
+
+    integer(mslip_size) :: length, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(7)
+
+    length = size(states_old, 1, mslip_size)
+    n = size(displacement, kind=mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    call check_array(states_old, [length, n], ptr(3), status)
+    call check_array(states_new, [length, n], ptr(4), status)
+    if (present(force)) call check_array(force, n, ptr(5), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(6), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(7), status)
+    if (status == MSLIP_OK) status = c_batch_masing_update(n, size(contacts, kind=mslip_size), contacts, ptr(1), ptr(2), &
+      length, ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7))
+  end subroutine mslip_batch_masing_update
+
+  subroutine mslip_batch_masing_advance(contacts, states, displacement, status, index, active, force, &
+    stiffness, dissipated)
+    !! `mslip_masing_advance` of n items. On an error of one item none is modified.
+    type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
+    real(mslip_real), intent(inout), target, contiguous :: states(:, :)
+      !! (state length, n): the state of each item before and after the step.
+    real(mslip_real), intent(in) :: displacement(:)  !! n displacements at the end of the step [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of contacts, from 1 (`MSLIP_BAD_INDEX`). Absent: `contacts` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)  !! n stiffnesses [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
+
+    integer(mslip_size) :: length, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(6)
+
+    length = size(states, 1, mslip_size)
+    n = size(displacement, kind=mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    call check_array(states, [length, n], ptr(3), status)
+    if (present(force)) call check_array(force, n, ptr(4), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(5), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(6), status)
+    if (status == MSLIP_OK) status = c_batch_masing_update(n, size(contacts, kind=mslip_size), contacts, ptr(1), ptr(2), &
+      length, ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
+  end subroutine mslip_batch_masing_advance
+
+  subroutine mslip_batch_harmonic_force(contacts, workspace, displacement, status, index, active, force, jacobian, dissipated)
+    !! `mslip_harmonic_force` of n items, with one workspace. On an error of one item none is modified.
+    type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace; it decides H.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2H+1, n): coefficients of each displacement [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of contacts, from 1 (`MSLIP_BAD_INDEX`). Absent: `contacts` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its outputs keep their values. Absent: no item is skipped.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
-      !! (2H+1, n): coefficients of each force, N.
+      !! (2H+1, n): coefficients of each force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
-      !! (2H+1, 2H+1, n): derivative of force coefficient i by displacement coefficient j of item k in element (i, j, k), N/m.
+      !! (2H+1, 2H+1, n): the Jacobian of each item [N/m].
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
-      !! n energies dissipated per period, J.
+      !! n energies dissipated per period [J].
 
     integer(mslip_size) :: m, n
-    type(c_ptr) :: at(4)
-    logical :: agree
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(5)
 
-    call open_workspace(workspace, m, status)
+    call count_coefficients(workspace, m, status)
     if (status /= MSLIP_OK) return
-    n = size(contacts, kind=mslip_size)
-    at = c_null_ptr
-    agree = all(shape(displacement, mslip_size) == [m, n])
-    if (present(active)) call locate(active, n, at(1), agree)
-    if (present(force)) call locate(force, [m, n], at(2), agree)
-    if (present(jacobian)) call locate(jacobian, [m, m, n], at(3), agree)
-    if (present(dissipated)) call locate(dissipated, n, at(4), agree)
-    status = MSLIP_BAD_ARRAY_SIZE
-    if (agree) status = c_interface_harmonic_force(n, contacts, at(1), c_loc(workspace(workspace_header + 1)), &
-      displacement, at(2), at(3), at(4))
-  end subroutine mslip_interface_harmonic_force
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (size(displacement, 1, mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    if (present(force)) call check_array(force, [m, n], ptr(3), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m, n], ptr(4), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
+    if (status == MSLIP_OK) status = c_batch_harmonic_force(n, size(contacts, kind=mslip_size), contacts, ptr(1), ptr(2), &
+      address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
+  end subroutine mslip_batch_harmonic_force
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! For solvers that know spring-sliders only
+  ! Spring-slider substitutes for solvers without an element of this kind
 
   subroutine mslip_jenkins_equivalent(contact, amplitude, stiffness, slip_force, status)
-    !! The one spring-slider (Jenkins element) that has the K' and K'' of the contact at an amplitude; at 0 it has the
-    !! initial stiffness, and slips at `slip_force`.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement, m, 0 to 1e150.
-    real(mslip_real), intent(inout) :: stiffness  !! Stiffness of the spring, N/m.
-    real(mslip_real), intent(inout) :: slip_force  !! Force at which the slider slips, N.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, or what was refused. Both are 0 for a contact that carries no force.
+    !! The spring-slider (Jenkins element) with the K' and K'' of the contact at an amplitude; at amplitude 0, with the
+    !! initial stiffness and `slip_force` of the contact.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150.
+    real(mslip_real), intent(inout), target :: stiffness  !! Stiffness of the spring [N/m]; 0 for an open contact.
+    real(mslip_real), intent(inout), target :: slip_force  !! Slip force of the slider [N]; 0 for an open contact.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
 
-    status = c_jenkins_equivalent(contact, amplitude, stiffness, slip_force)
+    status = c_jenkins_equivalent(contact, amplitude, address_of(stiffness), address_of(slip_force))
   end subroutine mslip_jenkins_equivalent
 
   subroutine mslip_iwan_equivalent(contact, stiffness, slip_force, status, force_error)
-    !! The parallel bank of n >= 1 spring-sliders (Iwan model) with the smallest error of the monotonic force; it follows
-    !! any history as the contact does. All numbers are 0 for a contact that carries no force.
-    type(mslip_contact), intent(in) :: contact  !! A prepared contact.
-    real(mslip_real), intent(inout), target, contiguous :: stiffness(:)  !! Stiffness of each spring, N/m.
+    !! The n >= 1 parallel spring-sliders (Iwan model) with the smallest error of the monotonic force; they follow any
+    !! load history as the contact does. All values are 0 for an open contact.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(inout), target, contiguous :: stiffness(:)  !! Stiffness of each spring [N/m].
     real(mslip_real), intent(inout), target, contiguous :: slip_force(:)
-      !! Force at which each slider slips, N; the sum is `slip_force` of the contact.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or what was refused.
+      !! Slip force of each slider [N]; the sum is `slip_force` of the contact.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target :: force_error
-      !! Largest error of the monotonic force, over `slip_force` of the contact.
+      !! Largest error of the monotonic force, relative to `slip_force` of the contact.
 
     status = MSLIP_BAD_ARRAY_SIZE
-    if (size(slip_force) /= size(stiffness)) return
-    status = c_iwan_equivalent(contact, size(stiffness, kind=mslip_size), address(stiffness), address(slip_force), &
-      address_scalar(force_error))
+    if (size(slip_force) == size(stiffness)) status = c_iwan_equivalent(contact, size(stiffness, kind=mslip_size), &
+      address_of(stiffness), address_of(slip_force), address_of(force_error))
   end subroutine mslip_iwan_equivalent
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Between Fortran and C
+  ! Conversion between Fortran and C
 
   function text_of(text) result(copy)
     ! A C string as Fortran text. Its length is not deferred: with -fno-automatic gfortran 12 returns such a text empty.
@@ -1098,112 +1162,110 @@ contains
     end do
   end function text_of
 
-  pure function chosen(rule)
-    ! The rule that is given, or the default. A function, because a pure procedure with a local variable is refused where a
-    ! compiler is told to keep all of them (-fno-automatic).
+  pure function rule_or_default(rule)
+    ! A function, because a pure procedure with a local variable is rejected with -fno-automatic.
     integer(mslip_int), intent(in), optional :: rule
-    integer(mslip_int) :: chosen
+    integer(mslip_int) :: rule_or_default
 
-    chosen = MSLIP_EQUIDISTANT
-    if (present(rule)) chosen = rule
-  end function chosen
+    rule_or_default = MSLIP_UNIFORM_SAMPLING
+    if (present(rule)) rule_or_default = rule
+  end function rule_or_default
 
-  pure subroutine mark_workspace(workspace, needed, m)
-    ! What a workspace begins with: a seal, its length and its number of coefficients, which must agree when they are read.
-    real(mslip_real), intent(inout), contiguous :: workspace(:)
-    integer(c_int64_t), intent(in) :: needed, m
-
-    workspace(1:workspace_header) = transfer([workspace_seal(needed, m), needed, m], workspace, workspace_header)
-  end subroutine mark_workspace
-
-  pure function workspace_seal(needed, m) result(seal)
-    integer(c_int64_t), intent(in) :: needed, m
-    integer(c_int64_t) :: seal
-
-    seal = ieor(workspace_mark, ieor(needed, ishftc(m, 24)))
-  end function workspace_seal
-
-  subroutine open_workspace(workspace, m, status)
-    ! The number of coefficients of a workspace. All is read as bits, because what an array holds that was never
-    ! initialised may trap as a number.
-    real(mslip_real), intent(in) :: workspace(:)
+  subroutine count_coefficients(workspace, m, status)
+    ! The number 2H+1 of coefficients of a workspace.
+    real(mslip_real), intent(in), contiguous :: workspace(:)
     integer(mslip_size), intent(out) :: m
     integer(mslip_int), intent(out) :: status
 
-    integer(c_int64_t) :: header(workspace_header)
+    integer(mslip_size) :: samples
+    integer(mslip_int) :: rule
 
     m = 0
-    status = MSLIP_BAD_WORKSPACE
-    if (size(workspace) <= workspace_header) return
-    header = transfer(workspace(1:workspace_header), header)
-    if (header(1) /= workspace_seal(header(2), header(3))) return
-    if (size(workspace, kind=mslip_size) < header(2)) then
-      status = MSLIP_WORKSPACE_TOO_SHORT
-    else
-      m = int(header(3), mslip_size)
-      status = MSLIP_OK
+    call mslip_harmonic_workspace_size(workspace, m, samples, rule, status)
+    m = 2*m + 1
+  end subroutine count_coefficients
+
+  subroutine check_index(n_contacts, n, index, from_zero, ptr, status)
+    ! The index of a batch as a copy that counts from 0; without an index, each of the n items has a contact of its own.
+    integer(mslip_size), intent(in) :: n_contacts, n
+    integer(mslip_int), intent(in), optional :: index(:)
+    integer(mslip_int), intent(out), allocatable, target :: from_zero(:)
+    type(c_ptr), intent(inout) :: ptr
+    integer(mslip_int), intent(out) :: status
+
+    integer :: failure
+
+    status = MSLIP_OK
+    if (present(index)) then
+      allocate (from_zero(size(index, kind=mslip_size)), stat=failure)
+      if (failure /= 0) then
+        status = MSLIP_BAD_ARRAY_SIZE
+      else
+        from_zero(:) = max(index, 0_mslip_int) - 1_mslip_int
+        call check_array(from_zero, n, ptr, status)
+      end if
+    else if (n_contacts /= n) then
+      status = MSLIP_BAD_ARRAY_SIZE
     end if
-  end subroutine open_workspace
+  end subroutine check_index
 
-  function address_scalar(a) result(at)
-    ! C address of an optional number, NULL where it is absent.
+  function address_of_scalar(a) result(ptr)
     real(mslip_real), intent(in), optional, target :: a
-    type(c_ptr) :: at
+    type(c_ptr) :: ptr
 
-    at = c_null_ptr
-    if (present(a)) at = c_loc(a)
-  end function address_scalar
+    ptr = c_null_ptr
+    if (present(a)) ptr = c_loc(a)
+  end function address_of_scalar
 
-  function address(a) result(at)
-    ! C address of an array.
+  function address_of_array(a) result(ptr)
     real(mslip_real), intent(in), target, contiguous :: a(:)
-    type(c_ptr) :: at
+    type(c_ptr) :: ptr
 
-    at = c_loc(no_elements)
-    if (size(a) > 0) at = c_loc(a)
-  end function address
+    ptr = c_loc(no_elements)
+    if (size(a, kind=mslip_size) > 0) ptr = c_loc(a)
+  end function address_of_array
 
-  subroutine locate_array(a, n, at, agree)
+  subroutine check_vector(a, extent, ptr, status)
     real(mslip_real), intent(in), target, contiguous :: a(:)
-    integer(mslip_size), intent(in) :: n
-    type(c_ptr), intent(out) :: at
-    logical, intent(inout) :: agree
+    integer(mslip_size), intent(in) :: extent
+    type(c_ptr), intent(out) :: ptr
+    integer(mslip_int), intent(inout) :: status
 
-    at = address(a)
-    agree = agree .and. size(a, kind=mslip_size) == n
-  end subroutine locate_array
+    ptr = address_of(a)
+    if (size(a, kind=mslip_size) /= extent) status = MSLIP_BAD_ARRAY_SIZE
+  end subroutine check_vector
 
-  subroutine locate_matrix(a, extents, at, agree)
+  subroutine check_matrix(a, extents, ptr, status)
     real(mslip_real), intent(in), target, contiguous :: a(:, :)
     integer(mslip_size), intent(in) :: extents(2)
-    type(c_ptr), intent(out) :: at
-    logical, intent(inout) :: agree
+    type(c_ptr), intent(out) :: ptr
+    integer(mslip_int), intent(inout) :: status
 
-    at = c_loc(no_elements)
-    if (size(a) > 0) at = c_loc(a)
-    agree = agree .and. all(shape(a, mslip_size) == extents)
-  end subroutine locate_matrix
+    ptr = c_loc(no_elements)
+    if (size(a, kind=mslip_size) > 0) ptr = c_loc(a)
+    if (any(shape(a, mslip_size) /= extents)) status = MSLIP_BAD_ARRAY_SIZE
+  end subroutine check_matrix
 
-  subroutine locate_matrices(a, extents, at, agree)
+  subroutine check_matrices(a, extents, ptr, status)
     real(mslip_real), intent(in), target, contiguous :: a(:, :, :)
     integer(mslip_size), intent(in) :: extents(3)
-    type(c_ptr), intent(out) :: at
-    logical, intent(inout) :: agree
+    type(c_ptr), intent(out) :: ptr
+    integer(mslip_int), intent(inout) :: status
 
-    at = c_loc(no_elements)
-    if (size(a) > 0) at = c_loc(a)
-    agree = agree .and. all(shape(a, mslip_size) == extents)
-  end subroutine locate_matrices
+    ptr = c_loc(no_elements)
+    if (size(a, kind=mslip_size) > 0) ptr = c_loc(a)
+    if (any(shape(a, mslip_size) /= extents)) status = MSLIP_BAD_ARRAY_SIZE
+  end subroutine check_matrices
 
-  subroutine locate_flags(a, n, at, agree)
+  subroutine check_flags(a, extent, ptr, status)
     integer(mslip_int), intent(in), target, contiguous :: a(:)
-    integer(mslip_size), intent(in) :: n
-    type(c_ptr), intent(out) :: at
-    logical, intent(inout) :: agree
+    integer(mslip_size), intent(in) :: extent
+    type(c_ptr), intent(out) :: ptr
+    integer(mslip_int), intent(inout) :: status
 
-    at = c_loc(no_elements)
-    if (size(a) > 0) at = c_loc(a)
-    agree = agree .and. size(a, kind=mslip_size) == n
-  end subroutine locate_flags
+    ptr = c_loc(no_elements)
+    if (size(a, kind=mslip_size) > 0) ptr = c_loc(a)
+    if (size(a, kind=mslip_size) /= extent) status = MSLIP_BAD_ARRAY_SIZE
+  end subroutine check_flags
 
 end module microslip

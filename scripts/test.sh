@@ -119,7 +119,7 @@ step 'Rust: lints' "$CARGO" clippy --workspace --all-targets --locked -- -D warn
 step 'Rust: documentation' env RUSTDOCFLAGS='-D warnings' "$CARGO" doc --no-deps --locked --package microslip
 step 'shell: lints' sh -c 'find . -name target -prune -o -name "*.sh" -print | xargs shellcheck .ci/run'
 step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
-step 'C header: made from the source' "$CARGO" run --quiet --release --package xtask -- header --check
+step 'C header and Fortran module: generated from the source' "$CARGO" run --quiet --release --package xtask -- header --check
 
 step 'memory under stress, a hundredth of it' "$CARGO" run --quiet --release --locked --package stress -- --scale 0.01
 

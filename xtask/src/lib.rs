@@ -1,9 +1,14 @@
-//! The C header, generated from the Rust source, and the names that it declares.
+//! What is generated from the Rust source: the C header, blocks of the Fortran module, and the names that they declare.
 
+mod fortran;
+
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use cbindgen::{Bindings, Builder, Config};
 
+const HEADER: &str = "include/microslip.h";
+const MODULE: &str = "include/microslip.f90";
 const INCLUDE_GUARD: &str = "MICROSLIP_H";
 
 /// The directory of the library's package.
@@ -13,7 +18,7 @@ fn root() -> &'static Path {
 
 /// Path of the header in the repository.
 pub fn header_path() -> PathBuf {
-    root().join("include/microslip.h")
+    root().join(HEADER)
 }
 
 /// The text that the header should have.
@@ -31,16 +36,39 @@ pub fn symbols() -> Vec<String> {
     bindings().dynamic_symbols_names().map(str::to_owned).collect()
 }
 
-/// Compares the committed header with the source; the error is a message for a person.
-pub fn check_header() -> Result<(), String> {
-    let path = header_path();
-    let committed = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+/// The generated files, as paths in the repository, with the texts that they should have.
+fn generated() -> Result<[(&'static str, String); 2], String> {
     let header = header();
-    if committed == header {
-        return Ok(());
+    let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
+    Ok([(HEADER, header), (MODULE, module)])
+}
+
+/// Writes the header and the generated blocks of the Fortran module.
+pub fn write_header() -> Result<(), String> {
+    for (file, text) in generated()? {
+        // A file that is not written keeps its time, and nothing is built again.
+        if read(file).ok().as_ref() != Some(&text) {
+            fs::write(root().join(file), text).map_err(|e| format!("{file}: {e}"))?;
+        }
     }
-    let line = committed.lines().zip(header.lines()).take_while(|(old, new)| old == new).count();
-    Err(format!("include/microslip.h is stale from line {}: run `make header` and commit the result", line + 1))
+    Ok(())
+}
+
+/// Compares the committed header and Fortran module with the source; the error is a message for a person.
+pub fn check_header() -> Result<(), String> {
+    let mut stale = Vec::new();
+    for (file, text) in generated()? {
+        let committed = read(file)?;
+        if committed != text {
+            let line = committed.lines().zip(text.lines()).take_while(|(old, new)| old == new).count() + 1;
+            stale.push(format!("{file} is stale from line {line}: run `make header` and commit the result"));
+        }
+    }
+    if stale.is_empty() { Ok(()) } else { Err(stale.join("\n")) }
+}
+
+fn read(file: &str) -> Result<String, String> {
+    fs::read_to_string(root().join(file)).map_err(|e| format!("{file}: {e}"))
 }
 
 fn text_of(bindings: &Bindings) -> String {

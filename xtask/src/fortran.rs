@@ -1,0 +1,347 @@
+//! The generated blocks of the Fortran module: constants, result types and the interfaces of the C functions, from the text of
+//! the C header.
+//!
+//! In the module, a block stands between the lines `! <generated: NAME>` and `! </generated>`.
+
+/// Column at which comments and statements are wrapped; a line that takes a short comment along may have `LONGEST`.
+const WIDTH: usize = 120;
+/// The longest line of free-form Fortran.
+const LONGEST: usize = 132;
+/// A blank at which no line is broken.
+const UNBROKEN: char = '\u{a0}';
+
+/// Fills the generated blocks of the module from the header.
+pub fn fill(module: &str, header: &str) -> Result<String, String> {
+    let mut blocks =
+        vec![("constants", constants(header)), ("types", types(header)?), ("functions", functions(header)?)];
+    let mut filled = Vec::new();
+    let mut lines = module.lines();
+    while let Some(line) = lines.next() {
+        filled.push(line.to_owned());
+        let Some(name) = line.trim().strip_prefix("! <generated: ").and_then(|rest| rest.strip_suffix('>')) else {
+            continue;
+        };
+        let place =
+            blocks.iter().position(|block| block.0 == name).ok_or(format!("no such generated block: {name}"))?;
+        filled.extend(blocks.swap_remove(place).1);
+        let end = lines.find(|line| line.trim() == "! </generated>");
+        filled.push(end.ok_or(format!("the generated block does not end: {name}"))?.to_owned());
+    }
+    if let Some((name, _)) = blocks.first() {
+        return Err(format!("the generated block is missing: {name}"));
+    }
+    match filled.iter().find(|line| line.chars().count() > LONGEST) {
+        Some(line) => Err(format!("longer than {LONGEST} columns: {line}")),
+        None => Ok(filled.join("\n") + "\n"),
+    }
+}
+
+/// The integer constants but for the version of the package, which `mslip_version` returns.
+fn constants(header: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (item, comment) in items(header) {
+        let mut words = item.split_ascii_whitespace();
+        let (Some("#define"), Some(name), Some(value)) = (words.next(), words.next(), words.next()) else { continue };
+        if name.starts_with("MSLIP_VERSION_") || value.parse::<i32>().is_err() {
+            continue;
+        }
+        // Fortran ignores case: `mslip_abi_version` is a function.
+        let name = if name == "MSLIP_ABI_VERSION" { "MSLIP_MODULE_ABI_VERSION" } else { name };
+        lines.extend(commented("  ", format!("integer(mslip_int), parameter, public :: {name} = {value}"), &comment));
+    }
+    lines
+}
+
+/// The types that the library fills: the structures with a reserved array. Every component is 0 until then.
+fn types(header: &str) -> Result<Vec<String>, String> {
+    let mut lines = Vec::new();
+    let mut components = None;
+    for (item, comment) in items(header) {
+        let item = item.trim_end_matches(';');
+        if let Some(name) = item.strip_prefix("typedef struct ").and_then(|rest| rest.strip_suffix(" {")) {
+            let mut head = vec![format!("  type, bind(c), public :: {name}")];
+            head.extend(comment_lines("    ", &comment));
+            components = Some(head);
+        } else if let Some(mut body) = components.take() {
+            let Some(name) = item.strip_prefix("} ") else {
+                let argument = Argument::parse(item)?;
+                let name = argument.name.replace('[', "(").replace(']', ")");
+                let kind = if argument.base == "double" { "real(mslip_real)" } else { "integer(mslip_int)" };
+                body.extend(commented("    ", format!("{kind} :: {name} = 0"), &comment));
+                components = Some(body);
+                continue;
+            };
+            if body.iter().any(|line| line.contains("real(mslip_real) :: reserved(")) {
+                lines.extend(body);
+                lines.push(format!("  end type {name}"));
+            }
+        }
+    }
+    Ok(lines)
+}
+
+/// The interfaces of the C functions, with `c_` in place of the prefix.
+fn functions(header: &str) -> Result<Vec<String>, String> {
+    let declared = header.split_once("extern \"C\" {").ok_or("the header declares no functions")?.1;
+    let code: Vec<&str> = declared.lines().filter(|line| !line.starts_with(['/', '#', '}'])).collect();
+    let mut lines = vec!["  interface".to_owned()];
+    for declaration in code.join(" ").split(';').map(str::trim).filter(|text| !text.is_empty()) {
+        lines.push(String::new());
+        lines.extend(function(declaration)?);
+    }
+    lines.extend([String::new(), "  end interface".to_owned()]);
+    Ok(lines)
+}
+
+fn function(declaration: &str) -> Result<Vec<String>, String> {
+    let (head, arguments) = declaration.split_once('(').ok_or(format!("no function: {declaration}"))?;
+    let Argument { name, base, .. } = Argument::parse(head)?;
+    let arguments: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
+    let arguments = arguments.into_iter().filter(|text| *text != "void");
+    let arguments = arguments.map(Argument::parse).collect::<Result<Vec<Argument>, String>>()?;
+    let short = name.replacen("mslip_", "c_", 1);
+
+    // Without pointers there are no side effects, and the result may dimension an array.
+    let prefix = if base != "void" && arguments.iter().all(|argument| !argument.pointer) { "pure " } else { "" };
+    let unit = if base == "void" { "subroutine" } else { "function" };
+    let names: Vec<&str> = arguments.iter().map(|argument| argument.name).collect();
+    let names = names.join(", ");
+    let mut lines = wrapped("    ", &format!("{prefix}{unit} {short}({names}) bind(c,{UNBROKEN}name='{name}')"));
+    lines.push("      import".to_owned());
+
+    // One declaration for all arguments of a type.
+    let mut declarations: Vec<(String, Vec<String>)> = Vec::new();
+    for argument in &arguments {
+        let (kind, dummy) = argument.declaration(&names)?;
+        match declarations.iter_mut().find(|declared| declared.0 == kind) {
+            Some(declared) => declared.1.push(dummy),
+            None => declarations.push((kind, vec![dummy])),
+        }
+    }
+    if base != "void" {
+        let kind = if base == "char" { "type(c_ptr)".to_owned() } else { scalar(base)?.to_owned() };
+        declarations.push((kind, vec![short.clone()]));
+    }
+    for (kind, dummies) in declarations {
+        lines.extend(wrapped("      ", &format!("{kind} :: {}", dummies.join(", "))));
+    }
+    lines.push(format!("    end {unit} {short}"));
+    Ok(lines)
+}
+
+fn scalar(base: &str) -> Result<&'static str, String> {
+    match base {
+        "size_t" => Ok("integer(c_size_t)"),
+        "int32_t" => Ok("integer(c_int32_t)"),
+        "double" => Ok("real(c_double)"),
+        _ => Err(format!("no Fortran type is known for {base}")),
+    }
+}
+
+/// A C declaration: an argument, a component, or the name and result of a function.
+struct Argument<'a> {
+    name: &'a str,
+    base: &'a str,
+    pointer: bool,
+    constant: bool,
+}
+
+impl<'a> Argument<'a> {
+    fn parse(text: &'a str) -> Result<Argument<'a>, String> {
+        let start = text.rfind([' ', '*']).ok_or(format!("no declaration: {text}"))? + 1;
+        let (kind, name) = text.split_at(start);
+        let constant = kind.trim_start().starts_with("const ");
+        let base = kind.trim_matches([' ', '*']);
+        let base = base.strip_prefix("const ").unwrap_or(base);
+        let base = base.strip_prefix("struct ").unwrap_or(base);
+        Ok(Argument { name, base, pointer: kind.contains('*'), constant })
+    }
+
+    /// The type and the dummy argument of an interface whose arguments are `names`. Arrays that are only read are passed as
+    /// such, so that the compiler makes sections with strides contiguous; an array that may be absent, or may be an output as
+    /// well, is passed by its C address. Structures are arrays if their number is an argument.
+    fn declaration(&self, names: &str) -> Result<(String, String), String> {
+        let Argument { name, base, .. } = *self;
+        let intent = if self.constant { "intent(in)" } else { "intent(inout)" };
+        if !self.pointer {
+            Ok((format!("{}, value", scalar(base)?), name.to_owned()))
+        } else if base.starts_with("mslip_") {
+            let counted = names.split(", ").any(|count| count.strip_prefix("n_") == Some(name));
+            Ok((format!("type({base}), {intent}"), format!("{name}{}", if counted { "(*)" } else { "" })))
+        } else if base == "double" && self.constant && !name.ends_with("_old") {
+            Ok((format!("{}, {intent}", scalar(base)?), format!("{name}(*)")))
+        } else {
+            scalar(base).map(|_| ("type(c_ptr), value".to_owned(), name.to_owned()))
+        }
+    }
+}
+
+/// The lines of the header that are not comments, each with the comment before it.
+fn items(header: &str) -> Vec<(&str, String)> {
+    let mut items = Vec::new();
+    let mut comment = Vec::new();
+    for line in header.lines().map(str::trim) {
+        if let Some(text) = line.strip_prefix("//") {
+            comment.push(text.trim());
+        } else {
+            items.push((line, comment.join(" ")));
+            comment.clear();
+        }
+    }
+    items
+}
+
+/// A statement with its comment, on the same line if that is not too long.
+fn commented(indent: &str, statement: String, comment: &str) -> Vec<String> {
+    let line = format!("{indent}{statement}  !! {comment}");
+    if line.chars().count() <= LONGEST {
+        return vec![line];
+    }
+    let mut lines = vec![indent.to_owned() + &statement];
+    lines.extend(comment_lines(&format!("{indent}  "), comment));
+    lines
+}
+
+fn comment_lines(indent: &str, comment: &str) -> Vec<String> {
+    broken(comment, WIDTH - indent.len() - 3).into_iter().map(|line| format!("{indent}!! {line}")).collect()
+}
+
+/// A statement, continued if it is too long.
+fn wrapped(indent: &str, statement: &str) -> Vec<String> {
+    let parts = broken(statement, WIDTH - indent.len() - 4);
+    let last = parts.len() - 1;
+    let line = |(number, part): (usize, String)| {
+        let (start, end) = (if number > 0 { "  " } else { "" }, if number < last { " &" } else { "" });
+        format!("{indent}{start}{}{end}", part.replace(UNBROKEN, " "))
+    };
+    parts.into_iter().enumerate().map(line).collect()
+}
+
+/// A text, broken at blanks into lines of a width.
+fn broken(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_ascii_whitespace() {
+        let line = lines.last_mut().expect("there is a line");
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= width {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "
+// First.
+#define MSLIP_FIRST 1
+
+#define MICROSLIP_H
+
+// A result.
+typedef struct mslip_result {
+    // Force [N].
+    double force;
+    // Not to be read.
+    double reserved[7];
+} mslip_result;
+
+extern \"C\" {
+#endif // __cplusplus
+
+// A step; a function of its arguments.
+int32_t mslip_step(size_t n, size_t n_results, const struct mslip_result *results,
+                   const double *state_old, const double *x, double *state_new);
+
+size_t mslip_length(size_t n, int32_t rule);
+
+void mslip_clear(struct mslip_result *result);
+
+}  // extern \"C\"
+";
+    const MODULE: &str = "
+  ! <generated: constants>
+  ! </generated>
+  ! <generated: types>
+  stale
+  ! </generated>
+  ! <generated: functions>
+  ! </generated>
+";
+    const FILLED: &str = "
+  ! <generated: constants>
+  integer(mslip_int), parameter, public :: MSLIP_FIRST = 1  !! First.
+  ! </generated>
+  ! <generated: types>
+  type, bind(c), public :: mslip_result
+    !! A result.
+    real(mslip_real) :: force = 0  !! Force [N].
+    real(mslip_real) :: reserved(7) = 0  !! Not to be read.
+  end type mslip_result
+  ! </generated>
+  ! <generated: functions>
+  interface
+
+    function c_step(n, n_results, results, state_old, x, state_new) bind(c, name='mslip_step')
+      import
+      integer(c_size_t), value :: n, n_results
+      type(mslip_result), intent(in) :: results(*)
+      type(c_ptr), value :: state_old, state_new
+      real(c_double), intent(in) :: x(*)
+      integer(c_int32_t) :: c_step
+    end function c_step
+
+    pure function c_length(n, rule) bind(c, name='mslip_length')
+      import
+      integer(c_size_t), value :: n
+      integer(c_int32_t), value :: rule
+      integer(c_size_t) :: c_length
+    end function c_length
+
+    subroutine c_clear(result) bind(c, name='mslip_clear')
+      import
+      type(mslip_result), intent(inout) :: result
+    end subroutine c_clear
+
+  end interface
+  ! </generated>
+";
+
+    #[test]
+    fn blocks_are_generated() {
+        assert_eq!(fill(MODULE, HEADER).as_deref(), Ok(FILLED));
+        assert_eq!(fill(FILLED, HEADER).as_deref(), Ok(FILLED));
+    }
+
+    #[test]
+    fn markers_that_do_not_fit_are_reported() {
+        for module in [
+            MODULE.replacen("constants", "constant", 1),
+            MODULE.replacen("  ! <generated: types>\n", "", 1),
+            MODULE.replacen("  ! <generated: functions>\n  ! </generated>\n", "  ! <generated: functions>\n", 1),
+        ] {
+            assert!(fill(&module, HEADER).is_err(), "{module}");
+        }
+    }
+
+    #[test]
+    fn unknown_types_are_reported() {
+        let header = HEADER.replacen("double *state_new", "float *state_new", 1);
+        assert!(fill(MODULE, &header).is_err());
+    }
+
+    #[test]
+    fn long_statements_are_continued() {
+        let statement = format!("function f({}c) bind(c,{UNBROKEN}name='f')", "argument, ".repeat(15));
+        let lines = wrapped("    ", &statement);
+        assert_eq!(lines.len(), 2);
+        assert!(lines[0].ends_with(" &") && lines.iter().all(|line| line.len() <= WIDTH));
+        assert!(lines[1].ends_with("bind(c, name='f')"));
+    }
+}
