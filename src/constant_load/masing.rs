@@ -59,7 +59,6 @@ pub struct Step {
     start: Point,
     end: Point,
     stiffness: f64,
-    dissipated: f64,
 }
 
 /// Checks the inputs of a step.
@@ -72,30 +71,29 @@ pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
     check_displacement(displacement)
 }
 
-/// Finds the step of a contact from a state to a displacement \[m\], both checked; its energy only if `with_energy`.
+/// Finds the step of a contact from a state to a displacement \[m\], both checked.
 #[must_use]
 #[inline(always)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64, with_energy: bool) -> Step {
-    if with_energy {
-        return step_with_energy(contact, state, displacement);
-    }
+pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     let memory = state::memory(state);
     let transition = memory.locate(contact, displacement, |_| {});
-    Step::new(contact, &memory, &transition, displacement, 0.0)
+    Step::new(contact, &memory, &transition, displacement)
 }
 
+/// The same, and the energy \[J\] dissipated by the step, not negative.
+#[must_use]
 #[inline(never)]
-fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
     let memory = state::memory(state);
     let mut energy = Dissipation::new(contact);
     let transition = memory.locate(contact, displacement, |segment| energy.add(segment));
     let dissipated = if displacement == memory.now.displacement { 0.0 } else { energy.total() };
-    Step::new(contact, &memory, &transition, displacement, dissipated)
+    (Step::new(contact, &memory, &transition, displacement), dissipated)
 }
 
 impl Step {
     #[inline(always)]
-    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64, dissipated: f64) -> Step {
+    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64) -> Step {
         let Transition { branch, reversed } = *transition;
         let Response { force, stiffness } = branch.response(contact, displacement);
         Step {
@@ -105,7 +103,6 @@ impl Step {
             start: memory.now,
             end: Point { displacement, force },
             stiffness,
-            dissipated,
         }
     }
 
@@ -121,13 +118,6 @@ impl Step {
     #[inline(always)]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
-    }
-
-    /// Energy \[J\] dissipated by the step, not negative; 0 if it was not requested.
-    #[must_use]
-    #[inline(always)]
-    pub fn dissipated(&self) -> f64 {
-        self.dissipated
     }
 
     /// Writes the step into the state from which it was found, or into a copy of that.
@@ -163,18 +153,25 @@ pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
 }
 
 /// Advances a state along a path of displacements \[m\], both checked.
-#[inline(always)]
+#[inline(never)]
 pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
     let PathOutput { mut force, mut stiffness, mut dissipated } = output;
-    for (i, &displacement) in path.iter().enumerate() {
-        let step = step(contact, state, displacement, dissipated.is_some());
-        step.write(contact, state);
-        let values = [step.force(), step.stiffness(), step.dissipated()];
-        for (output, value) in [&mut force, &mut stiffness, &mut dissipated].into_iter().zip(values) {
-            if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
-                *place = value;
-            }
+    let set = |output: &mut Option<&mut [f64]>, i: usize, value: f64| {
+        if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
+            *place = value;
         }
+    };
+    for (i, &displacement) in path.iter().enumerate() {
+        let step = if dissipated.is_some() {
+            let (step, energy) = step_with_energy(contact, state, displacement);
+            set(&mut dissipated, i, energy);
+            step
+        } else {
+            step(contact, state, displacement)
+        };
+        step.write(contact, state);
+        set(&mut force, i, step.force());
+        set(&mut stiffness, i, step.stiffness());
     }
 }
 
@@ -230,7 +227,7 @@ mod tests {
     fn apply(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
         let mut force = f64::NAN;
         for displacement in path {
-            let step = step(contact, state, displacement * contact.slip_displacement, false);
+            let step = step(contact, state, displacement * contact.slip_displacement);
             step.write(contact, state);
             force = step.force();
         }
@@ -323,10 +320,10 @@ mod tests {
         for (number, displacement) in scattered(200, 3).enumerate() {
             // Up to gross slip and beyond, from the virgin state on.
             let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
-            let first = step(&contact, &state, target, true);
+            let first = step(&contact, &state, target);
             first.write(&contact, &mut state);
-            let again = step(&contact, &state, target, true);
-            assert_eq!(again.dissipated(), 0.0);
+            let (again, energy) = step_with_energy(&contact, &state, target);
+            assert_eq!(energy, 0.0);
             assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
             let before = state.clone();
             again.write(&contact, &mut state);
@@ -374,8 +371,8 @@ mod tests {
                 let force = apply(&contact, &mut state, &[amplitude]);
                 let mut sum = 0.0;
                 for target in [-0.3 * amplitude, -amplitude, amplitude] {
-                    let step = step(&contact, &state, target * contact.slip_displacement, true);
-                    sum += step.dissipated();
+                    let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
+                    sum += energy;
                     step.write(&contact, &mut state);
                 }
                 let expected = contact.dissipated_energy(force).unwrap();
@@ -386,8 +383,8 @@ mod tests {
                 let part = 0.1 * amplitude;
                 let mut inner = 0.0;
                 for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
-                    let step = step(&contact, &state, target * contact.slip_displacement, true);
-                    inner += step.dissipated();
+                    let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
+                    inner += energy;
                     step.write(&contact, &mut state);
                 }
                 let alone = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
@@ -435,7 +432,7 @@ mod tests {
         for displacement in [-1e17 * contact.slip_displacement, -1e150, 1e150] {
             let mut state = unloaded(3);
             let forces = [(); 3].map(|()| {
-                let step = step(&contact, &state, displacement, false);
+                let step = step(&contact, &state, displacement);
                 step.write(&contact, &mut state);
                 step.force()
             });

@@ -64,6 +64,13 @@ pub(crate) struct Branch {
 }
 
 impl Branch {
+    /// The branch that leaves a reversal, number `depth` on the stack, with the one before it.
+    #[inline(always)]
+    fn from_reversal(depth: usize, start: Point, before: Option<Point>, offset: f64, direction: f64) -> Branch {
+        let end = before.map_or(2.0 * offset - start.displacement, |before| before.displacement);
+        Branch { depth, start, direction, end, scale: 2.0, inverse_scale: 0.5, gross_slip: false }
+    }
+
     /// Whether a displacement in the direction of the branch lies before its end. The end of the initial loading curve belongs to
     /// it: gross slip starts beyond.
     #[inline(always)]
@@ -120,22 +127,20 @@ impl Memory<'_> {
         self.reversals.len()
     }
 
-    /// Reversal 1 is the oldest. The point at which the step starts counts as one more.
+    /// A reversal of the stack; 1 is the oldest.
     #[inline(always)]
-    fn reversal(&self, number: usize) -> Point {
-        match self.reversals.get(number.wrapping_sub(1)) {
-            Some(reversal) => point(*reversal),
-            None => self.now,
-        }
+    fn reversal(&self, number: usize) -> Option<Point> {
+        self.reversals.get(number.wrapping_sub(1)).map(|reversal| point(*reversal))
     }
 
-    /// The branch that leaves reversal `depth`; the initial loading curve for 0.
+    /// The branch that leaves reversal `depth` of the stack; the initial loading curve for 0.
     #[inline(always)]
     pub fn branch(&self, contact: &Contact, depth: usize, direction: f64) -> Branch {
         let InitialCurve { offset, slip_direction } = self.initial;
-        if depth == 0 {
-            return Branch {
-                depth,
+        match self.reversal(depth) {
+            Some(start) => Branch::from_reversal(depth, start, self.reversal(depth - 1), offset, direction),
+            None => Branch {
+                depth: 0,
                 // The sign of the zero keeps compilers from an instruction that valgrind does not know.
                 start: Point { displacement: offset, force: -0.0 },
                 direction,
@@ -143,12 +148,8 @@ impl Memory<'_> {
                 scale: 1.0,
                 inverse_scale: 1.0,
                 gross_slip: slip_direction != 0.0,
-            };
+            },
         }
-        let start = self.reversal(depth);
-        let end =
-            if depth >= 2 { self.reversal(depth - 1).displacement } else { 2.0 * offset - start.displacement };
-        Branch { depth, start, direction, end, scale: 2.0, inverse_scale: 0.5, gross_slip: false }
     }
 
     /// The branch that continues one at its end: that of the enclosing loop once a loop is closed, the initial loading curve
@@ -186,7 +187,12 @@ impl Memory<'_> {
             return Transition { branch, reversed: false };
         }
         let reversed = direction * heading < 0.0;
-        let branch = self.branch(contact, self.depth() + usize::from(reversed), direction);
+        let branch = if reversed {
+            let (depth, offset) = (self.depth(), self.initial.offset);
+            Branch::from_reversal(depth + 1, self.now, self.reversal(depth), offset, direction)
+        } else {
+            self.branch(contact, self.depth(), direction)
+        };
         if branch.contains(target) {
             on_segment(branch.segment(contact.slip_displacement, from, target));
             return Transition { branch, reversed };

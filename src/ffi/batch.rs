@@ -2,12 +2,12 @@
 
 use super::cycle::write_complex_stiffness;
 use super::hbm::harmonic_force_dispatched;
-use super::history::{write, write_state};
+use super::history;
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::{Contact, check_displacement};
-use crate::constant_load::{masing, state};
+use crate::constant_load::state;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput};
 use libc::size_t;
@@ -150,17 +150,11 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
         let at =
             |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
         for (i, contact, target) in items.with(displacement, 1) {
-            let state_old = states_old.wrapping_add(i * state_length);
+            let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
+            let outputs = [at(force, i), at(stiffness, i), at(dissipated, i)];
             for &target in target {
-                // SAFETY: those of item i, as above; the reference ends before the new state is written.
-                let step = masing::step(contact, unsafe { input(state_old, state_length) }?, target, !dissipated.is_null());
-                // SAFETY: aligned; valid by the function's contract.
-                unsafe {
-                    write_state(contact, &step, state_length, state_old, at(states_new, i * state_length));
-                    write(at(force, i), step.force());
-                    write(at(stiffness, i), step.stiffness());
-                    write(at(dissipated, i), step.dissipated());
-                }
+                // SAFETY: checked, aligned; those of item i are valid by the function's contract.
+                unsafe { history::update(contact, state_length, state_old, target, state_new, outputs) };
             }
         }
         Ok(())

@@ -3,12 +3,11 @@
 use super::contact::check_positions;
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, check_length, input, output, outputs, requested, set, status};
-use super::simd_dispatch::dispatch_simd;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing::{self, PathOutput, Step};
 use crate::constant_load::state;
 use crate::error::Error;
-use core::ptr;
+use core::{ptr, slice};
 use libc::size_t;
 
 /// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2. A state is never full:
@@ -101,50 +100,93 @@ pub unsafe extern "C" fn mslip_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let update = || {
+    let checked_update = || {
         // SAFETY: by the function's contract.
         let contact = unsafe { pointers::contact(contact) }?;
         [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        let step = {
+        {
             // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-            let state = unsafe { state_input(state_length, state_old) }?;
-            masing::check_step(state, displacement)?;
-            masing::step(contact, state, displacement, !dissipated.is_null())
-        };
-        // SAFETY: aligned; valid by the function's contract.
+            masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
+        }
+        // SAFETY: checked, aligned; valid by the function's contract.
         unsafe {
-            write_state(contact, &step, state_length, state_old, state_new);
-            write(force, step.force());
-            write(stiffness, step.stiffness());
-            write(dissipated, step.dissipated());
+            update(contact, state_length, state_old, displacement, state_new, [force, stiffness, dissipated]);
         }
         Ok(())
     };
-    status(update())
+    status(checked_update())
 }
 
-/// Writes the state after a step.
+/// One update, all inputs checked: finds the step, then writes.
 ///
 /// # Safety
-/// `state_old` is valid for state_length doubles, and `state_new` is NULL, the same, or valid for as many doubles elsewhere.
+/// `state_old` is valid for state_length doubles; `state_new` is NULL, the same, or valid for as many doubles elsewhere; the outputs
+/// force, stiffness and dissipated are NULL, or aligned and valid for one double.
 #[inline(always)]
-pub(super) unsafe fn write_state(
+pub(super) unsafe fn update(
+    contact: &Contact,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: f64,
+    state_new: *mut f64,
+    outputs: [*mut f64; 3],
+) {
+    let [_, _, dissipated] = outputs;
+    // SAFETY: by the function's contract.
+    unsafe {
+        if dissipated.is_null() {
+            let step = masing::step(contact, slice::from_raw_parts(state_old, state_length), displacement);
+            write_step(contact, &step, state_length, state_old, state_new, outputs);
+        } else {
+            update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
+        }
+    }
+}
+
+/// # Safety
+/// As for [`update`].
+#[inline(never)]
+unsafe fn update_with_energy(
+    contact: &Contact,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: f64,
+    state_new: *mut f64,
+    outputs: [*mut f64; 3],
+) {
+    // SAFETY: by the function's contract.
+    unsafe {
+        let state = slice::from_raw_parts(state_old, state_length);
+        let (step, energy) = masing::step_with_energy(contact, state, displacement);
+        write_step(contact, &step, state_length, state_old, state_new, outputs);
+        let [_, _, dissipated] = outputs;
+        write(dissipated, energy);
+    }
+}
+
+/// Writes a step: the state and the outputs force and stiffness.
+///
+/// # Safety
+/// As for [`update`].
+#[inline(always)]
+unsafe fn write_step(
     contact: &Contact,
     step: &Step,
     state_length: usize,
     state_old: *const f64,
     state_new: *mut f64,
+    [force, stiffness, _]: [*mut f64; 3],
 ) {
-    if state_new.is_null() {
-        return;
-    }
-    if !ptr::eq(state_old, state_new) {
-        // SAFETY: by the function's contract.
-        unsafe { ptr::copy(state_old, state_new, state_length) };
-    }
     // SAFETY: by the function's contract.
-    if let Some(state) = unsafe { requested(state_new, state_length) } {
-        step.write(contact, state);
+    unsafe {
+        if !state_new.is_null() {
+            if !ptr::eq(state_old, state_new) {
+                ptr::copy(state_old, state_new, state_length);
+            }
+            step.write(contact, slice::from_raw_parts_mut(state_new, state_length));
+        }
+        write(force, step.force());
+        write(stiffness, step.stiffness());
     }
 }
 
@@ -153,7 +195,7 @@ pub(super) unsafe fn write_state(
 /// # Safety
 /// `output` is NULL, or aligned and valid for one double.
 #[inline(always)]
-pub(super) unsafe fn write(output: *mut f64, value: f64) {
+unsafe fn write(output: *mut f64, value: f64) {
     if !output.is_null() {
         // SAFETY: by the function's contract.
         unsafe { output.write(value) };
@@ -202,20 +244,10 @@ pub unsafe extern "C" fn mslip_masing_path(
         }
         // SAFETY: as above; the reference to the old state, which may be the same memory, is not used any more.
         let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-        path_dispatched(contact, state, path, output);
+        masing::path(contact, state, path, output);
         Ok(())
     };
     status(advance())
-}
-
-fn path_dispatched(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
-    dispatch_simd!(
-        masing::path,
-        contact: &Contact,
-        state: &mut [f64],
-        path: &[f64],
-        output: PathOutput => ()
-    );
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).

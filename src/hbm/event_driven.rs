@@ -22,7 +22,7 @@
 
 use super::fourier::{clear_other_parity, complete_jacobian, fill_columns, scale};
 use super::motion::{Grid, Instant, Motion, fill_integrals, fill_phi};
-use super::workspace::{HEADER, Parts, Size, WorkspaceLayout};
+use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use super::{HarmonicOutput, Requested};
 use crate::error::Error;
 use crate::law::{Evaluator, Law, Point, Response, Reversal};
@@ -73,16 +73,18 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables(&self) -> usize {
-        self.grid() / 2 * self.0.coefficients()
+        padded(self.grid() / 2 * self.0.coefficients())
     }
 
     fn length(&self) -> usize {
-        let (n, grid) = (self.0.coefficients(), self.grid());
-        HEADER + self.tables() + 3 * grid + self.reversals() * (3 + 2 * n) + 4 * self.0.harmonics * PANEL + 8 * n
+        let (n, grid, reversals) = (self.0.coefficients(), self.grid(), self.reversals());
+        let stack = padded(3 * reversals) + padded(2 * n * reversals);
+        let sums = 3 * padded(n) + 2 * padded(2 * n - 1);
+        HEADER + self.tables() + padded(grid) + padded(2 * grid) + stack + 4 * self.0.harmonics * PANEL + sums
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        fill_columns(tables.take(self.tables())?, self.grid(), self.grid() / 2);
+        fill_columns(tables.take(self.grid() / 2 * self.0.coefficients())?, self.grid(), self.grid() / 2);
         Ok(())
     }
 }
@@ -131,7 +133,7 @@ impl<'a> Workspace<'a> {
         let buffers = Buffers {
             harmonics: layout.0.harmonics,
             samples: layout.0.samples,
-            columns: parts.take(layout.tables())?,
+            columns: parts.take(grid / 2 * n)?,
             rate: parts.take(grid)?,
             instants: parts.take(2 * grid)?.as_chunks_mut().0,
             gradients: parts.take(2 * n * layout.reversals())?,

@@ -12,7 +12,7 @@
 
 use super::fourier::{complete_jacobian, fill_columns, sample, scale};
 use super::fourier_sums::{Rows, Sums, blocks, fill_table};
-use super::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout};
+use super::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout, padded};
 use super::{HarmonicOutput, Requested};
 use crate::error::Error;
 use crate::law::{BranchRange, Evaluator, Law, Point, Response, Reversal};
@@ -50,14 +50,15 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables(&self) -> usize {
-        let up_to_2h = 4 * blocks(2 * self.0.harmonics);
-        self.half() * (self.0.coefficients() + 2 * up_to_2h) + self.0.harmonics
+        let (half, up_to_2h) = (self.half(), 4 * blocks(2 * self.0.harmonics));
+        padded(half * self.0.coefficients()) + 2 * padded(half * up_to_2h) + padded(self.0.harmonics)
     }
 
     fn length(&self) -> usize {
-        let (up_to_h, up_to_2h) = (4 * blocks(self.0.harmonics), 4 * blocks(2 * self.0.harmonics));
-        let walk = 3 * self.0.samples + self.reversals() * (4 + self.0.coefficients());
-        HEADER + self.tables() + walk + 2 * up_to_h + 4 * up_to_2h + 4 * self.0.coefficients()
+        let (n, reversals) = (self.0.coefficients(), self.reversals());
+        let sums = 2 * 4 * blocks(self.0.harmonics) + 4 * 4 * blocks(2 * self.0.harmonics);
+        let stack = padded(3 * reversals) + padded(reversals) + padded(reversals * n);
+        HEADER + self.tables() + 3 * padded(self.0.samples) + stack + sums + 4 * padded(n)
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
@@ -439,11 +440,24 @@ impl Buffers<'_> {
         Self::phi(columns, half, reversed_at as usize, self.start);
         self.branch_sums.copy_to(self.weighted);
         let gradient = self.gradients.chunks_exact(n).nth(depth.wrapping_sub(1)).unwrap_or(&[]);
-        for ((column, start), gradient) in jacobian.chunks_exact_mut(n).zip(self.start.iter()).zip(gradient) {
-            for ((j, wave), weighted) in column.iter_mut().zip(self.waves.iter()).zip(self.weighted.iter()) {
-                *j += gradient * wave - start * weighted;
-            }
+        for ((column, &start), &gradient) in jacobian.chunks_exact_mut(n).zip(self.start.iter()).zip(gradient) {
+            add_difference(column, gradient, self.waves, start, self.weighted);
         }
+    }
+}
+
+/// Adds `a x - b y`, four elements together.
+#[inline(always)]
+fn add_difference(target: &mut [f64], a: f64, x: &[f64], b: f64, y: &[f64]) {
+    let (blocks, others) = target.as_chunks_mut::<4>();
+    let ((x, other_x), (y, other_y)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
+    for ((block, x), y) in blocks.iter_mut().zip(x).zip(y) {
+        for k in 0..4 {
+            block[k] += a * x[k] - b * y[k];
+        }
+    }
+    for ((other, x), y) in others.iter_mut().zip(other_x).zip(other_y) {
+        *other += a * x - b * y;
     }
 }
 

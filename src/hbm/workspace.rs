@@ -9,7 +9,8 @@
 use crate::error::Error;
 use crate::tag::Kind;
 
-pub(super) const HEADER: usize = 2;
+/// Two tags; padded so that the tables keep the alignment of the workspace.
+pub(super) const HEADER: usize = 4;
 
 /// Numbers in fours.
 pub(super) type Blocks = [[f64; 4]];
@@ -83,7 +84,7 @@ pub(super) trait WorkspaceLayout: Sized {
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         let tables = buffers.get_mut(..layout.tables()).ok_or(Error::WorkspaceTooShort)?;
         layout.fill_tables(&mut Parts(tables))?;
-        *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples)];
+        *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), 0.0, 0.0];
         Ok(())
     }
 
@@ -92,7 +93,7 @@ pub(super) trait WorkspaceLayout: Sized {
     /// # Errors
     /// `BadWorkspace` for memory that was not initialised.
     #[inline(always)]
-    fn read(&[first, second]: &[f64; HEADER]) -> Result<Self, Error> {
+    fn read(&[first, second, ..]: &[f64; HEADER]) -> Result<Self, Error> {
         let (harmonics, samples) = (Self::KIND.count(first), Kind::Samples.count(second));
         Self::new(harmonics.ok_or(Error::BadWorkspace)?, samples.ok_or(Error::BadWorkspace)?).map_err(|_| Error::BadWorkspace)
     }
@@ -110,16 +111,22 @@ pub(super) trait WorkspaceLayout: Sized {
     }
 }
 
-/// Divides a slice from its front.
+/// Length of a part of a workspace with what keeps the next part aligned with vector registers.
+pub(super) fn padded(length: usize) -> usize {
+    (length + 3) & !3
+}
+
+/// Divides a slice from its front, in [`padded`] parts.
 pub(super) struct Parts<'a>(&'a mut [f64]);
 
 impl<'a> Parts<'a> {
     /// # Errors
-    /// `BadWorkspace` where so much is not left.
+    /// `BadWorkspace` if fewer doubles are left.
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
-        let (front, back) = core::mem::take(&mut self.0).split_at_mut_checked(length).ok_or(Error::BadWorkspace)?;
+        let parts = core::mem::take(&mut self.0).split_at_mut_checked(padded(length));
+        let (front, back) = parts.ok_or(Error::BadWorkspace)?;
         self.0 = back;
-        Ok(front)
+        front.get_mut(..length).ok_or(Error::BadWorkspace)
     }
 
     /// # Errors
