@@ -20,10 +20,10 @@
 //! and `dT_r` was known when the reversal was passed.
 
 mod event_driven;
-mod uniform_sampling;
-mod motion;
-mod fourier_sums;
 mod fourier;
+mod fourier_sums;
+mod motion;
+mod uniform_sampling;
 mod workspace;
 
 use crate::constant_load::contact::{Contact, check_displacement};
@@ -46,10 +46,10 @@ impl Rule {
     #[must_use]
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         match self {
-            Rule::UniformSampling => uniform_sampling::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()),
-            Rule::EventDriven => {
-                event_driven::Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+            Rule::UniformSampling => {
+                uniform_sampling::Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
             }
+            Rule::EventDriven => event_driven::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()),
         }
     }
 
@@ -251,7 +251,9 @@ mod tests {
     fn memory_without_the_header_of_a_workspace_is_rejected() {
         for rule in RULES {
             let good = workspace(rule, 3, 16);
-            for (place, value) in [(0, 0.0), (0, f64::NAN), (0, good[1]), (1, 0.0), (1, 16.0), (1, f64::INFINITY), (1, good[0])] {
+            for (place, value) in
+                [(0, 0.0), (0, f64::NAN), (0, good[1]), (1, 0.0), (1, 16.0), (1, f64::INFINITY), (1, good[0])]
+            {
                 let mut bad = good.clone();
                 bad[place] = value;
                 assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");

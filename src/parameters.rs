@@ -1,7 +1,7 @@
 //! What the user gives: geometry, material and load (section 2.1 and Fig. 1 of the paper), and the checks on it.
 
 use crate::error::Error;
-use crate::numerics::fp_class::{in_0_to, abs_le};
+use crate::numerics::fp_class::{abs_le, in_0_to};
 
 /// Displacement of the centre point of the contact under a line of uniform traction: the paper's Eq. 5-10.
 pub const CENTRE_POINT: i32 = 0;

@@ -26,8 +26,8 @@ pub(crate) mod rounded_punch;
 pub(crate) mod small_load;
 pub(crate) mod tractions;
 
-use crate::shape::small_load::SmallLoadSeries;
 use crate::numerics::quadrature::TANH_SINH;
+use crate::shape::small_load::SmallLoadSeries;
 
 /// An amount divided in two: `consumed + remaining` is the whole. Neither is computed from the other where it is the smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,7 +114,11 @@ pub(crate) trait SizeFamily {
 
     /// The member at which a load is lost.
     fn at_load(&self, load: Complement) -> StickZone {
-        if load.consumed <= 0.5 { self.origin().at_load(load, self.slip_shift()) } else { self.at_load_remaining(load.remaining) }
+        if load.consumed <= 0.5 {
+            self.origin().at_load(load, self.slip_shift())
+        } else {
+            self.at_load_remaining(load.remaining)
+        }
     }
 
     /// The member at which an approach is lost: the inverse of the monotonic curve.
@@ -150,7 +154,12 @@ pub(crate) trait SizeFamily {
 }
 
 /// `∫ f dσ` over the members of measures between `from` and `to`, for f that is a root at both ends or better.
-pub(crate) fn integrate(family: &dyn SizeFamily, from: f64, to: f64, mut f: impl FnMut(&QuadraturePoint) -> f64) -> f64 {
+pub(crate) fn integrate(
+    family: &dyn SizeFamily,
+    from: f64,
+    to: f64,
+    mut f: impl FnMut(&QuadraturePoint) -> f64,
+) -> f64 {
     let length = to - from;
     length * TANH_SINH.iter().map(|node| node.weight * f(&family.station(from + length * node.from_0))).sum::<f64>()
 }

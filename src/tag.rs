@@ -59,7 +59,15 @@ mod tests {
     #[test]
     fn other_memory_has_no_tag() {
         for kind in KINDS {
-            for other in [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, -kind.tag(3), f64::from_bits(kind.tag(3).to_bits() ^ (1 << 40))] {
+            for other in [
+                0.0,
+                -0.0,
+                1.0,
+                f64::NAN,
+                f64::INFINITY,
+                -kind.tag(3),
+                f64::from_bits(kind.tag(3).to_bits() ^ (1 << 40)),
+            ] {
                 assert_eq!(kind.count(other), None);
             }
             assert!(KINDS.iter().all(|one| *one == kind || one.count(kind.tag(3)).is_none()));

@@ -30,11 +30,11 @@
 //! is a sum of one sign; in gross slip the upper limit is fixed and K' is differentiated as it stands.
 
 use crate::constant_load::contact::{Contact, LARGEST_DISPLACEMENT};
-use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
 use crate::error::Error;
-use crate::shape::{SizeFamily, StickZone, QuadraturePoint, integrate};
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
+use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
+use crate::shape::{QuadraturePoint, SizeFamily, StickZone, integrate};
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude; what is asked for is computed.
@@ -372,7 +372,8 @@ impl ComplexStiffness<'_> {
             return (0.0, 0.0);
         }
         let origin = self.family().origin();
-        let second_derivative = 0.5 * origin.initial_curvature() / (origin.compliance * origin.compliance * origin.compliance);
+        let second_derivative =
+            0.5 * origin.initial_curvature() / (origin.compliance * origin.compliance * origin.compliance);
         let unit = self.contact.stiffness_scale / self.contact.displacement_scale.max(f64::MIN_POSITIVE);
         (-second_derivative * unit, 4.0 / (3.0 * PI) * second_derivative * unit)
     }
@@ -387,8 +388,8 @@ struct NearPoint {
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, contact, cylinder, ellipse, parameters};
-    use crate::parameters::{CENTRE_POINT, Material, Parameters};
     use crate::numerics::quadrature::TANH_SINH;
+    use crate::parameters::{CENTRE_POINT, Material, Parameters};
 
     /// Λ = 3.4243 with h = ½ [τ + (1-τ) ln(1-τ)]: K' by adaptive quadrature and K'' in closed form, both to 20 digits.
     #[test]

@@ -1,16 +1,16 @@
 //! A contact, prepared once and then only read: the family it belongs to, and the units that turn its numbers into forces
 //! and displacements.
 
-use crate::numerics::sn_midpoint::GAUSS;
-use crate::shape::hertz_ellipse::Elliptic;
+use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
-use crate::shape::SizeFamily;
-use crate::shape::rounded_punch::RoundedPunch;
-use crate::constant_load::interpolant::{INNER_FRACTION, ForceInterpolant};
 use crate::numerics::fp_class::abs_le;
-use crate::tag::LAYOUT;
+use crate::numerics::sn_midpoint::GAUSS;
 use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Pair, Parameters};
+use crate::shape::SizeFamily;
+use crate::shape::hertz_ellipse::Elliptic;
 use crate::shape::rounded_flat::RoundedFlat;
+use crate::shape::rounded_punch::RoundedPunch;
+use crate::tag::LAYOUT;
 use core::f64::consts::{LN_2, PI};
 
 /// The bound keeps products with forces and energies representable.
@@ -171,7 +171,8 @@ impl Contact {
         // One that could not be asked for would never be reached.
         let slip_displacement = displacement_scale * family.slip_shift();
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
-        let (from_origin, remaining) = if self.is_elliptic() { (1.0, 1.0) } else { (INNER_FRACTION, 1.0 - INNER_FRACTION) };
+        let (from_origin, remaining) =
+            if self.is_elliptic() { (1.0, 1.0) } else { (INNER_FRACTION, 1.0 - INNER_FRACTION) };
         Ok(Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),

@@ -4,11 +4,11 @@
 //! The curve is odd; its points below are those of its positive half, with the sign kept beside them.
 
 use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::interpolant::ForceInterpolant;
 use crate::error::Error;
 use crate::law::Response;
-use crate::shape::{StickZone, SurfacePoint, Complement};
-use crate::constant_load::interpolant::ForceInterpolant;
-use crate::numerics::fp_class::{is_finite, abs_le};
+use crate::numerics::fp_class::{abs_le, is_finite};
+use crate::shape::{Complement, StickZone, SurfacePoint};
 
 /// Relative excess over mu N that is taken for rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -40,7 +40,8 @@ impl Contact {
     /// are taken as mu N).
     pub fn curve_at_force(&self, force: f64) -> Result<CurvePoint<'_>, Error> {
         self.check_force(force)?;
-        let given = if self.is_frictionless() { Given::Slip } else { Given::Stick(self.stick_zone_at_force(force.abs())) };
+        let given =
+            if self.is_frictionless() { Given::Slip } else { Given::Stick(self.stick_zone_at_force(force.abs())) };
         Ok(CurvePoint { contact: self, sign: sign_of(force), given })
     }
 
@@ -78,14 +79,22 @@ impl Contact {
     pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         let displacement = displacement.min(self.slip_displacement);
-        self.family()
-            .at_shift(Complement { consumed: displacement / unit, remaining: (self.slip_displacement - displacement) / unit })
+        self.family().at_shift(Complement {
+            consumed: displacement / unit,
+            remaining: (self.slip_displacement - displacement) / unit,
+        })
     }
 
     /// Force and stiffness at a displacement >= 0; beyond that of gross slip mu N and 0, and 0 and 0 without friction.
     #[inline(always)]
     pub(crate) fn response(&self, displacement: f64) -> Response {
         self.evaluator().at(displacement)
+    }
+
+    /// The same, not inlined.
+    #[inline(never)]
+    pub(crate) fn response_at(&self, displacement: f64) -> Response {
+        self.response(displacement)
     }
 
     /// What responses need, taken together once for many of them.
@@ -166,7 +175,8 @@ impl Contact {
                 let (dissipation, slope) = family.origin().dissipation_with_derivative(load.consumed);
                 return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
             }
-            let compliance_increase = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - family.origin().compliance;
+            let compliance_increase =
+                self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - family.origin().compliance;
             let (dissipation, slope) = self.shape().cycle(load.remaining, compliance_increase);
             return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
         }

@@ -30,23 +30,25 @@ impl<'a> Dissipation<'a> {
         }
     }
 
+    /// Energy of a cycle of that displacement amplitude, up to gross slip.
+    #[inline(never)]
+    fn cycle_energy(&self, amplitude: f64) -> f64 {
+        if amplitude <= 0.0 {
+            0.0
+        } else if amplitude >= self.contact.slip_displacement {
+            self.contact.slip_energy
+        } else {
+            self.contact.cycle_energy(amplitude).0
+        }
+    }
+
     fn close(&mut self) {
-        let contact = self.contact;
         let Segment { scale, start, end, slip_length } = self.open;
-        let energy = |displacement: f64| {
-            if displacement <= 0.0 {
-                0.0
-            } else if displacement >= contact.slip_displacement {
-                contact.slip_energy
-            } else {
-                contact.cycle_energy(displacement).0
-            }
-        };
         if end > start {
-            let difference = energy(end) - energy(start);
+            let difference = self.cycle_energy(end) - self.cycle_energy(start);
             self.sum += 0.25 * scale * if difference > 0.0 { difference } else { 0.0 };
         }
-        self.sum += contact.slip_force * slip_length;
+        self.sum += self.contact.slip_force * slip_length;
     }
 
     /// The energy \[J\] of all segments.

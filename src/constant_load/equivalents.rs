@@ -3,10 +3,10 @@
 //! - Jenkins: one spring with one slider, with the complex stiffness of the contact at one amplitude.
 //! - Iwan: n of them in parallel, with the monotonic curve of the contact to the smallest error that n sliders allow.
 
+use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::shape::{SizeFamily, Complement};
-use crate::constant_load::complex_stiffness::check_amplitude;
+use crate::shape::{Complement, SizeFamily};
 use core::f64::consts::PI;
 
 /// A spring of some stiffness that slips at some force.
@@ -177,8 +177,7 @@ impl<'a> Curve<'a> {
     /// The side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
     fn side(&self, from: &Corner, error: f64) -> Side {
         let slip = self.family.slip_shift();
-        let lowered =
-            |force: f64, shift: f64, slope: f64| force - error - from.force - slope * (shift - from.shift);
+        let lowered = |force: f64, shift: f64, slope: f64| force - error - from.force - slope * (shift - from.shift);
         let touch = |force: f64| {
             let (shift, slope) = self.at(force);
             lowered(force, shift, slope)
@@ -195,10 +194,7 @@ impl<'a> Curve<'a> {
         if touching < 1.0 && above(1.0) > 0.0 {
             let on_curve = root(above, touching, 1.0);
             if on_curve + error < 1.0 {
-                return Side {
-                    slope,
-                    end: Corner { shift: self.at(on_curve).0, force: on_curve + error, on_curve },
-                };
+                return Side { slope, end: Corner { shift: self.at(on_curve).0, force: on_curve + error, on_curve } };
             }
         }
         let shift = from.shift + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);

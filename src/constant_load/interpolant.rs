@@ -8,9 +8,9 @@
 //! digits; and of the stiffness only what it falls by, so that rounding is felt no more than the curve bends. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS};
-use crate::shape::{StickZone, Complement};
-use crate::shape::rounded_punch::TINY;
 use crate::numerics::polynomial::{rows, value_and_slope};
+use crate::shape::rounded_punch::TINY;
+use crate::shape::{Complement, StickZone};
 
 /// Share of x_s that the polynomial from the origin covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -44,14 +44,20 @@ pub struct ForceInterpolant {
 }
 
 impl ForceInterpolant {
-    pub const NONE: ForceInterpolant = ForceInterpolant { origin: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0.0 };
+    pub const NONE: ForceInterpolant =
+        ForceInterpolant { origin: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0.0 };
 
     /// The inverse of the curve on which `at_shift` finds members, whose compliance is Λ + λ.
-    pub fn new(slip_shift: f64, compliance: f64, mut at_shift: impl FnMut(Complement) -> StickZone) -> ForceInterpolant {
+    pub fn new(
+        slip_shift: f64,
+        compliance: f64,
+        mut at_shift: impl FnMut(Complement) -> StickZone,
+    ) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
         let fall = Interpolant::<TERMS>::through(|z| {
             let consumed = 0.5 * (1.0 + z) * first;
-            let compliance_increase = at_shift(Complement { consumed, remaining: slip_shift - consumed }).compliance_increase;
+            let compliance_increase =
+                at_shift(Complement { consumed, remaining: slip_shift - consumed }).compliance_increase;
             compliance_increase / (compliance + compliance_increase)
         });
         let mut converged = fall.is_converged(1e-15);
@@ -128,7 +134,9 @@ fn interpolate<const N: usize>(
         if let Some(place) = places.next() {
             *place = member.load.remaining;
         }
-        (3.0 + z) * ((member.compliance_increase - *first.get_or_insert(member.compliance_increase)) / (compliance + member.compliance_increase))
+        (3.0 + z)
+            * ((member.compliance_increase - *first.get_or_insert(member.compliance_increase))
+                / (compliance + member.compliance_increase))
     });
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
     let mut integral = fall.integral().map(|row| row.map(|coefficient| -stiffness * coefficient));
@@ -200,7 +208,11 @@ mod tests {
                 let displacement = share * contact.slip_displacement;
                 let back = contact.curve_at_force(contact.response(displacement).force).unwrap().displacement();
                 // A few units on both ways. Near gross slip a unit of the force is worth as much of the displacement.
-                assert!((back / displacement - 1.0).abs() < 4e-15, "{compliance_increase} {share} {}", back / displacement - 1.0);
+                assert!(
+                    (back / displacement - 1.0).abs() < 4e-15,
+                    "{compliance_increase} {share} {}",
+                    back / displacement - 1.0
+                );
             }
         }
     }

@@ -334,9 +334,8 @@ mod tests {
     #[test]
     fn a_deep_spiral_is_exact_and_closes_at_once() {
         let contact = contact(0.0);
-        let spiral: Vec<f64> = (0..400)
-            .map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0))
-            .collect();
+        let spiral: Vec<f64> =
+            (0..400).map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0)).collect();
         let mut state = unloaded(399);
         apply(&contact, &mut state, &spiral);
         assert_eq!((depth_and_offset(&state), state_error(&state)), ((399, 0.0), Ok(0.0)));
@@ -354,8 +353,7 @@ mod tests {
             for seed in 0..4 {
                 let path: Vec<f64> = scattered(60, seed).map(|x| 1.1 * x * slip).collect();
                 let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
-                let output =
-                    |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
+                let output = |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
                 path_in_copy(&contact, &state, &path, output(&mut discarded));
                 super::path(&contact, &mut state, &path, output(&mut kept));
                 assert_eq!(discarded, kept);
@@ -399,7 +397,8 @@ mod tests {
         let mut state = unloaded(8);
         let force = apply(&contact, &mut state, &[0.9, -0.6, 0.4, -0.1, 0.2]);
         // Between the stick edges of all jumps of force, flat and edge, where the traction has its roots.
-        let forces: Vec<f64> = state::read(&state).unwrap().reversals.iter().map(|[_, force, _]| *force).chain([force]).collect();
+        let forces: Vec<f64> =
+            state::read(&state).unwrap().reversals.iter().map(|[_, force, _]| *force).chain([force]).collect();
         let edge = |jump: f64| contact.curve_at_force(jump).unwrap().stick_half_width();
         let mut places: Vec<f64> = forces.windows(2).map(|pair| edge(0.5 * (pair[1] - pair[0]))).collect();
         assert_eq!(places.len(), 4);

@@ -262,7 +262,6 @@ pub(crate) fn push(contact: &Contact, offset: f64, reversals: &mut [Reversal], d
 #[cold]
 #[inline(never)]
 fn merge(contact: &Contact, offset: f64, reversals: &mut [Reversal], newest: Reversal) -> usize {
-    let branch_force = |range: f64| 2.0 * contact.response(0.5 * range).force;
     let range = |[from, ..]: Reversal, [to, ..]: Reversal| (to - from).abs();
     let mirror = |[displacement, force, _]: Reversal| [2.0 * offset - displacement, -force, 0.0];
     // A few roundings of forces of up to mu N.
@@ -273,7 +272,9 @@ fn merge(contact: &Contact, offset: f64, reversals: &mut [Reversal], newest: Rev
     let mut before = mirror(at(0));
     for i in 0..count.saturating_sub(1) {
         let (a, b, c) = (range(before, at(i)), range(at(i), at(i + 1)), range(at(i + 1), at(i + 2)));
-        let change = (branch_force(b) - branch_force(c)) - (branch_force(a) - branch_force((a - (b - c)).max(0.0)));
+        let [inner, outer] =
+            [(b, c), (a, (a - (b - c)).max(0.0))].map(|(long, short)| branch_force_between(contact, short, long));
+        let change = inner - outer;
         let error = before[2] + at(i + 1)[2] + if change > 0.0 { change } else { 0.0 } + rounding;
         if error < least {
             (pair, least) = (i, error);
@@ -291,6 +292,12 @@ fn merge(contact: &Contact, offset: f64, reversals: &mut [Reversal], newest: Rev
         *error = least;
     }
     remove(reversals, pair, 2)
+}
+
+/// `F(long) - F(short)` of the branch curve.
+fn branch_force_between(contact: &Contact, short: f64, long: f64) -> f64 {
+    let [short, long] = [short, long].map(|range| contact.response_at(0.5 * range).force);
+    2.0 * (long - short)
 }
 
 /// Removes reversals from a full stack, from one on; the depth after it.

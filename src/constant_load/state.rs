@@ -67,7 +67,9 @@ pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
 /// The memory in a state whose header was checked.
 #[inline(always)]
 pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
-    let &[tag, displacement, slip_direction, force, offset, ref reversals @ ..] = state else { return Memory::UNLOADED };
+    let &[tag, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
+        return Memory::UNLOADED;
+    };
     let used = PER_REVERSAL * Kind::State.count(tag).unwrap_or(0);
     let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
     Memory { initial, now, reversals: reversals.get(..used).unwrap_or(&[]).as_chunks().0 }

@@ -228,7 +228,9 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             let outputs = outputs([force, stiffness, stick_half_width], n);
             (pointers::contact(contact)?, input(displacement, n)?, outputs?)
         };
-        displacement.iter().try_for_each(|&displacement| crate::constant_load::contact::check_displacement(displacement))?;
+        displacement
+            .iter()
+            .try_for_each(|&displacement| crate::constant_load::contact::check_displacement(displacement))?;
         responses(contact, displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
             for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
@@ -249,4 +251,3 @@ fn responses(contact: &Contact, displacement: &[f64], force: Option<&mut [f64]>,
         stiffness: Option<&mut [f64]> => ()
     );
 }
-

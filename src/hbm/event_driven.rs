@@ -498,8 +498,8 @@ impl<L: Law> Walk<'_, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
     use crate::Contact;
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
     use crate::hbm::Rule;
     use crate::hbm::tests::{All, ODD, SHAPE, compute, scaled, workspace};
     use std::vec::Vec;

@@ -95,7 +95,8 @@ pub(super) trait WorkspaceLayout: Sized {
     #[inline(always)]
     fn read(&[first, second, ..]: &[f64; HEADER]) -> Result<Self, Error> {
         let (harmonics, samples) = (Self::KIND.count(first), Kind::Samples.count(second));
-        Self::new(harmonics.ok_or(Error::BadWorkspace)?, samples.ok_or(Error::BadWorkspace)?).map_err(|_| Error::BadWorkspace)
+        Self::new(harmonics.ok_or(Error::BadWorkspace)?, samples.ok_or(Error::BadWorkspace)?)
+            .map_err(|_| Error::BadWorkspace)
     }
 
     /// The layout and the memory behind the header of an initialised workspace.

@@ -15,10 +15,10 @@
 //!
 //! θ from 0 to π/2: complete elliptic integrals, taken from the arithmetic-geometric mean.
 
-use crate::shape::{SizeFamily, StickZone, SurfacePoint, Complement, QuadraturePoint};
+use crate::parameters::Material;
 use crate::shape::rounded_punch::TINY;
 use crate::shape::small_load::{SmallLoadSeries, TERMS, economized};
-use crate::parameters::Material;
+use crate::shape::{Complement, QuadraturePoint, SizeFamily, StickZone, SurfacePoint};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// Shape-free: every elliptical contact has the same curve in its own units.
@@ -171,7 +171,11 @@ impl SizeFamily for Elliptic {
 
 /// 1 - σ from λ = 1/σ - 1.
 fn lost_size(member: &StickZone) -> f64 {
-    if member.compliance_increase < 1e300 { member.compliance_increase / (1.0 + member.compliance_increase) } else { 1.0 }
+    if member.compliance_increase < 1e300 {
+        member.compliance_increase / (1.0 + member.compliance_increase)
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -179,8 +183,8 @@ mod tests {
     use super::*;
     use crate::constant_load::contact::Contact;
     use crate::constant_load::contact::tests::{cylinder, ellipse};
-    use crate::shape::integrate;
     use crate::parameters::{CENTRE_POINT, EllipticParameters};
+    use crate::shape::integrate;
 
     fn like(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
         [Material { young_modulus, poisson_ratio }; 2]

@@ -11,12 +11,12 @@
 //!
 //! Beyond τ = 1/2 these are computed as they stand; below, the series at the origin takes over.
 
-use crate::numerics::chebyshev::Interpolant;
-use crate::shape::{SizeFamily, StickZone, SurfacePoint, Complement, QuadraturePoint};
-use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::constant_load::interpolant::ForceInterpolant;
+use crate::numerics::chebyshev::Interpolant;
+use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::small_load::{RETAINED_TERMS, SmallLoadSeries};
 use crate::shape::tractions;
+use crate::shape::{Complement, QuadraturePoint, SizeFamily, StickZone, SurfacePoint};
 use core::f64::consts::PI;
 
 /// A flat with rounded edges under its load, lengths in units of b.
@@ -143,11 +143,13 @@ impl RoundedFlat {
     /// The same for a stick zone whose load is known, and over that of b. Written as Λ τ + h, what is lost is not the difference of
     /// two large numbers where the curve is nearly straight.
     fn inner_of_load(&self, inner: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
-        let (full_stick, compliance_increase, mean) = (self.origin.compliance, self.compliance_increase(inner), inner.beta(load));
+        let (full_stick, compliance_increase, mean) =
+            (self.origin.compliance, self.compliance_increase(inner), inner.beta(load));
         StickZone {
             load: Complement { consumed: 1.0 - remaining, remaining },
             shift: Complement {
-                consumed: full_stick * (1.0 - remaining) + ((self.beta - remaining * mean) - remaining * compliance_increase),
+                consumed: full_stick * (1.0 - remaining)
+                    + ((self.beta - remaining * mean) - remaining * compliance_increase),
                 remaining: remaining * (full_stick + compliance_increase + mean),
             },
             compliance_increase,
@@ -166,11 +168,15 @@ impl RoundedFlat {
     /// Dissipation and its derivative by τ at a stick zone of that rest of the load, λ being known to rounding of Λ + λ. With
     /// `h = β_b - s (λ + β_c)` the derivative `4 (τ λ - h)` is as short as this.
     pub(crate) fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
-        let w = (self.w * self.w + (-2.0 * compliance_increase).exp_m1()).max(0.25 * self.w * self.w * remaining).sqrt();
+        let w =
+            (self.w * self.w + (-2.0 * compliance_increase).exp_m1()).max(0.25 * self.w * self.w * remaining).sqrt();
         let load = remaining * self.load;
         let inner = RoundedPunch::newton_step_from(RoundedPunch::new(self.flat, w), load);
         let (mean, compliance_increase) = (inner.beta(load), self.compliance_increase(&inner));
-        (self.dissipation_of(&inner, remaining, load, compliance_increase), 4.0 * (compliance_increase - self.beta + remaining * mean))
+        (
+            self.dissipation_of(&inner, remaining, load, compliance_increase),
+            4.0 * (compliance_increase - self.beta + remaining * mean),
+        )
     }
 
     /// Eq. 13-16 for a stick zone.
@@ -178,7 +184,9 @@ impl RoundedFlat {
         // At gross slip s vanishes faster than the logarithm of the cylinder grows.
         let work = remaining * compliance_increase.min(1e3);
         let (mean, square) = (inner.beta(load), inner.gamma(load));
-        4.0 * ((1.0 + remaining) * (self.beta - remaining * mean) - work - (self.gamma - remaining * remaining * square))
+        4.0 * ((1.0 + remaining) * (self.beta - remaining * mean)
+            - work
+            - (self.gamma - remaining * remaining * square))
     }
 
     fn stick(&self, member: &StickZone) -> RoundedPunch {
@@ -198,12 +206,17 @@ impl SizeFamily for RoundedFlat {
     fn at_load_remaining(&self, remaining: f64) -> StickZone {
         let load = remaining * self.load;
         let member = self.inner_of_load(&RoundedPunch::from_load(self.flat, load), load, remaining);
-        let compliance_increase = if remaining > 0.0 || self.flat > 0.0 { member.compliance_increase } else { f64::INFINITY };
+        let compliance_increase =
+            if remaining > 0.0 || self.flat > 0.0 { member.compliance_increase } else { f64::INFINITY };
         StickZone { compliance_increase, ..member }
     }
 
     fn at_shift_remaining(&self, remaining: f64) -> StickZone {
-        if remaining <= 0.0 { self.at_load_remaining(0.0) } else { self.refine_shift_remaining(remaining, self.guess(remaining)).0 }
+        if remaining <= 0.0 {
+            self.at_load_remaining(0.0)
+        } else {
+            self.refine_shift_remaining(remaining, self.guess(remaining)).0
+        }
     }
 
     fn dissipation_beyond_half(&self, member: &StickZone) -> f64 {
@@ -222,9 +235,9 @@ impl SizeFamily for RoundedFlat {
     }
 
     fn size_parameter(&self, member: &StickZone) -> f64 {
-        member
-            .size_parameter
-            .unwrap_or_else(|| (1.0 + (-2.0 * member.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt())
+        member.size_parameter.unwrap_or_else(|| {
+            (1.0 + (-2.0 * member.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt()
+        })
     }
 
     fn station(&self, size_parameter: f64) -> QuadraturePoint {
@@ -283,8 +296,8 @@ fn curvature(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, contact, cylinder};
-    use crate::shape::{SizeFamily, integrate};
     use crate::parameters::CENTRE_POINT;
+    use crate::shape::{SizeFamily, integrate};
 
     /// A contact by its ψ, and a compliance of its own.
     fn family(psi: f64) -> RoundedFlat {
@@ -357,7 +370,11 @@ mod tests {
                 assert!((shift / (station.dload_dsigma * station.compliance) - 1.0).abs() < 1e-7, "{remaining}");
                 let compliance_increase = (low.compliance - high.compliance) / (2.0 * h);
                 // Rounding of the compliance, over the width of the difference.
-                assert!((compliance_increase - station.dcompliance_dsigma).abs() < 1e-7 * station.dcompliance_dsigma + 1e-15 / h, "{remaining}");
+                assert!(
+                    (compliance_increase - station.dcompliance_dsigma).abs()
+                        < 1e-7 * station.dcompliance_dsigma + 1e-15 / h,
+                    "{remaining}"
+                );
             }
         }
     }
@@ -369,7 +386,11 @@ mod tests {
                 let member = family.at_load_remaining(remaining);
                 let back = family.at_shift_remaining(member.shift.remaining);
                 // A relative error of the approach's rest is one of the load's, as long as both shrink together.
-                assert!((back.load.remaining - remaining).abs() <= 4e-15 * remaining, "{remaining} {}", back.load.remaining);
+                assert!(
+                    (back.load.remaining - remaining).abs() <= 4e-15 * remaining,
+                    "{remaining} {}",
+                    back.load.remaining
+                );
             }
         }
     }
@@ -382,7 +403,10 @@ mod tests {
             // h = ½ [τ + (1-τ) ln(1-τ)], its slope -½ ln(1-τ).
             let h = 0.5 * (tau + remaining * (-tau).ln_1p());
             assert!((member.shift.consumed - 3.0 * tau - h).abs() < 2e-15, "{tau}");
-            assert!((member.compliance_increase + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + member.compliance_increase), "{tau}");
+            assert!(
+                (member.compliance_increase + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + member.compliance_increase),
+                "{tau}"
+            );
             assert!((family.size(&member) - remaining.sqrt()).abs() < 2e-15, "{tau}");
             // e = τ (2-τ) + 2 (1-τ) ln(1-τ), a difference of terms of size 2τ.
             let energy = tau * (2.0 - tau) + 2.0 * remaining * (-tau).ln_1p();
@@ -403,11 +427,21 @@ mod tests {
                 let remaining = half * 10f64.powf(power);
                 let found = family.at_shift_remaining(remaining);
                 let member = family.at_load_remaining(found.load.remaining);
-                assert!((member.shift.remaining / remaining - 1.0).abs() < 4e-15, "{flat} {remaining}: {}", member.shift.remaining);
-                assert!((member.compliance_increase / found.compliance_increase - 1.0).abs() < 4e-15, "{flat} {remaining}: {}", member.compliance_increase);
+                assert!(
+                    (member.shift.remaining / remaining - 1.0).abs() < 4e-15,
+                    "{flat} {remaining}: {}",
+                    member.shift.remaining
+                );
+                assert!(
+                    (member.compliance_increase / found.compliance_increase - 1.0).abs() < 4e-15,
+                    "{flat} {remaining}: {}",
+                    member.compliance_increase
+                );
             }
             let end = family.at_shift_remaining(0.0);
-            assert!(end.load.remaining == 0.0 && end.shift.remaining == 0.0 && end.shift.consumed == family.slip_shift());
+            assert!(
+                end.load.remaining == 0.0 && end.shift.remaining == 0.0 && end.shift.consumed == family.slip_shift()
+            );
             assert_eq!(end.compliance_increase.is_infinite(), flat == 0.0);
         }
     }

@@ -9,8 +9,8 @@
 //!
 //! each of them `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
 
-use crate::shape::{StickZone, Complement};
 use crate::numerics::polynomial::{self, Rows, rows};
+use crate::shape::{Complement, StickZone};
 
 /// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
 pub(crate) const TERMS: usize = 48;
@@ -177,9 +177,15 @@ impl SmallLoadSeries {
 
     /// The member at which a load of at most 1/2 is lost.
     pub fn at_load(&self, load: Complement, slip_shift: f64) -> StickZone {
-        let consumed = self.compliance * load.consumed + self.sum(&APPROACH, load.consumed) * load.consumed * load.consumed;
+        let consumed =
+            self.compliance * load.consumed + self.sum(&APPROACH, load.consumed) * load.consumed * load.consumed;
         let compliance_increase = self.sum(&COMPLIANCE, load.consumed) * load.consumed;
-        StickZone { load, shift: Complement { consumed, remaining: slip_shift - consumed }, compliance_increase, size_parameter: None }
+        StickZone {
+            load,
+            shift: Complement { consumed, remaining: slip_shift - consumed },
+            compliance_increase,
+            size_parameter: None,
+        }
     }
 
     /// The member at which an approach of at most that at τ = 1/2 is lost: Halley's iteration from the root of the series'
@@ -201,7 +207,12 @@ impl SmallLoadSeries {
                 break;
             }
         }
-        StickZone { load: Complement { consumed: tau, remaining: 1.0 - tau }, shift, compliance_increase, size_parameter: None }
+        StickZone {
+            load: Complement { consumed: tau, remaining: 1.0 - tau },
+            shift,
+            compliance_increase,
+            size_parameter: None,
+        }
     }
 }
 

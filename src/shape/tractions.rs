@@ -12,9 +12,9 @@
 //! |x|. Both have elementary antiderivatives; Eq. 17 and 22 are the first, mended. Where the antiderivative cancels (a
 //! narrow slip zone, a nearly flat contact), the integrand is smooth and positive, and 16 Gauss points give all digits.
 
+use crate::numerics::quadrature::gauss;
 use crate::shape::SurfacePoint;
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
-use crate::numerics::quadrature::gauss;
 
 /// How much smaller than its terms a sum may be before the quadrature takes over: six bits lost.
 const CANCELLED: f64 = 1.0 / 64.0;
