@@ -8,9 +8,10 @@ pub mod parameters;
 
 mod law;
 mod numerics;
+mod range;
 mod tag;
 
-mod shape;
+pub mod shape;
 
 pub mod constant_load;
 

@@ -29,12 +29,12 @@
 //!
 //! is a sum of one sign; in gross slip the upper limit is fixed and K' is differentiated as it stands.
 
-use crate::constant_load::contact::{Contact, LARGEST_DISPLACEMENT};
+use crate::constant_load::contact::{Contact, MAX_DISPLACEMENT};
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
 use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
-use crate::shape::{QuadraturePoint, SizeFamily, StickZone, integrate};
+use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude; what is asked for is computed.
@@ -54,7 +54,29 @@ pub struct HysteresisLoop<'a> {
     top: f64,
 }
 
-/// Share of the displacement of gross slip from which the contact's own nodes are enough.
+/// Nodes of K' in gross slip, the same for all amplitudes: x, and dτ with the weight.
+pub(crate) type GrossSlipQuadrature = [[f64; GAUSS.len()]; 2];
+
+pub(crate) const NO_QUADRATURE: GrossSlipQuadrature = [[0.0; GAUSS.len()]; 2];
+
+/// Nodes over all stick zones: size parameters whose spacing grows in proportion to the distance from the branch points, and shrinks
+/// towards b, where the integrands have square roots.
+pub(crate) fn gross_slip_quadrature(zones: &dyn StickZones) -> GrossSlipQuadrature {
+    let extent = zones.log_branch_distance();
+    // σ = sinh(extent y)/sinh(extent), y = z (2-z).
+    let scale = 0.5 / (0.5 * (extent.exp() - (-extent).exp()));
+    let mut nodes = NO_QUADRATURE;
+    let [shifts, weights] = &mut nodes;
+    for ((shift, slip_weight), (z, weight)) in shifts.iter_mut().zip(weights).zip(GAUSS) {
+        let (up, down) = ((extent * z * (2.0 - z)).exp(), (-extent * z * (2.0 - z)).exp());
+        let rate = extent * scale * (up + down) * 2.0 * (1.0 - z);
+        let point = zones.quadrature_point((scale * (up - down)).min(1.0));
+        (*shift, *slip_weight) = (point.shift.consumed, weight * rate * point.dload_dsigma);
+    }
+    nodes
+}
+
+/// Fraction of the displacement of gross slip from which the contact's own nodes are enough.
 const SLIP_NODES_FROM: f64 = 1.05;
 
 impl Contact {
@@ -146,7 +168,7 @@ fn sum4(terms: &[f64]) -> f64 {
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
-    if in_0_to(LARGEST_DISPLACEMENT, amplitude) { Ok(()) } else { Err(Error::BadAmplitude) }
+    if in_0_to(MAX_DISPLACEMENT, amplitude) { Ok(()) } else { Err(Error::BadAmplitude) }
 }
 
 impl ComplexStiffness<'_> {
@@ -170,8 +192,8 @@ impl ComplexStiffness<'_> {
         self.amplitude.max(f64::MIN_POSITIVE)
     }
 
-    fn family(&self) -> &dyn SizeFamily {
-        self.contact.family()
+    fn zones(&self) -> &dyn StickZones {
+        self.contact.stick_zones()
     }
 
     /// K' \[N/m\].
@@ -324,7 +346,7 @@ impl ComplexStiffness<'_> {
 
     /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ0 of a stick zone near the origin.
     fn integrate_small_tau(&self, stick: &StickZone, f: impl Fn(f64, f64, &NearPoint) -> f64) -> f64 {
-        let origin = self.family().origin();
+        let origin = self.zones().small_load();
         let (shift, top) = (self.shift(), stick.load.consumed);
         let sum: f64 = TANH_SINH
             .iter()
@@ -341,7 +363,7 @@ impl ComplexStiffness<'_> {
 
     /// `∫ f(X, 1-X, station) dσ` from the stick zone, or from the smallest member in gross slip, to the contact.
     fn integrate_sigma(&self, stick: Option<&StickZone>, f: impl Fn(f64, f64, &QuadraturePoint) -> f64) -> f64 {
-        let (family, shift) = (self.family(), self.shift());
+        let (family, shift) = (self.zones(), self.shift());
         let (from, remaining) = match stick {
             Some(stick) => (family.size_parameter(stick), stick.shift.remaining),
             None => (
@@ -357,7 +379,7 @@ impl ComplexStiffness<'_> {
         };
         // Just beyond gross slip 1-X nearly vanishes at the inner end, on the scale of the member whose rest is the excess:
         // the integral is divided there.
-        let compliance_increase = (-remaining).min(family.slip_shift() - family.origin().half_shift);
+        let compliance_increase = (-remaining).min(family.slip_shift() - family.small_load().half_shift);
         if compliance_increase > 0.0 {
             let middle = family.size_parameter(&family.at_shift_remaining(compliance_increase));
             integrate(family, 0.0, middle, integrand) + integrate(family, middle, 1.0, integrand)
@@ -371,7 +393,7 @@ impl ComplexStiffness<'_> {
         if self.contact.is_frictionless() {
             return (0.0, 0.0);
         }
-        let origin = self.family().origin();
+        let origin = self.zones().small_load();
         let second_derivative =
             0.5 * origin.initial_curvature() / (origin.compliance * origin.compliance * origin.compliance);
         let unit = self.contact.stiffness_scale / self.contact.displacement_scale.max(f64::MIN_POSITIVE);

@@ -8,7 +8,7 @@ use crate::constant_load::interpolant::ForceInterpolant;
 use crate::error::Error;
 use crate::law::Response;
 use crate::numerics::fp_class::{abs_le, is_finite};
-use crate::shape::{Complement, StickZone, SurfacePoint};
+use crate::shape::stick_zone::{Complement, StickZone, SurfacePoint};
 
 /// Relative excess over mu N that is taken for rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -72,14 +72,14 @@ impl Contact {
         let remaining = self.slip_force - force;
         // mu N to twice the digits: what rests near gross slip is then as good as the force given.
         let remaining = if remaining > 0.0 { (remaining + self.slip_force_rounding).max(0.0) } else { 0.0 };
-        self.family().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
+        self.stick_zones().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
     }
 
     /// The stick zone at a displacement from 0 to that of gross slip.
     pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         let displacement = displacement.min(self.slip_displacement);
-        self.family().at_shift(Complement {
+        self.stick_zones().at_shift(Complement {
             consumed: displacement / unit,
             remaining: (self.slip_displacement - displacement) / unit,
         })
@@ -163,21 +163,21 @@ impl Contact {
 
     /// dT/d(displacement) \[N/m\] at a stick zone.
     pub(crate) fn stiffness_of(&self, stick: &StickZone) -> f64 {
-        self.stiffness_scale / self.family().compliance(stick)
+        self.stiffness_scale / self.stick_zones().compliance(stick)
     }
 
     /// Energy \[J\] dissipated per cycle of a displacement amplitude up to gross slip, and its derivative \[N\].
     #[inline(always)]
     pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
-        let family = self.family();
+        let family = self.stick_zones();
         if let Some((load, stiffness)) = self.evaluator().load_at(amplitude) {
             if load.consumed <= 0.5 {
-                let (dissipation, slope) = family.origin().dissipation_with_derivative(load.consumed);
+                let (dissipation, slope) = family.small_load().dissipation_with_derivative(load.consumed);
                 return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
             }
             let compliance_increase =
-                self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - family.origin().compliance;
-            let (dissipation, slope) = self.shape().cycle(load.remaining, compliance_increase);
+                self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - family.small_load().compliance;
+            let (dissipation, slope) = self.rounded_flat_zones().cycle(load.remaining, compliance_increase);
             return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
         }
         let stick = self.stick_zone_at_displacement(amplitude);
@@ -187,7 +187,7 @@ impl Contact {
 
     /// Energy \[J\] dissipated per cycle whose half-cycles end with that stick zone.
     pub(crate) fn energy_of(&self, stick: &StickZone) -> f64 {
-        self.energy_scale() * self.family().dissipation(stick)
+        self.energy_scale() * self.stick_zones().dissipation(stick)
     }
 }
 
@@ -310,13 +310,13 @@ impl CurvePoint<'_> {
     #[must_use]
     pub fn compliance(&self) -> f64 {
         let unit = self.contact.stiffness_scale.max(f64::MIN_POSITIVE);
-        self.stick().map_or(f64::INFINITY, |stick| self.contact.family().compliance(&stick) / unit)
+        self.stick().map_or(f64::INFINITY, |stick| self.contact.stick_zones().compliance(&stick) / unit)
     }
 
     /// Half-width c of the stick zone \[m\]; 0 in gross slip, where nothing sticks.
     #[must_use]
     pub fn stick_half_width(&self) -> f64 {
-        self.stick().map_or(0.0, |stick| self.contact.half_width * self.contact.family().size(&stick))
+        self.stick().map_or(0.0, |stick| self.contact.half_width * self.contact.stick_zones().size(&stick))
     }
 
     /// The stick zone, in gross slip the smallest member of the family, to which it has shrunk.
@@ -331,7 +331,7 @@ impl CurvePoint<'_> {
             return 0.0;
         }
         let unit = self.contact.friction_coefficient * self.contact.pressure_scale;
-        self.sign * unit * self.contact.family().shear(&self.contact.place(x), &self.stick_or_last())
+        self.sign * unit * self.contact.stick_zones().shear(&self.contact.place(x), &self.stick_or_last())
     }
 
     /// Relative slip \[m\] at x \[m\] (Eq. 15), in gross slip that at its start: 0 in the stick zone and outside the contact.
@@ -340,7 +340,7 @@ impl CurvePoint<'_> {
     /// `NotAvailable` for an elliptical contact.
     pub fn slip(&self, x: f64) -> Result<f64, Error> {
         let place = self.contact.place(x);
-        let slip = self.contact.family().slip(&place, &self.stick_or_last()).ok_or(Error::NotAvailable)?;
+        let slip = self.contact.stick_zones().slip(&place, &self.stick_or_last()).ok_or(Error::NotAvailable)?;
         let slips = place.from_edge >= 0.0 && !self.contact.is_frictionless();
         Ok(if slips { self.sign * self.contact.displacement_scale * slip } else { 0.0 })
     }
@@ -363,7 +363,7 @@ impl Contact {
     /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
     #[must_use]
     pub fn pressure(&self, x: f64) -> f64 {
-        if self.half_width > 0.0 { self.pressure_scale * self.family().pressure(&self.place(x)) } else { 0.0 }
+        if self.half_width > 0.0 { self.pressure_scale * self.stick_zones().pressure(&self.place(x)) } else { 0.0 }
     }
 
     /// Where x lies along the width; far outside is as good as twice the half-width.

@@ -6,7 +6,7 @@
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::shape::{Complement, SizeFamily};
+use crate::shape::stick_zone::{Complement, StickZones};
 use core::f64::consts::PI;
 
 /// A spring of some stiffness that slips at some force.
@@ -109,7 +109,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider
         (0..sliders).for_each(|_| take(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);
     }
-    let curve = Curve::new(contact.family());
+    let curve = Curve::new(contact.stick_zones());
     let (mut low, mut high) = (1e-18_f64, 1.0_f64);
     for _ in 0..100 {
         let error = (low * high).sqrt();
@@ -158,13 +158,13 @@ struct Side {
 
 /// The monotonic curve in its own units.
 struct Curve<'a> {
-    family: &'a dyn SizeFamily,
+    family: &'a dyn StickZones,
     /// Tangent stiffness just before gross slip.
     last_slope: f64,
 }
 
 impl<'a> Curve<'a> {
-    fn new(family: &'a dyn SizeFamily) -> Curve<'a> {
+    fn new(family: &'a dyn StickZones) -> Curve<'a> {
         Curve { family, last_slope: 1.0 / family.compliance(&family.at_load_remaining(0.0)) }
     }
 

@@ -1,24 +1,30 @@
-//! The inverse of the monotonic curve as polynomials, prepared once: force and stiffness at a displacement without
-//! iteration.
+//! Piecewise Chebyshev interpolant of the monotonic curve T(δ), built once per contact: force and stiffness at a displacement
+//! without iteration.
 //!
-//! With x_s the approach at gross slip, the first 2/5 of the way are one polynomial in the approach. What is left until
-//! gross slip, `ρ = (x_s - x)/(3/5 x_s)`, goes with its root v: the curve is singular at v = 0, where it may have any power of
-//! ρ^(1/3) or a logarithm, and seen from the octave 2⁻ʲ⁻¹ < v < 2⁻ʲ that is three half-lengths away, so that every octave needs
-//! the same few terms. What is interpolated is the tangent stiffness, of which the force is the integral: both keep their
-//! digits; and of the stiffness only what it falls by, so that rounding is felt no more than the curve bends. Below the last octave, in the last 2000th of the way, the curve is solved as it stands.
+//! With the shift x and its value x_s at gross slip:
+//!
+//! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness;
+//! - beyond: polynomials in `v = sqrt(ρ)`, `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < v <= 2⁻ʲ, j = 0 to 4. The curve is
+//!   singular at v = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
+//!   converge at the same rate;
+//! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by Halley's method.
+//!
+//! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
+//! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS};
 use crate::numerics::polynomial::{rows, value_and_slope};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::{Complement, StickZone};
+use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
+use crate::shape::stick_zone::{Complement, StickZone, StickZones};
 
-/// Share of x_s that the polynomial from the origin covers.
+/// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
 
-/// Octaves of v.
+/// Number of dyadic intervals of v.
 const PIECES: usize = 5;
 
-/// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: what K' makes of the power n of the secant stiffness.
+/// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
 static CYCLE_WEIGHTS: Polynomial = {
     let mut weights = [1.0; TERMS];
     let mut integral = 1.0;
@@ -31,38 +37,38 @@ static CYCLE_WEIGHTS: Polynomial = {
     rows(&weights)
 };
 
-/// The inverse of one curve.
+/// The interpolant of one curve.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
-pub struct ForceInterpolant {
+pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s): the secant stiffness over the initial one.
-    origin: Polynomial,
+    inner: Polynomial,
     /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
-    /// 1 where all of them are accurate to rounding; 0 for a curve that bends too sharply, with Λ near 0.
-    converged: f64,
+    /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0.
+    converged: u64,
 }
 
 impl ForceInterpolant {
     pub const NONE: ForceInterpolant =
-        ForceInterpolant { origin: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0.0 };
+        ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0 };
 
-    /// The inverse of the curve on which `at_shift` finds members, whose compliance is Λ + λ.
-    pub fn new(
-        slip_shift: f64,
-        compliance: f64,
-        mut at_shift: impl FnMut(Complement) -> StickZone,
-    ) -> ForceInterpolant {
+    /// The interpolant of the curve of a flat with rounded edges.
+    pub fn of(zones: &RoundedFlatZones) -> ForceInterpolant {
+        ForceInterpolant::new(zones.slip_shift(), zones.small_load().compliance, zones.sequence())
+    }
+
+    /// The interpolant of the curve on which `at_shift` finds stick zones, with the compliance Λ + λ.
+    fn new(slip_shift: f64, compliance: f64, mut at_shift: impl FnMut(Complement) -> StickZone) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
-        let fall = Interpolant::<TERMS>::through(|z| {
+        let decrease = Interpolant::<TERMS>::through(|z| {
             let consumed = 0.5 * (1.0 + z) * first;
-            let compliance_increase =
-                at_shift(Complement { consumed, remaining: slip_shift - consumed }).compliance_increase;
-            compliance_increase / (compliance + compliance_increase)
+            let increase = at_shift(Complement { consumed, remaining: slip_shift - consumed }).compliance_increase;
+            increase / (compliance + increase)
         });
-        let mut converged = fall.is_converged(1e-15);
-        let mut origin = fall.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
-        if let Some([first, ..]) = origin.first_mut() {
+        let mut converged = decrease.is_converged(1e-15);
+        let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
+        if let Some([first, ..]) = inner.first_mut() {
             *first = 1.0;
         }
         let mut pieces = [[[0.0; 4]; _]; PIECES];
@@ -74,52 +80,57 @@ impl ForceInterpolant {
                 at_shift(Complement { consumed: slip_shift - left, remaining: left })
             };
             let unit = 2.0 * remaining * scale * scale;
-            // What the stiffness can be known to grows by four from octave to octave: the later ones need fewer points.
+            // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
             let tolerance = 1e-15 * (1.0 / (16.0 * scale * scale));
-            let (polynomial, fine) = if j < 2 {
+            let (polynomial, piece_converged) = if j < 2 {
                 interpolate::<TERMS>(compliance, unit, at, tolerance)
             } else {
                 interpolate::<16>(compliance, unit, at, tolerance)
             };
             *piece = polynomial;
-            converged &= fine;
+            converged &= piece_converged;
             scale *= 0.5;
         }
-        ForceInterpolant { origin, pieces, converged: if converged { 1.0 } else { 0.0 } }
+        ForceInterpolant { inner, pieces, converged: converged as u64 }
     }
 
-    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1.
+    #[inline(always)]
+    fn is_converged(&self) -> bool {
+        self.converged != 0
+    }
+
+    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1; `None` if not converged.
     #[inline(always)]
     pub fn secant_and_tangent(&self, y: f64) -> Option<(f64, f64)> {
-        let (mean, slope) = value_and_slope(&self.origin, y);
-        (self.converged > 0.0).then_some((mean, mean + slope * y))
+        let (secant, slope) = value_and_slope(&self.inner, y);
+        self.is_converged().then_some((secant, secant + slope * y))
     }
 
-    /// K' over the initial stiffness and its derivative by y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of every power of
-    /// the tangent stiffness.
+    /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
+    /// power of the tangent stiffness.
     pub fn cycle(&self, y: f64) -> Option<(f64, f64)> {
-        let mut powers = self.origin;
+        let mut powers = self.inner;
         for (row, weights) in powers.iter_mut().zip(&CYCLE_WEIGHTS) {
             row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
         }
-        (self.converged > 0.0).then_some(value_and_slope(&powers, y))
+        self.is_converged().then_some(value_and_slope(&powers, y))
     }
 
-    /// 1 - τ and its derivative by ρ; none where ρ is too small.
+    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, or if not converged.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = rho.max(TINY).sqrt();
-        // 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first octave.
+        // 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first interval.
         let exponent = (v.to_bits() >> 52).min(1022);
         let piece = self.pieces.get((1022 - exponent) as usize)?;
         let scale = f64::from_bits((2047 - 2 - exponent) << 52);
         let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - 3.0);
-        (self.converged > 0.0).then_some((remaining, 2.0 * scale * slope / v))
+        self.is_converged().then_some((remaining, 2.0 * scale * slope / v))
     }
 }
 
-/// 1 - τ over an octave, and whether it is resolved: the integral of `unit (3+z)/(Λ + λ)`, placed by its own values. The
-/// compliance at the first point makes a parabola of it, and what is interpolated is the way from there.
+/// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
+/// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
 fn interpolate<const N: usize>(
     compliance: f64,
     unit: f64,
@@ -129,28 +140,27 @@ fn interpolate<const N: usize>(
     let mut values = [0.0; N];
     let mut places = values.iter_mut();
     let mut first = None;
-    let fall = Interpolant::<N>::through(|z| {
-        let member = at(z);
+    let decrease = Interpolant::<N>::through(|z| {
+        let zone = at(z);
         if let Some(place) = places.next() {
-            *place = member.load.remaining;
+            *place = zone.load.remaining;
         }
-        (3.0 + z)
-            * ((member.compliance_increase - *first.get_or_insert(member.compliance_increase))
-                / (compliance + member.compliance_increase))
+        let increase = zone.compliance_increase;
+        (3.0 + z) * ((increase - *first.get_or_insert(increase)) / (compliance + increase))
     });
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
-    let mut integral = fall.integral().map(|row| row.map(|coefficient| -stiffness * coefficient));
+    let mut integral = decrease.integral().map(|row| row.map(|coefficient| -stiffness * coefficient));
     if let Some([_, linear, square, _]) = integral.first_mut() {
         *linear += 3.0 * stiffness;
         *square += 0.5 * stiffness;
     }
     let points = const { &Interpolant::<N>::POINTS };
-    let off = points.iter().zip(values).map(|(&z, value)| value - value_and_slope(&integral, z).0);
-    let constant = off.sum::<f64>() / N as f64;
+    let differences = points.iter().zip(values).map(|(&z, value)| value - value_and_slope(&integral, z).0);
+    let constant = differences.sum::<f64>() / N as f64;
     if let Some([first, ..]) = integral.first_mut() {
         *first = constant;
     }
-    (integral, fall.is_converged(tolerance * (3.0 - fall.mean())))
+    (integral, decrease.is_converged(tolerance * (3.0 - decrease.mean())))
 }
 
 #[cfg(test)]
@@ -203,7 +213,7 @@ mod tests {
         use crate::parameters::CENTRE_POINT;
         for compliance_increase in [1e-9, 1e-3, 0.02] {
             let contact = cylinder(1.0 + compliance_increase, 0.0, CENTRE_POINT).unwrap();
-            assert_eq!(contact.interpolant().converged, 0.0);
+            assert_eq!(contact.interpolant().converged, 0);
             for share in (1..400).map(|k| f64::from(k) / 400.0).chain([1e-9, 0.9999]) {
                 let displacement = share * contact.slip_displacement;
                 let back = contact.curve_at_force(contact.response(displacement).force).unwrap().displacement();

@@ -13,8 +13,8 @@
 //! narrow slip zone, a nearly flat contact), the integrand is smooth and positive, and 16 Gauss points give all digits.
 
 use crate::numerics::quadrature::gauss;
-use crate::shape::SurfacePoint;
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
+use crate::shape::stick_zone::SurfacePoint;
 
 /// How much smaller than its terms a sum may be before the quadrature takes over: six bits lost.
 const CANCELLED: f64 = 1.0 / 64.0;

@@ -10,7 +10,7 @@
 //! each of them `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
 
 use crate::numerics::polynomial::{self, Rows, rows};
-use crate::shape::{Complement, StickZone};
+use crate::shape::stick_zone::{Complement, StickZone};
 
 /// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
 pub(crate) const TERMS: usize = 48;

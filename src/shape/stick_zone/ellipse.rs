@@ -1,0 +1,197 @@
+//! Stick zones of the elliptical Hertz contact. All elliptical contacts have the same ones in their own units.
+//!
+//! The size parameter σ is the semi-axis of the stick ellipse over that of the contact. Loads scale as σ³, shifts as σ², so that, in
+//! units of C_t μ N,
+//!
+//! ```text
+//! x = (3/2) [1 - (1-τ)^(2/3)],      dx/dτ = (1-τ)^(-1/3) = 1/σ.
+//! ```
+
+use crate::shape::rounded_punch::TINY;
+use crate::shape::stick_zone::small_load::{SmallLoadSeries, TERMS, economized};
+use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use core::f64::consts::PI;
+
+/// The stick zones of every elliptical contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EllipseZones;
+
+/// h'' = (1/3) (1-τ)^(-4/3).
+const CURVATURE: [f64; TERMS] = {
+    let mut table = [1.0 / 3.0; TERMS];
+    let mut n = 1;
+    while n < TERMS {
+        table[n] = table[n - 1] * (n as f64 + 1.0 / 3.0) / n as f64;
+        n += 1;
+    }
+    table
+};
+
+static SMALL_LOAD: SmallLoadSeries = SmallLoadSeries::new(1.0, economized(CURVATURE));
+
+const SLIP_SHIFT: f64 = 1.5;
+
+impl StickZones for EllipseZones {
+    fn small_load(&self) -> &SmallLoadSeries {
+        &SMALL_LOAD
+    }
+
+    fn slip_shift(&self) -> f64 {
+        SLIP_SHIFT
+    }
+
+    fn at_load_remaining(&self, remaining: f64) -> StickZone {
+        let size = remaining.cbrt();
+        let left = SLIP_SHIFT * size * size;
+        let compliance_increase = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
+        StickZone {
+            load: Complement { consumed: 1.0 - remaining, remaining },
+            shift: Complement { consumed: SLIP_SHIFT - left, remaining: left },
+            compliance_increase,
+            size_parameter: Some(size),
+        }
+    }
+
+    fn at_shift_remaining(&self, remaining: f64) -> StickZone {
+        let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
+        let load = size * size * size;
+        let compliance_increase = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
+        StickZone {
+            load: Complement { consumed: 1.0 - load, remaining: load },
+            shift: Complement { consumed: SLIP_SHIFT - remaining, remaining },
+            compliance_increase,
+            size_parameter: Some(size),
+        }
+    }
+
+    /// `(4/3) ∫ (1-u) (u-s) u^(-4/3) du` from s to 1.
+    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
+        let s = zone.load.remaining;
+        let size = self.size(zone);
+        let square = size * size;
+        (4.0 / 3.0) * (1.5 * (1.0 + s) * (1.0 - square) - 0.6 * (1.0 - s * square) + 3.0 * (s - square))
+    }
+
+    fn size(&self, zone: &StickZone) -> f64 {
+        1.0 / (1.0 + zone.compliance_increase)
+    }
+
+    fn size_parameter(&self, zone: &StickZone) -> f64 {
+        zone.size_parameter.unwrap_or_else(|| self.size(zone))
+    }
+
+    fn quadrature_point(&self, size: f64) -> QuadraturePoint {
+        let left = SLIP_SHIFT * size * size;
+        let inverse = 1.0 / size.max(1e-100);
+        QuadraturePoint {
+            shift: Complement { consumed: SLIP_SHIFT - left, remaining: left },
+            compliance: inverse,
+            dload_dsigma: 3.0 * size * size,
+            dcompliance_dsigma: inverse * inverse,
+        }
+    }
+
+    /// No branch point: nearly uniform spacing.
+    fn log_branch_distance(&self) -> f64 {
+        1.0
+    }
+
+    fn pressure(&self, point: &SurfacePoint) -> f64 {
+        SLIP_SHIFT / PI * (point.from_edge * (1.0 + point.x)).max(0.0).sqrt()
+    }
+
+    fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
+        let (size, x) = (self.size(zone), point.x);
+        let outer = (point.from_edge * (1.0 + x)).max(0.0).sqrt();
+        let inner = ((size - x) * (size + x)).max(0.0).sqrt();
+        // The difference of the two square roots from that of their squares, if both exist.
+        let difference =
+            if inner > 0.0 { consumed_size(zone) * (1.0 + size) / (outer + inner).max(TINY) } else { outer };
+        SLIP_SHIFT / PI * difference
+    }
+
+    fn slip(&self, _point: &SurfacePoint, _zone: &StickZone) -> Option<f64> {
+        None
+    }
+}
+
+/// 1 - σ from λ = 1/σ - 1.
+fn consumed_size(zone: &StickZone) -> f64 {
+    if zone.compliance_increase < 1e300 { zone.compliance_increase / (1.0 + zone.compliance_increase) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::Contact;
+    use crate::constant_load::contact::tests::ellipse;
+    use crate::parameters::{EllipticParameters, Material};
+    use crate::shape::stick_zone::integrate;
+
+    fn like(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
+        [Material { young_modulus, poisson_ratio }; 2]
+    }
+
+    /// The example `cattaneo` of the program CONTACT; millimetres and newtons, numbers given to five digits. The friction
+    /// work is that of one monotonic loading, a quarter of a cycle's.
+    #[test]
+    fn cattaneos_problem_has_the_shift_and_the_friction_work_known() {
+        let (normal_force, radius, friction, ratio) = (9.1954, 50.0, 0.4, 0.42);
+        let material = like(200.0 * 2.0 * (1.0 + ratio), ratio);
+        let modulus = 200.0 * (1.0 + ratio) / (1.0 - ratio * ratio);
+        let size: f64 = (0.75 * normal_force * radius / modulus).cbrt();
+        let contact = Contact::elliptic(&EllipticParameters {
+            semi_axis_x: size,
+            semi_axis_y: size,
+            normal_force,
+            friction_coefficient: friction,
+            material,
+        })
+        .unwrap();
+        let force = 7.0 / 8.0 * friction * normal_force;
+        let point = contact.curve_at_force(force).unwrap();
+        let work = 0.25 * contact.dissipated_energy(force).unwrap();
+        assert!((point.displacement() - 8.1724e-3).abs() < 0.5e-7, "{}", point.displacement());
+        assert!((work - 2.7554e-3).abs() < 0.5e-7, "{work}");
+        // Half of the contact's size sticks: (1 - 7/8)^(1/3).
+        assert!((point.stick_half_width() / size - 0.5).abs() < 4e-16);
+    }
+
+    #[test]
+    fn series_and_closed_form_meet() {
+        // Below 1/2 the series, above the closed form: within 1e-12 of the change both have the same tangent.
+        let family = EllipseZones;
+        let at = |tau: f64| family.at_load(Complement { consumed: tau, remaining: 1.0 - tau });
+        let (low, high) = (at(0.5), at(0.5 + 1e-12));
+        let step = 1e-12 * family.compliance(&low);
+        assert!((high.shift.consumed - low.shift.consumed - step).abs() < 1e-15);
+        assert!((high.compliance_increase - low.compliance_increase).abs() < 2e-12);
+        let slope = family.d_dissipation(&low);
+        assert!((family.dissipation(&high) - family.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
+        // The whole cycle, and its integral over the family: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
+        let end = family.dissipation(&family.at_load_remaining(0.0));
+        let sum = integrate(&family, 0.0, 1.0, |station| {
+            let size = (station.shift.remaining / SLIP_SHIFT).sqrt();
+            let remaining = size * size * size;
+            4.0 * (1.0 - remaining) * remaining * station.dcompliance_dsigma
+        });
+        assert!((end - 1.2).abs() < 4e-16 && (sum - 1.2).abs() < 4e-15, "{end} {sum}");
+    }
+
+    #[test]
+    fn tractions_on_the_axis_are_hertz_less_the_stick_ellipse() {
+        let (x_axis, y_axis) = (0.1e-3, 0.4e-3);
+        let contact = ellipse(x_axis, y_axis);
+        let peak = 1.5 * 150.0 / (PI * x_axis * y_axis);
+        let point = contact.curve_at_force(0.6 * contact.slip_force).unwrap();
+        let stick = point.stick_half_width();
+        for part in [0.0, 0.5, 0.9, 0.99, 1.0, 1.1] {
+            let x = part * x_axis;
+            let root = |size: f64| (1.0 - (x / size) * (x / size)).max(0.0).sqrt();
+            // The stick ellipse carries σ³ of the load on σ² of the area.
+            let shear = 0.4 * peak * (root(x_axis) - stick / x_axis * root(stick));
+            assert!((contact.pressure(x) - peak * root(x_axis)).abs() < 1e-14 * peak, "{part}");
+            assert!((point.shear(x) - shear).abs() < 1e-14 * peak, "{part}");
+        }
+    }
+}

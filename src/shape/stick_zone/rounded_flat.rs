@@ -1,0 +1,443 @@
+//! Stick zones of the flat with rounded edges, cylinder included.
+//!
+//! Lengths are in units of the half-width b, loads in units of P, shifts in units of 2μP/(πE*). With g, β and γ of the rounded punch
+//! at the stick zone c (index c) and at b, and `s = g_c/g_b = 1 - τ`,
+//!
+//! ```text
+//! compliance       dx/dτ = Λ + λ,             λ = ln(b/c),   Λ = ln(2L/b) + ν/(1-ν)          Eq. 8-10
+//! remaining shift  x_s - x = s (Λ + λ + β_c)               x = Λ τ + β_b - s (λ + β_c)
+//! energy           e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                          Eq. 13-16
+//! ```
+//!
+//! These formulas are evaluated for τ >= 1/2; below, where they cancel, by the expansion of `small_load`. The size parameter is
+//! `σ = w_c/w_b`.
+
+use crate::numerics::chebyshev::Interpolant;
+use crate::shape::rounded_punch::{RoundedPunch, TINY};
+use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
+use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::tractions;
+use core::f64::consts::PI;
+
+/// The stick zones of a flat with rounded edges under its load, lengths in units of b.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RoundedFlatZones {
+    /// a/b, and `sqrt(1 - (a/b)²)` computed without cancellation.
+    flat: f64,
+    w: f64,
+    psi: f64,
+    load: f64,
+    beta: f64,
+    gamma: f64,
+    slip_shift: f64,
+    small_load: SmallLoadSeries,
+}
+
+impl RoundedFlatZones {
+    /// Those of an open contact.
+    pub(crate) const EMPTY: RoundedFlatZones = RoundedFlatZones {
+        flat: 0.0,
+        w: 0.0,
+        psi: 0.0,
+        load: 0.0,
+        beta: 0.0,
+        gamma: 0.0,
+        slip_shift: 0.0,
+        small_load: SmallLoadSeries::new(0.0, [0.0; RETAINED_TERMS]),
+    };
+
+    /// The stick zones below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
+    pub(crate) fn new(contact: &RoundedPunch, compliance: f64) -> RoundedFlatZones {
+        let load = contact.load();
+        let beta = contact.beta(load);
+        RoundedFlatZones {
+            flat: contact.flat,
+            w: contact.w,
+            psi: contact.psi,
+            load,
+            beta,
+            gamma: contact.gamma(load),
+            slip_shift: compliance + beta,
+            small_load: SmallLoadSeries::new(compliance, curvature(contact, load)),
+        }
+    }
+
+    /// Finds the stick zones at a sequence of shifts. Successive ones are close: each starts from the one before.
+    pub(crate) fn sequence(&self) -> impl FnMut(Complement) -> StickZone {
+        let mut last: Option<(f64, f64, f64)> = None;
+        move |shift| {
+            if shift.consumed <= self.small_load.half_shift {
+                return self.small_load.at_shift(shift);
+            }
+            let remaining = shift.remaining;
+            let start = match last {
+                // w scales as a power of the remaining shift that changes slowly.
+                Some((before, w, power)) => {
+                    let change = power * (remaining / before - 1.0);
+                    RoundedPunch::new(self.flat, w * (1.0 + change * (1.0 + 0.5 * (change - change / power))))
+                }
+                None => self.initial_guess(remaining),
+            };
+            let (zone, w, power) = self.refine_shift_remaining(remaining, start);
+            last = Some((remaining, w, power));
+            zone
+        }
+    }
+
+    /// The stick zone at a remaining shift, from one close to it; its w, and the local power with which w scales with the remaining
+    /// shift.
+    ///
+    /// Halley's iteration in w cubes an error of a few per cent each time. The last step is an expansion in which third powers of
+    /// 2e-5, over the square of the compliance if that is small, are below rounding.
+    fn refine_shift_remaining(&self, remaining: f64, start: RoundedPunch) -> (StickZone, f64, f64) {
+        let mut punch = start;
+        let mut iterations_left = 8;
+        loop {
+            let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
+            let now = self.zone(&punch);
+            let compliance = self.small_load.compliance + now.compliance_increase;
+            // Derivatives with respect to w: of the remaining shift times the load of b, and of the compliance.
+            let slope = (4.0 * w * punch.psi * compliance).max(TINY);
+            let second_derivative = punch.second_derivative() * compliance - 4.0 * w * w * punch.psi / c2;
+            let (rate, rate_change) = (-w / c2, (w - punch.flat) / c2 * ((w + punch.flat) / c2));
+            let gap = remaining - now.shift.remaining;
+            let newton = gap * self.load / slope;
+            let step = newton / (1.0 + 0.5 * newton * second_derivative / slope).max(0.5);
+            iterations_left -= 1;
+            if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
+                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
+                let zone = StickZone {
+                    load: Complement { consumed: 1.0 - load, remaining: load },
+                    shift: Complement { consumed: self.slip_shift - remaining, remaining },
+                    compliance_increase: now.compliance_increase + step * (rate + 0.5 * step * rate_change),
+                    size_parameter: Some((w + step) / self.w),
+                };
+                return (zone, w + step, (remaining * self.load / slope) / w.max(TINY));
+            }
+            punch = RoundedPunch::new(self.flat, (w + step).max(0.0));
+        }
+    }
+
+    /// Factor of the integrals of `tractions`.
+    fn traction_scale(&self) -> f64 {
+        4.0 / self.load.max(TINY)
+    }
+
+    /// λ = ln(b/c), accurate also for c close to b.
+    fn compliance_increase(&self, punch: &RoundedPunch) -> f64 {
+        let size = punch.half_width * punch.half_width;
+        if size < 0.5 {
+            -0.5 * size.max(TINY).ln()
+        } else {
+            -0.5 * (-(self.w - punch.w) * (self.w + punch.w)).max(-0.5).ln_1p()
+        }
+    }
+
+    /// The formulas above for a stick zone.
+    fn zone(&self, punch: &RoundedPunch) -> StickZone {
+        let load = punch.load();
+        self.zone_of_load(punch, load, load / self.load)
+    }
+
+    /// The same for a stick zone of known load g_c and `s = g_c/g_b`. In the form Λ τ + h the consumed shift is no difference of two
+    /// large terms if the curve is nearly straight.
+    fn zone_of_load(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
+        let (full_stick, increase, beta) =
+            (self.small_load.compliance, self.compliance_increase(punch), punch.beta(load));
+        StickZone {
+            load: Complement { consumed: 1.0 - remaining, remaining },
+            shift: Complement {
+                consumed: full_stick * (1.0 - remaining) + ((self.beta - remaining * beta) - remaining * increase),
+                remaining: remaining * (full_stick + increase + beta),
+            },
+            compliance_increase: increase,
+            size_parameter: Some(punch.w / self.w),
+        }
+    }
+
+    /// A stick zone close to the one at a remaining shift: with Λ + λ + β constant, first at its smallest value.
+    fn initial_guess(&self, remaining: f64) -> RoundedPunch {
+        let w = RoundedPunch::initial_guess_w(self.flat, remaining / self.slip_shift * self.load);
+        let increase = -0.5 * (self.flat * self.flat + w * w).clamp(TINY, 1.0).ln();
+        let load = remaining / (self.slip_shift + increase) * self.load;
+        RoundedPunch::new(self.flat, RoundedPunch::initial_guess_w(self.flat, load))
+    }
+
+    /// Dissipation and its derivative with respect to τ at the stick zone with `1 - τ = remaining`, λ given to the rounding of Λ + λ.
+    /// With `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
+    pub(crate) fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+        let w =
+            (self.w * self.w + (-2.0 * compliance_increase).exp_m1()).max(0.25 * self.w * self.w * remaining).sqrt();
+        let load = remaining * self.load;
+        let punch = RoundedPunch::newton_step_from(RoundedPunch::new(self.flat, w), load);
+        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
+        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
+    }
+
+    /// Eq. 13-16.
+    fn dissipation_of(&self, punch: &RoundedPunch, remaining: f64, load: f64, compliance_increase: f64) -> f64 {
+        // At gross slip s vanishes faster than the logarithm of the cylinder grows.
+        let work = remaining * compliance_increase.min(1e3);
+        let (beta, gamma) = (punch.beta(load), punch.gamma(load));
+        4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - work - (self.gamma - remaining * remaining * gamma))
+    }
+
+    fn punch(&self, zone: &StickZone) -> RoundedPunch {
+        RoundedPunch::new(self.flat, self.w * self.size_parameter(zone))
+    }
+}
+
+impl StickZones for RoundedFlatZones {
+    fn small_load(&self) -> &SmallLoadSeries {
+        &self.small_load
+    }
+
+    fn slip_shift(&self) -> f64 {
+        self.slip_shift
+    }
+
+    fn at_load_remaining(&self, remaining: f64) -> StickZone {
+        let load = remaining * self.load;
+        let zone = self.zone_of_load(&RoundedPunch::from_load(self.flat, load), load, remaining);
+        let vanishes = remaining <= 0.0 && self.flat <= 0.0;
+        StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
+    }
+
+    fn at_shift_remaining(&self, remaining: f64) -> StickZone {
+        if remaining <= 0.0 {
+            self.at_load_remaining(0.0)
+        } else {
+            self.refine_shift_remaining(remaining, self.initial_guess(remaining)).0
+        }
+    }
+
+    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
+        let punch = self.punch(zone);
+        self.dissipation_of(&punch, zone.load.remaining, punch.load(), zone.compliance_increase)
+    }
+
+    fn size(&self, zone: &StickZone) -> f64 {
+        match zone.size_parameter {
+            Some(sigma) => {
+                let w = self.w * sigma;
+                (self.flat * self.flat + w * w).sqrt().max(self.flat)
+            }
+            None => (-zone.compliance_increase).exp(),
+        }
+    }
+
+    fn size_parameter(&self, zone: &StickZone) -> f64 {
+        zone.size_parameter.unwrap_or_else(|| {
+            (1.0 + (-2.0 * zone.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt()
+        })
+    }
+
+    fn quadrature_point(&self, sigma: f64) -> QuadraturePoint {
+        let w = self.w * sigma;
+        let punch = RoundedPunch::new(self.flat, w);
+        let zone = self.zone(&punch);
+        let c2 = punch.half_width * punch.half_width;
+        QuadraturePoint {
+            shift: zone.shift,
+            compliance: self.compliance(&zone),
+            dload_dsigma: self.w * 4.0 * w * punch.psi / self.load,
+            dcompliance_dsigma: self.w * w / c2.max(TINY),
+        }
+    }
+
+    /// `arsinh(w_b/a)`: c vanishes at w = ± i a. A flat below 1e-5 b makes no difference in double precision; far from the branch point
+    /// the spacing is uniform.
+    fn log_branch_distance(&self) -> f64 {
+        let ratio = (self.w / self.flat.max(1e-5)).max(0.5);
+        (ratio + (ratio * ratio + 1.0).sqrt()).ln()
+    }
+
+    fn pressure(&self, point: &SurfacePoint) -> f64 {
+        tractions::pressure_between(self.flat, 0.0, self.w, self.w * self.w, point) * self.traction_scale() / PI
+    }
+
+    fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
+        let w = self.w * self.size_parameter(zone);
+        let squares = match zone.size_parameter {
+            Some(_) => (self.w - w) * (self.w + w),
+            None => -(-2.0 * zone.compliance_increase).exp_m1(),
+        };
+        tractions::pressure_between(self.flat, w, self.w, squares, point) * self.traction_scale() / PI
+    }
+
+    fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
+        Some(tractions::slip_beyond(&self.punch(zone), point) * self.traction_scale())
+    }
+}
+
+/// `h'' = g_b/(4 c² ψ_c)` as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
+fn curvature(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
+    let mut punch = *contact;
+    let mut scale = 1.0;
+    let interpolant = Interpolant::<RETAINED_TERMS>::through(|z| {
+        punch = RoundedPunch::refine_from(punch, (0.75 - 0.25 * z) * load);
+        load / (4.0 * punch.half_width * punch.half_width * punch.psi)
+    });
+    interpolant.powers_from_end().map(|power| {
+        let coefficient = scale * power;
+        scale *= 2.0;
+        coefficient
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{FLATS, contact, cylinder};
+    use crate::parameters::CENTRE_POINT;
+    use crate::shape::stick_zone::integrate;
+
+    /// A contact by its ψ, and a compliance of its own.
+    fn family(psi: f64) -> RoundedFlatZones {
+        RoundedFlatZones::new(&RoundedPunch { flat: psi.cos(), w: psi.sin(), half_width: 1.0, psi }, 3.0)
+    }
+
+    /// The cylinder, by its angle and by no flat at all, down to the nearly flat.
+    fn families() -> impl Iterator<Item = RoundedFlatZones> {
+        let cylinder = RoundedFlatZones::new(&RoundedPunch::new(0.0, 1.0), 3.0);
+        [1.57, 1.2, 0.7, 0.05, 1e-4].map(family).into_iter().chain([cylinder])
+    }
+
+    fn at(family: &RoundedFlatZones, tau: f64) -> StickZone {
+        family.at_load(Complement { consumed: tau, remaining: 1.0 - tau })
+    }
+
+    #[test]
+    fn the_series_and_the_closed_form_are_one_curve() {
+        for family in families() {
+            for tau in [0.5, 0.45, 0.3, 0.1] {
+                let (series, closed) = (at(&family, tau), family.at_load_remaining(1.0 - tau));
+                // The closed form's differences are good to a few units of rounding of Λ = 3.
+                assert!((series.shift.consumed - closed.shift.consumed).abs() < 4e-15, "{tau}");
+                assert!((series.shift.remaining - closed.shift.remaining).abs() < 4e-15, "{tau}");
+                assert!((series.compliance_increase - closed.compliance_increase).abs() < 4e-15, "{tau}");
+                assert!((family.size(&series) - family.size(&closed)).abs() < 4e-15, "{tau}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_formulas_give_the_energy() {
+        for family in families() {
+            let kappa = family.small_load().sums(0.0).curvature;
+            for tau in [0.5, 0.4, 0.25] {
+                let member = at(&family, tau);
+                let series = family.dissipation(&member);
+                let beyond = family.dissipation_beyond_half(&family.at_load_remaining(1.0 - tau));
+                // The closed form is a difference of terms of size ψ², λ and h, which go with the curvature.
+                assert!((series - beyond).abs() < 1e-14 * kappa.max(1e-2), "{tau} {series} {beyond}");
+                let panels = |t: f64| 4.0 * t * (tau - t) * family.small_load().sums(t).curvature;
+                let sum = crate::numerics::quadrature::gauss(tau, panels);
+                assert!((series / sum - 1.0).abs() < 1e-13, "{tau} {series} {sum}");
+            }
+            // Gross slip: e = 4 ∫ t (1 - t) h'' dt over the whole family.
+            let end = family.dissipation(&family.at_load_remaining(0.0));
+            let sum = integrate(&family, 0.0, 1.0, |station| {
+                let size = (family.slip_shift() - station.shift.consumed).max(0.0);
+                let remaining = family.at_shift_remaining(size).load.remaining;
+                4.0 * (1.0 - remaining) * remaining * station.dcompliance_dsigma
+            });
+            assert!((end / sum - 1.0).abs() < 1e-9, "{end} {sum}");
+        }
+    }
+
+    #[test]
+    fn a_station_is_the_member_of_its_measure() {
+        for family in families() {
+            for remaining in [1e-6, 0.01, 0.2, 0.4999] {
+                let member = family.at_load_remaining(remaining);
+                let size_parameter = family.size_parameter(&member);
+                let station = family.quadrature_point(size_parameter);
+                assert!((station.shift.consumed - member.shift.consumed).abs() < 4e-15, "{remaining}");
+                assert!((station.shift.remaining / member.shift.remaining - 1.0).abs() < 4e-15, "{remaining}");
+                assert!((station.compliance - family.compliance(&member)).abs() < 4e-15, "{remaining}");
+                // The rates, by central differences: (1e-4)²/6 times curvatures of order 1/measure².
+                let h = 1e-4 * size_parameter;
+                let (low, high) =
+                    (family.quadrature_point(size_parameter - h), family.quadrature_point(size_parameter + h));
+                let shift = (high.shift.remaining - low.shift.remaining) / (2.0 * h);
+                assert!((shift / (station.dload_dsigma * station.compliance) - 1.0).abs() < 1e-7, "{remaining}");
+                let compliance_increase = (low.compliance - high.compliance) / (2.0 * h);
+                // Rounding of the compliance, over the width of the difference.
+                assert!(
+                    (compliance_increase - station.dcompliance_dsigma).abs()
+                        < 1e-7 * station.dcompliance_dsigma + 1e-15 / h,
+                    "{remaining}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_finds_the_member() {
+        for family in families() {
+            for remaining in [0.0, 1e-12, 1e-3, 0.3, 0.4999] {
+                let member = family.at_load_remaining(remaining);
+                let back = family.at_shift_remaining(member.shift.remaining);
+                // A relative error of the approach's rest is one of the load's, as long as both shrink together.
+                assert!(
+                    (back.load.remaining - remaining).abs() <= 4e-15 * remaining,
+                    "{remaining} {}",
+                    back.load.remaining
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_cylinder_has_an_elementary_curve() {
+        let family = RoundedFlatZones::new(&RoundedPunch::new(0.0, 1.0), 3.0);
+        for tau in [1e-8, 1e-3, 0.2, 0.499, 0.5, 0.501, 0.9, 0.999999] {
+            let (member, remaining) = (at(&family, tau), 1.0 - tau);
+            // h = ½ [τ + (1-τ) ln(1-τ)], its slope -½ ln(1-τ).
+            let h = 0.5 * (tau + remaining * (-tau).ln_1p());
+            assert!((member.shift.consumed - 3.0 * tau - h).abs() < 2e-15, "{tau}");
+            assert!(
+                (member.compliance_increase + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + member.compliance_increase),
+                "{tau}"
+            );
+            assert!((family.size(&member) - remaining.sqrt()).abs() < 2e-15, "{tau}");
+            // e = τ (2-τ) + 2 (1-τ) ln(1-τ), a difference of terms of size 2τ.
+            let energy = tau * (2.0 - tau) + 2.0 * remaining * (-tau).ln_1p();
+            assert!((family.dissipation(&member) - energy).abs() < 2e-15 * tau.max(0.5), "{tau}");
+        }
+    }
+
+    /// The inverse, wherever the approach rests, against the formula of the rest itself.
+    #[test]
+    fn what_rests_is_found_again() {
+        let short = cylinder(1.005, 0.0, CENTRE_POINT).unwrap();
+        // The last one bends sharply: Λ = 0.005.
+        for (flat, shape) in FLATS.map(|flat| (flat, contact(flat))).into_iter().chain([(0.0, short)]) {
+            let family = shape.stick_zones();
+            let half = family.slip_shift() - family.small_load().half_shift;
+            // Coarsely to far below, and finely, for what depends on where an iteration ends.
+            for power in (0..=800).map(|k| -0.02 * f64::from(k)).chain((0..=4000).map(|k| -1e-4 * f64::from(k))) {
+                let remaining = half * 10f64.powf(power);
+                let found = family.at_shift_remaining(remaining);
+                let member = family.at_load_remaining(found.load.remaining);
+                assert!(
+                    (member.shift.remaining / remaining - 1.0).abs() < 4e-15,
+                    "{flat} {remaining}: {}",
+                    member.shift.remaining
+                );
+                assert!(
+                    (member.compliance_increase / found.compliance_increase - 1.0).abs() < 4e-15,
+                    "{flat} {remaining}: {}",
+                    member.compliance_increase
+                );
+            }
+            let end = family.at_shift_remaining(0.0);
+            assert!(
+                end.load.remaining == 0.0 && end.shift.remaining == 0.0 && end.shift.consumed == family.slip_shift()
+            );
+            assert_eq!(end.compliance_increase.is_infinite(), flat == 0.0);
+        }
+    }
+}
