@@ -176,7 +176,7 @@ contains
     integer, intent(in) :: i
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: half_width
-    real(wp) :: displacement(extremes_points), half_range
+    real(wp) :: displacement(extremes_points)
     integer(mslip_int) :: status
 
     half_width = ieee_value(half_width, ieee_quiet_nan)
@@ -185,9 +185,7 @@ contains
     ! distance.
     displacement = matmul(self%extremes_basis, coefficients)
     call mslip_monotonic_force(self%prepared(i), 0.5_wp * (maxval(displacement) - minval(displacement)), status, &
-                               force=half_range)
-    call require(status, self%name(i))
-    call mslip_monotonic_displacement(self%prepared(i), half_range, status, stick_half_width=half_width)
+                               stick_half_width=half_width)
     call require(status, self%name(i))
   end function min_stick_half_width
 
