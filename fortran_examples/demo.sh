@@ -9,8 +9,8 @@ build/blade_model check model
 for case in cylinder flat spring_slider two_dof; do
   build/forced_response "cases/$case.nml" results
 done
-build/time_march cases/newmark.nml results
-build/time_march cases/newmark_optimum.nml results
+build/time_integration cases/newmark.nml results
+build/time_integration cases/newmark_optimum.nml results
 for script in plots/response.gp plots/optimum.gp plots/loops.gp plots/newmark.gp; do
   "$gnuplot" "$script"
 done

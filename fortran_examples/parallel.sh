@@ -1,6 +1,6 @@
 #!/bin/sh
-# Contacts shared by threads, and a sweep shared by ranks of which one is killed: the same bits by any number of them. A line
-# for each check, the counts in the last.
+# Contacts distributed over threads, and a sweep distributed over ranks of which one is killed: results are bitwise equal for
+# any number of them. A line for each check, the counts in the last.
 set -eu
 # As root and with more ranks than cores, for this is a test; in containers, where a process may not read another's memory.
 : "${MPIRUN:=mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none}"
@@ -25,25 +25,25 @@ same() {
     done
 }
 
-# said DIRECTORY PATTERN
-said() {
+# printed DIRECTORY PATTERN
+printed() {
     grep -q "$2" "$work/$1/progress" || { cat "$work/$1/progress"; return 1; }
 }
 
-# kill_rank RANK DIRECTORY: started with two ranks, and killed after 20 of the units; others must be left to do.
+# kill_rank RANK DIRECTORY: started with two ranks, killed after 20 of the units; some must remain.
 kill_rank() {
     sweep 2 "$2" &
     run=$!
-    until said "$2" '^unit 20/' > "$work/said" 2>&1; do
+    until printed "$2" '^unit 20/' > "$work/output" 2>&1; do
         kill -0 "$run" || return 1
         sleep 0.05
     done
     kill -9 "$(cat "$work/$2/rank.$1")" || return 1
-    ! wait "$run" && ! said "$2" '^solved' > "$work/said"
+    ! wait "$run" && ! printed "$2" '^solved' > "$work/output"
 }
 
-goes_on() {
-    sweep "$1" "$2" && said "$2" "^130 units, [2-9][0-9] of them found\|^130 units, 1[0-2][0-9] of them found" && same "$2"
+resumes() {
+    sweep "$1" "$2" && printed "$2" "^130 units, [2-9][0-9] of them found\|^130 units, 1[0-2][0-9] of them found" && same "$2"
 }
 
 # The grid of frequencies is coarse for a sharp resonance, not for a damped one: 1 Hz against several.
@@ -54,16 +54,16 @@ like_continuation() {
                  $1 == "cylinder" {
                      ++loads
                      part = $4 / peak[$2]
-                     print "load factor", $2, "largest amplitude over the peak", part
+                     print "load factor", $2, "max. amplitude over the peak", part
                      if (part > 1 + 1e-8 || part < ($2 > 2 && $2 < 200 ? 0.99 : 0.1)) ++wrong
                  }
                  END { exit loads != 13 || wrong }' "$work/continuation/cylinder_peaks.csv" "$work/one/sweep_peaks.csv"
 }
 
-# mended COMMAND...: what remains of a complete file after the command, with one unit lost, becomes the complete file.
-mended() {
+# repaired COMMAND...: the complete file is restored after the command has damaged one unit.
+repaired() {
     rm -rf "$work/damaged" && cp -R "$work/one" "$work/damaged" && "$@" && ! cmp "$work/one/sweep.dat" "$work/damaged/sweep.dat" &&
-        sweep 1 damaged && said damaged '^130 units, 129 of them found' && same damaged
+        sweep 1 damaged && printed damaged '^130 units, 129 of them found' && same damaged
 }
 
 cut_short() {
@@ -74,47 +74,47 @@ change_byte() {
     printf 'x' | dd of="$work/damaged/sweep.dat" bs=1 seek=100000 conv=notrunc
 }
 
-refused() {
+rejects_other_cases() {
     cp -R "$work/one" "$work/other" && ! sweep 2 other cases/flat.nml cases/cylinder.nml &&
-        said other 'sweep.dat has the results of other cases' && same other
+        printed other 'sweep.dat has the results of other cases' && same other
 }
 
 fewer_threads() {
-    ! OMP_THREAD_LIMIT=1 build/contact_threads 100 2 2> "$work/said" && grep 'no 2 threads' "$work/said"
+    ! OMP_THREAD_LIMIT=1 build/contact_threads 100 2 2> "$work/output" && grep '2 threads are not available' "$work/said"
 }
 
-# Where the launcher does not end the ranks that wait for one that has ended: 1 is the status of the program, not of timeout.
+# If the launcher does not end the ranks that wait for one that has ended: 1 is the status of the program, not of timeout.
 ends_all() {
     status=0
     # shellcheck disable=SC2086
     timeout 60 $MPIRUN --mca orte_abort_on_non_zero_status 0 -n 3 build/response_sweep "$work/nowhere" 5 60 cases/flat.nml \
-        2> "$work/said" || status=$?
-    grep 'nowhere/sweep.dat: cannot be opened' "$work/said" && [ "$status" -eq 1 ]
+        2> "$work/output" || status=$?
+    grep 'nowhere/sweep.dat: cannot be opened' "$work/output" && [ "$status" -eq 1 ]
 }
 
 disk_full() {
     cp -R "$work/one" "$work/full" && ln -sf /dev/full "$work/full/sweep.csv" && ! sweep 1 full &&
-        said full 'sweep.csv: could not be written'
+        printed full 'sweep.csv: could not be written'
 }
 
-check 'threads: 1, 2 and 4 have the same bits' build/contact_threads 2000 4
-check 'threads: fewer than were asked for are not taken for them' fewer_threads
+check 'threads: 1, 2 and 4 give bitwise equal results' build/contact_threads 2000 4
+check 'threads: fewer than requested is an error' fewer_threads
 check 'ranks: 1' sweep 1 one
-check 'control: every point has a balance' sh -c "awk -F, 'NR > 1 && \$5 != 1' '$work/one/sweep.csv' | cmp - /dev/null"
+check 'control: a balance was found at every point' sh -c "awk -F, 'NR > 1 && \$5 != 1' '$work/one/sweep.csv' | cmp - /dev/null"
 check 'the largest amplitudes are those of the continuation' like_continuation
 for ranks in 2 4; do
     check "ranks: $ranks" sweep "$ranks" "by_$ranks"
-    check "ranks: $ranks have the bytes of 1" same "by_$ranks"
-    check "ranks: the last of $ranks had units to solve" said "by_$ranks" ", rank $((ranks - 1)),"
+    check "ranks: $ranks write the same bytes as 1" same "by_$ranks"
+    check "ranks: the last of $ranks solved units" printed "by_$ranks" ", rank $((ranks - 1)),"
 done
 check 'killed: rank 1 of 2' kill_rank 1 killed
-check 'killed: 4 ranks go on and have the bytes of 1' goes_on 4 killed
+check 'killed: 4 ranks resume and write the same bytes as 1' resumes 4 killed
 check 'killed: rank 0 of 2' kill_rank 0 killed_first
-check 'killed: 1 rank goes on and has the bytes of 1' goes_on 1 killed_first
-check 'a record cut short is solved again' mended cut_short
-check 'a record with a changed byte is solved again' mended change_byte
-check 'results of other cases are refused, and stay' refused
+check 'killed: 1 rank resumes and writes the same bytes as 1' resumes 1 killed_first
+check 'a record cut short is solved again' repaired cut_short
+check 'a record with a changed byte is solved again' repaired change_byte
+check 'results of other cases are rejected, and kept' rejects_other_cases
 check 'a rank that fails ends all' ends_all
-check 'a table on a full disk is no success' disk_full
+check 'a table on a full disk is an error' disk_full
 
 counts

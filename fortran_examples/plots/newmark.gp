@@ -4,7 +4,7 @@ name = 'newmark'
 wide = 1060
 high = 820
 
-set style line 21 lc rgb '#b0b0b0' lw 6.0 dt 1       # marching: broad, below the others
+set style line 21 lc rgb '#b0b0b0' lw 6.0 dt 1       # time integration: broad, below the others
 set style line 22 lc rgb '#CC79A7' lw 1.8 dt (8,4)   # 1 harmonic
 set style line 23 lc rgb '#0072B2' lw 1.8 dt 1       # 5 harmonics
 set style line 24 lc rgb '#222222' lw 1.6 dt (2,3)   # 25 harmonics
@@ -30,7 +30,7 @@ do for [c=1:2] {
 }
 same(a, b) = abs(a - b) < 1e-6 * abs(b)
 wave(source, harmonics, f, value) = (strcol('source') eq source && column('harmonics') == harmonics \
-  && (source eq 'march' || column('points') > 128) && same(column('frequency_hz'), f) ? value : NaN)
+  && (source eq 'time_integration' || column('points') > 128) && same(column('frequency_hz'), f) ? value : NaN)
 row(f, value) = (same(column('frequency_hz'), f) && column('samples') > 128 ? value : NaN)
 
 do for [extension in 'svg png'] {
@@ -49,7 +49,7 @@ do for [extension in 'svg png'] {
     set offsets 0, 0, graph 0.35, graph 0.05
     if (c == 1) { set key top left Left reverse samplen 3 maxrows 2 } else { unset key }
     plot waveforms(word(cases, c)) \
-           using (57.29578*column('phase_rad')):(wave('march', 0, f, micro(column('contact_displacement_m')))) \
+           using (57.29578*column('phase_rad')):(wave('time_integration', 0, f, micro(column('contact_displacement_m')))) \
            with lines ls 21 title 'Newmark', \
          '' using (57.29578*column('phase_rad')):(wave('balance', 1, f, micro(column('contact_displacement_m')))) \
            with lines ls 22 title '1 harmonic', \

@@ -1,13 +1,15 @@
-!> Checks of the harmonic balance that need no stored number.
+!> Checks of the harmonic balance without stored results.
 !>
 !>     balance_check CASE
 !>
-!> At the frequencies of the group &points of CASE:
-!> * the derivatives of the residual against central differences;
-!> * the energy the excitation puts in against what damping and contacts dissipate.
+!> * The smallest stick zone of each contact with the microslip law: 0 in gross slip, wider than the flat before it.
+!> * At the frequencies of the group &points of CASE:
+!>   * the derivatives of the residual against central differences;
+!>   * the energy supplied by the excitation against that dissipated by damping and contacts.
 program balance_check
   use case_input, only: case_data, read_case
   use case_problem, only: prepare_problem
+  use friction_contacts, only: law_microslip
   use fourier_series, only: as_complex
   use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
   use kinds, only: path_length, pi, wp
@@ -36,6 +38,7 @@ program balance_check
   if (size(data%frequencies) == 0) call fail(trim(case_file)//': the group &points is missing')
   call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
   allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
+  call check_stick_zones()
   do i = 1, size(data%frequencies)
     omega = 2.0_wp * pi * data%frequencies(i)
     call solve_from_rest(problem, omega, displacement, point, converged)
@@ -45,6 +48,28 @@ program balance_check
   end do
 
 contains
+
+  subroutine check_stick_zones()
+    real(wp) :: coefficients(2 * data%harmonics + 1), before, beyond
+    integer :: contact
+
+    coefficients = 0.0_wp
+    do contact = 1, size(data%contacts)
+      if (data%contacts(contact)%law /= law_microslip) cycle
+      associate (prepared => problem%contacts%prepared(contact))
+        coefficients(2) = 0.5_wp * prepared%slip_displacement
+        before = problem%contacts%min_stick_half_width(contact, coefficients)
+        coefficients(2) = 2.0_wp * prepared%slip_displacement
+        beyond = problem%contacts%min_stick_half_width(contact, coefficients)
+        if (.not. (before > data%contacts(contact)%parameters%flat_half_width .and. before < prepared%half_width)) then
+          call fail('contact '//trim(data%contacts(contact)%name)//': the stick zone before gross slip is '//text(before)//' m')
+        end if
+        if (abs(beyond) > 0.0_wp) then
+          call fail('contact '//trim(data%contacts(contact)%name)//': the stick zone in gross slip is '//text(beyond)//' m')
+        end if
+      end associate
+    end do
+  end subroutine check_stick_zones
 
   subroutine check_energy()
     real(wp) :: response(size(displacement, 1), size(problem%excitation)), supplied, damped, rubbed, difference

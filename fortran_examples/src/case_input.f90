@@ -9,7 +9,7 @@ module case_input
   private
   public :: read_case
 
-  integer, parameter, public :: longest_list = 64
+  integer, parameter, public :: max_list_size = 64
   ! What a variable holds that a case has not set; below the range of every variable.
   real(wp), parameter :: unset = -huge(1.0_wp)
 
@@ -26,15 +26,15 @@ module case_input
     real(wp) :: tolerance = 0.0_wp
     real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp     !! Hz; both 0: no sweep
     real(wp), allocatable :: frequencies(:)                        !! Hz, for coefficients at single frequencies
-    real(wp), allocatable :: march_frequencies(:)                  !! Hz, for time marching
-    integer, allocatable :: march_harmonics(:)
-    real(wp) :: march_load_factor = 1.0_wp
-    integer :: march_samples = 0, steps_per_period = 0, most_periods = 0
+    real(wp), allocatable :: integration_frequencies(:)            !! Hz, for time integration
+    integer, allocatable :: integration_harmonics(:)
+    real(wp) :: integration_load_factor = 1.0_wp
+    integer :: integration_samples = 0, steps_per_period = 0, max_periods = 0
     real(wp) :: steady_tolerance = 0.0_wp, allowed_difference = 0.0_wp
   end type case_data
 
   character(len=*), parameter :: known_groups(8) = [character(len=16) :: 'output', 'model', 'excitation', 'contact', &
-                                                    'harmonic_balance', 'sweep', 'points', 'march']
+                                                    'harmonic_balance', 'sweep', 'points', 'time_integration']
 
 contains
 
@@ -58,7 +58,7 @@ contains
     call read_harmonic_balance()
     call read_sweep()
     call read_points()
-    call read_march()
+    call read_time_integration()
     close (unit)
 
   contains
@@ -129,8 +129,8 @@ contains
     end subroutine read_model
 
     subroutine read_excitation()
-      integer :: dof(longest_list), response_dof, n
-      real(wp) :: amplitude(longest_list), phase(longest_list)
+      integer :: dof(max_list_size), response_dof, n
+      real(wp) :: amplitude(max_list_size), phase(max_list_size)
       namelist /excitation/ dof, amplitude, phase, response_dof
 
       dof = -1
@@ -250,7 +250,7 @@ contains
     end subroutine read_harmonic_balance
 
     subroutine read_sweep()
-      real(wp) :: frequency_from, frequency_to, load_factors(longest_list)
+      real(wp) :: frequency_from, frequency_to, load_factors(max_list_size)
       namelist /sweep/ frequency_from, frequency_to, load_factors
 
       allocate (data%load_factors(0))
@@ -272,7 +272,7 @@ contains
     end subroutine read_sweep
 
     subroutine read_points()
-      real(wp) :: frequency(longest_list)
+      real(wp) :: frequency(max_list_size)
       namelist /points/ frequency
 
       allocate (data%frequencies(0))
@@ -283,43 +283,43 @@ contains
       call positive_list('points', 'frequency', frequency, data%frequencies)
     end subroutine read_points
 
-    subroutine read_march()
-      real(wp) :: frequency(longest_list), load_factor, steady_tolerance, allowed_difference
-      integer :: harmonics(longest_list), samples, steps_per_period, most_periods
-      namelist /march/ frequency, load_factor, harmonics, samples, steps_per_period, most_periods, steady_tolerance, &
-        allowed_difference
+    subroutine read_time_integration()
+      real(wp) :: frequency(max_list_size), load_factor, steady_tolerance, allowed_difference
+      integer :: harmonics(max_list_size), samples, steps_per_period, max_periods
+      namelist /time_integration/ frequency, load_factor, harmonics, samples, steps_per_period, max_periods, &
+        steady_tolerance, allowed_difference
 
-      allocate (data%march_frequencies(0), data%march_harmonics(0))
-      if (.not. present_group('march')) return
+      allocate (data%integration_frequencies(0), data%integration_harmonics(0))
+      if (.not. present_group('time_integration')) return
       frequency = unset
       load_factor = 1.0_wp
       harmonics = 0
       samples = 1024
       steps_per_period = 1024
-      most_periods = 1000
+      max_periods = 1000
       steady_tolerance = 1.0e-5_wp
       allowed_difference = huge(allowed_difference)
-      read (unit, nml=march, iostat=status, iomsg=message)
-      call check_read('march', 1)
-      call positive_list('march', 'frequency', frequency, data%march_frequencies)
-      data%march_harmonics = pack(harmonics, harmonics /= 0)
-      if (size(data%march_harmonics) == 0) call refuse('march', 1, 'harmonics must list one number or more')
-      if (any(data%march_harmonics < 1)) call refuse('march', 1, 'harmonics must be 1 or more')
-      if (samples <= 2 * maxval(data%march_harmonics)) then
-        call refuse('march', 1, 'samples must exceed twice the harmonics')
+      read (unit, nml=time_integration, iostat=status, iomsg=message)
+      call check_read('time_integration', 1)
+      call positive_list('time_integration', 'frequency', frequency, data%integration_frequencies)
+      data%integration_harmonics = pack(harmonics, harmonics /= 0)
+      if (size(data%integration_harmonics) == 0) call refuse('time_integration', 1, 'harmonics must list one number or more')
+      if (any(data%integration_harmonics < 1)) call refuse('time_integration', 1, 'harmonics must be 1 or more')
+      if (samples <= 2 * maxval(data%integration_harmonics)) then
+        call refuse('time_integration', 1, 'samples must exceed twice the harmonics')
       end if
-      if (.not. load_factor > 0.0_wp) call refuse('march', 1, 'load_factor must be > 0')
-      if (steps_per_period < 16) call refuse('march', 1, 'steps_per_period must be 16 or more')
-      if (most_periods < 2) call refuse('march', 1, 'most_periods must be 2 or more')
-      if (.not. steady_tolerance > 0.0_wp) call refuse('march', 1, 'steady_tolerance must be > 0')
-      if (.not. allowed_difference > 0.0_wp) call refuse('march', 1, 'allowed_difference must be > 0')
-      data%march_load_factor = load_factor
-      data%march_samples = samples
+      if (.not. load_factor > 0.0_wp) call refuse('time_integration', 1, 'load_factor must be > 0')
+      if (steps_per_period < 16) call refuse('time_integration', 1, 'steps_per_period must be 16 or more')
+      if (max_periods < 2) call refuse('time_integration', 1, 'max_periods must be 2 or more')
+      if (.not. steady_tolerance > 0.0_wp) call refuse('time_integration', 1, 'steady_tolerance must be > 0')
+      if (.not. allowed_difference > 0.0_wp) call refuse('time_integration', 1, 'allowed_difference must be > 0')
+      data%integration_load_factor = load_factor
+      data%integration_samples = samples
       data%steps_per_period = steps_per_period
-      data%most_periods = most_periods
+      data%max_periods = max_periods
       data%steady_tolerance = steady_tolerance
       data%allowed_difference = allowed_difference
-    end subroutine read_march
+    end subroutine read_time_integration
 
     subroutine positive_list(name, variable, list, kept)
       character(len=*), intent(in) :: name, variable

@@ -1,4 +1,4 @@
-!> Holds a table against stored numbers.
+!> Compares a table with stored values.
 !>
 !>     compare_tables STORED FOUND
 !>
@@ -10,11 +10,11 @@ program compare_tables
   use messages, only: fail, progress, text
   implicit none
 
-  integer, parameter :: longest_line = 4000, most_fields = 100
+  integer, parameter :: max_line_length = 4000, max_fields = 100
   character(len=path_length) :: stored_file, found_file
-  character(len=longest_line) :: stored, found
-  character(len=40) :: tolerance_field(most_fields), stored_field(most_fields), found_field(most_fields)
-  character(len=40) :: column(most_fields)
+  character(len=max_line_length) :: stored, found
+  character(len=40) :: tolerance_field(max_fields), stored_field(max_fields), found_field(max_fields)
+  character(len=40) :: column(max_fields)
   integer :: stored_unit, found_unit, fields, row, i, stored_status, found_status
   real(wp) :: tolerance, worst
 

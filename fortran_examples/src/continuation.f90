@@ -13,9 +13,9 @@ module continuation
   public :: follow_response
 
   type, public :: step_control
-    real(wp) :: largest = 0.2_wp           !! relative change of the displacements in one step
-    real(wp) :: smallest = 1.0e-6_wp
-    integer :: most_points = 5000
+    real(wp) :: max_step = 0.2_wp          !! relative change of the displacements in one step
+    real(wp) :: min_step = 1.0e-6_wp
+    integer :: max_points = 5000
     integer :: steps_over_range = 40       !! fewest steps for the whole range of frequencies
   end type step_control
 
@@ -26,7 +26,7 @@ module continuation
   end type response_path
 
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
-  real(wp), parameter :: smallest_turn_cosine = 0.9_wp
+  real(wp), parameter :: min_tangent_cosine = 0.9_wp
 
 contains
 
@@ -46,7 +46,7 @@ contains
     contacts = size(problem%incidence, 2)
     direction = sign(1.0_wp, omega_to - omega_from)
     allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
-    allocate (path%omega(control%most_points), path%displacement(m, contacts, control%most_points))
+    allocate (path%omega(control%max_points), path%displacement(m, contacts, control%max_points))
 
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
@@ -57,24 +57,24 @@ contains
     previous(m * contacts + 1) = direction
     call path_tangent()
 
-    step = 0.1_wp * control%largest
+    step = 0.1_wp * control%max_step
     do while (direction * (omega - omega_to) < 0.0_wp)
       call advance()
       if (converged) then
         call keep()
-        if (iterations <= few_steps) step = min(1.5_wp * step, control%largest)
+        if (iterations <= few_steps) step = min(1.5_wp * step, control%max_step)
         if (iterations >= many_steps) step = 0.6_wp * step
       else
         step = 0.4_wp * step
-        if (step < control%smallest) call fail('the continuation stops at '//hertz(omega)//': step too small')
+        if (step < control%min_step) call fail('the continuation stops at '//hertz(omega)//': step too small')
       end if
     end do
 
   contains
 
     subroutine keep()
-      if (path%points == control%most_points) then
-        call fail('the continuation stops at '//hertz(omega)//': more than '//text(control%most_points)//' points')
+      if (path%points == control%max_points) then
+        call fail('the continuation stops at '//hertz(omega)//': more than '//text(control%max_points)//' points')
       end if
       path%points = path%points + 1
       path%omega(path%points) = omega
@@ -88,7 +88,7 @@ contains
       do i = 1, contacts
         scale((i - 1) * m + 1:i * m) = sqrt(real(contacts, wp)) * max(norm2(u(:, i)), 1.0e-6_wp * norm2(u))
       end do
-      scale(m * contacts + 1) = abs(omega_to - omega_from) / (control%steps_over_range * control%largest)
+      scale(m * contacts + 1) = abs(omega_to - omega_from) / (control%steps_over_range * control%max_step)
     end subroutine measure
 
     !> Unit tangent of the path at the present point, on the side of `previous`.
@@ -152,7 +152,7 @@ contains
       if (converged) then
         previous = tangent
         call path_tangent()
-        converged = dot_product(tangent, previous) >= smallest_turn_cosine .or. step <= 10.0_wp * control%smallest
+        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. step <= 10.0_wp * control%min_step
       end if
       if (converged) then
         ! The tangent is kept in unknowns, so that it may be measured anew at the new point.

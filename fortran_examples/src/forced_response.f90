@@ -135,7 +135,7 @@ contains
     do i = 1, size(data%contacts)
       call table%add(trim(data%contacts(i)%name)//'_normal_force_N')
       call table%add(trim(data%contacts(i)%name)//'_dissipated_J')
-      call table%add(trim(data%contacts(i)%name)//'_smallest_stick_half_width_m')
+      call table%add(trim(data%contacts(i)%name)//'_min_stick_half_width_m')
     end do
     call table%end_row()
   end subroutine response_header
@@ -157,7 +157,7 @@ contains
       if (data%contacts(i)%load_varied) normal_force = data%load_factors(load) * normal_force
       call table%add(normal_force)
       call table%add(row%dissipated(i))
-      call table%add(row%smallest_stick(i))
+      call table%add(row%min_stick_half_width(i))
     end do
     call table%end_row()
   end subroutine write_row

@@ -3,7 +3,7 @@ module friction_contacts
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use fourier_series, only: series_basis
   use kinds, only: name_length, wp
-  use messages, only: fail, text
+  use messages, only: fail
   use microslip
   use spring_slider, only: make_slider_tables, slider, slider_harmonic_force, slider_step, slider_tables
   implicit none
@@ -11,12 +11,12 @@ module friction_contacts
 
   character(len=*), parameter, public :: law_microslip = 'microslip', law_slider = 'spring-slider'
 
-  !> What a user says of one contact.
+  !> Input data of one contact.
   type, public :: contact_input
     character(len=name_length) :: name = ' '
     character(len=name_length) :: law = ' '
     integer :: dof(2) = -1                !! relative displacement: first minus second; 0 is the ground
-    integer :: count = 1                  !! so many alike contacts share the displacement
+    integer :: count = 1                  !! number of identical contacts that share the displacement
     logical :: load_varied = .true.       !! the normal force is multiplied by the load factor
     real(wp) :: spring_stiffness = 0.0_wp !! of a spring-slider; 0: the initial stiffness of the microslip law
     type(mslip_parameters) :: parameters
@@ -25,31 +25,32 @@ module friction_contacts
   type, public :: contact_set
     character(len=name_length), allocatable :: name(:)
     integer, allocatable :: count(:)
-    integer(mslip_int), allocatable :: has_microslip(:)     !! 1 or 0, as the interface functions want it
+    integer(mslip_int), allocatable :: has_microslip(:)     !! 1 or 0: the flags `active` of the batch calls
     type(mslip_contact), allocatable :: prepared(:)
     type(slider), allocatable :: sliders(:)
     type(slider_tables) :: tables                           !! of the spring-sliders
     real(wp), allocatable :: workspace(:)                   !! of the microslip law
-    real(wp), allocatable :: extremes_basis(:,:)            !! series where the extremes of a displacement are looked for
+    real(wp), allocatable :: extremes_basis(:,:)            !! series at the points searched for the extremes of a displacement
   contains
     procedure :: prepare
     procedure :: prepare_harmonics
     procedure :: initial_stiffness
     procedure :: harmonic_force
     procedure :: steady_loop
-    procedure :: smallest_stick
+    procedure :: min_stick_half_width
     procedure :: start_history
+    procedure :: force_error
     procedure :: try_step
   end type contact_set
 
-  !> Memory of all contacts between two instants.
+  !> Load history of all contacts up to an instant.
   type, public :: contact_history
-    real(wp), allocatable :: reversals(:,:)                 !! states of the microslip law
-    real(wp), allocatable :: displacement(:), force(:)      !! states of the spring-sliders
+    real(wp), allocatable :: states(:,:)                    !! of the microslip law
+    real(wp), allocatable :: displacement(:), force(:)      !! of the spring-sliders
   end type contact_history
 
-  ! Nested reversals a history can hold; a steady state with some harmonics needs a few.
-  integer(mslip_size), parameter :: reversals_kept = 64
+  ! Nested reversals that a state holds exactly. A steady state with some harmonics needs a few.
+  integer(mslip_size), parameter, public :: max_reversals = 32
   integer, parameter :: extremes_points = 256
 
 contains
@@ -108,9 +109,8 @@ contains
     integer :: i
 
     if (any(self%has_microslip == 1)) then
-      call mslip_interface_harmonic_force(self%prepared, self%workspace, displacement, status, &
-                                          active=self%has_microslip, force=force, jacobian=jacobian, &
-                                          dissipated=dissipated)
+      call mslip_batch_harmonic_force(self%prepared, self%workspace, displacement, status, &
+                                      active=self%has_microslip, force=force, jacobian=jacobian, dissipated=dissipated)
       call require(status, 'contacts')
     end if
     do i = 1, size(self%count)
@@ -126,7 +126,7 @@ contains
     end do
   end subroutine harmonic_force
 
-  !> Stiffness of one contact (of `count` alike) before any slip.
+  !> Stiffness of one contact (of `count` identical ones) before any slip.
   pure real(wp) function initial_stiffness(self, i)
     class(contact_set), intent(in) :: self
     integer, intent(in) :: i
@@ -138,13 +138,13 @@ contains
     end if
   end function initial_stiffness
 
-  !> Displacement and force of one contact (of `count` alike) over one period of a steady state.
+  !> Displacement and force of one contact (of `count` identical ones) over one period of a steady state.
   subroutine steady_loop(self, i, coefficients, displacement, force)
     class(contact_set), intent(in) :: self
     integer, intent(in) :: i
     real(wp), intent(in) :: coefficients(:)
     real(wp), intent(out) :: displacement(:), force(:)
-    real(wp) :: two_periods(2 * size(displacement)), state(mslip_state_length(reversals_kept))
+    real(wp) :: two_periods(2 * size(displacement)), state(mslip_state_length(max_reversals))
     real(wp) :: basis(size(displacement), size(coefficients)), history(2 * size(displacement))
     real(wp) :: u0, f0, tangent, energy
     integer(mslip_int) :: status
@@ -156,7 +156,7 @@ contains
     two_periods = [displacement, displacement]
     if (self%has_microslip(i) == 1) then
       call mslip_state_init(state, status)
-      if (status == MSLIP_OK) call mslip_masing_path(self%prepared(i), state, two_periods, status, force=history)
+      if (status == MSLIP_OK) call mslip_masing_path_advance(self%prepared(i), state, two_periods, status, force=history)
       call require(status, self%name(i))
     else
       u0 = 0.0_wp
@@ -170,28 +170,27 @@ contains
     force = history(n + 1:)
   end subroutine steady_loop
 
-  !> Half-width of the stick zone where it is smallest during a period; not a number for a spring-slider.
-  function smallest_stick(self, i, coefficients) result(half_width)
+  !> Smallest half-width of the stick zone during a period, 0 in gross slip; NaN for a spring-slider.
+  function min_stick_half_width(self, i, coefficients) result(half_width)
     class(contact_set), intent(in) :: self
     integer, intent(in) :: i
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: half_width
-    real(wp) :: displacement(extremes_points), half_range
+    real(wp) :: displacement(extremes_points)
     integer(mslip_int) :: status
 
     half_width = ieee_value(half_width, ieee_quiet_nan)
     if (self%has_microslip(i) == 0) return
-    ! A branch between the extremes of a period is a first loading by half their distance, for the force as for the zone.
+    ! By Masing's rule the branch between the extremes of a period has the stick zone of initial loading by half their
+    ! distance.
     displacement = matmul(self%extremes_basis, coefficients)
     call mslip_monotonic_force(self%prepared(i), 0.5_wp * (maxval(displacement) - minval(displacement)), status, &
-                               force=half_range)
+                               stick_half_width=half_width)
     call require(status, self%name(i))
-    call mslip_monotonic_displacement(self%prepared(i), half_range, status, stick_half_width=half_width)
-    call require(status, self%name(i))
-  end function smallest_stick
+  end function min_stick_half_width
 
-  !> Memory and forces after a periodic motion from the virgin state. `period` holds the displacements of all contacts
-  !> over one period, (instant, contact), and ends with the present instant.
+  !> Load history and forces after a periodic motion from the unloaded state. `period` has the displacements of all
+  !> contacts over one period, (instant, contact), and ends with the present instant.
   subroutine start_history(self, period, history, force)
     class(contact_set), intent(in) :: self
     real(wp), intent(in) :: period(:,:)
@@ -199,46 +198,53 @@ contains
     real(wp), intent(out) :: force(:)
     type(contact_history) :: next
     real(wp) :: stiffness(size(force))
-    logical :: memory_full
     integer(mslip_int) :: status
     integer :: repetition, i, j
 
-    allocate (history%reversals(mslip_state_length(reversals_kept), size(force)))
+    allocate (history%states(mslip_state_length(max_reversals), size(force)))
     allocate (history%displacement(size(force)), history%force(size(force)), source=0.0_wp)
     do i = 1, size(force)
-      call mslip_state_init(history%reversals(:, i), status)
+      call mslip_state_init(history%states(:, i), status)
       call require(status, self%name(i))
     end do
     next = history
     do repetition = 1, 2
       do j = 1, size(period, 1)
-        call self%try_step(history, period(j, :), force, stiffness, next, memory_full)
-        if (memory_full) call fail('one period has more than '//text(int(reversals_kept))//' nested reversals')
+        call self%try_step(history, period(j, :), force, stiffness, next)
         history = next
       end do
     end do
   end subroutine start_history
 
-  !> Forces and tangent stiffnesses after a step from `history`, which stays; `next` is what to keep if the step holds.
-  !> Nothing is done where the step needs more nested reversals than a history can hold.
-  subroutine try_step(self, history, displacement, force, stiffness, next, memory_full)
+  !> Bound on the error of the forces of one contact (of `count` identical ones) due to reversals that did not fit into its
+  !> state and were merged.
+  real(wp) function force_error(self, history, i)
+    class(contact_set), intent(in) :: self
+    type(contact_history), intent(in) :: history
+    integer, intent(in) :: i
+    integer(mslip_int) :: status
+
+    force_error = 0.0_wp
+    if (self%has_microslip(i) == 0) return
+    call mslip_state_error(history%states(:, i), force_error, status)
+    call require(status, self%name(i))
+  end function force_error
+
+  !> Forces and tangent stiffnesses after a trial step from `history`, which is not modified; `next` is the history to
+  !> continue with if the step is accepted.
+  subroutine try_step(self, history, displacement, force, stiffness, next)
     class(contact_set), intent(in) :: self
     type(contact_history), intent(in) :: history
     real(wp), intent(in), contiguous :: displacement(:)
     real(wp), intent(out), contiguous :: force(:), stiffness(:)
     type(contact_history), intent(inout) :: next
-    logical, intent(out) :: memory_full
     real(wp) :: energy
     integer(mslip_int) :: status
     integer :: i
 
-    memory_full = .false.
     if (any(self%has_microslip == 1)) then
-      call mslip_interface_masing_update(self%prepared, history%reversals, displacement, status, &
-                                         active=self%has_microslip, force=force, stiffness=stiffness, &
-                                         states_new=next%reversals)
-      memory_full = status == MSLIP_STATE_FULL
-      if (memory_full) return
+      call mslip_batch_masing_update(self%prepared, history%states, displacement, next%states, status, &
+                                     active=self%has_microslip, force=force, stiffness=stiffness)
       call require(status, 'contacts')
     end if
     do i = 1, size(self%count)

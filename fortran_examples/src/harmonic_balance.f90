@@ -222,7 +222,7 @@ contains
     logical, intent(out) :: converged
     complex(wp) :: full(size(problem%excitation))
     real(wp) :: trial(size(displacement, 1), size(displacement, 2)), reached, growth
-    real(wp), parameter :: smallest_growth = 1.0e-3_wp
+    real(wp), parameter :: min_growth = 1.0e-3_wp
 
     full = problem%excitation
     displacement = 0.0_wp
@@ -239,7 +239,7 @@ contains
         if (reached >= 1.0_wp) exit
       else
         growth = 0.25_wp * growth
-        if (growth < smallest_growth) exit
+        if (growth < min_growth) exit
       end if
     end do
     problem%excitation = full

@@ -65,7 +65,7 @@ program law_wall_time
 
 contains
 
-  !> The sliders are told their stiffness, so that they need no microslip contact to be prepared for it.
+  !> The stiffness of the sliders is set, so that no microslip contact is initialised for it.
   subroutine equal_stiffness(load_factor)
     real(wp), intent(in) :: load_factor
     type(contact_set) :: contacts

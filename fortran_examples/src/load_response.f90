@@ -1,4 +1,4 @@
-!> All that is told of a case at one load factor: the response along the frequency, its peak, and the loops there.
+!> Results of a case at one load factor: the response over frequency, its peak, and the hysteresis loops at the peak.
 module load_response
   use case_input, only: case_data
   use case_problem, only: prepare_problem
@@ -18,7 +18,7 @@ module load_response
     real(wp) :: amplitude = 0.0_wp                     !! peak over the period of the response
     real(wp), allocatable :: harmonic(:)               !! amplitudes of the response
     real(wp), allocatable :: dissipated(:)             !! by each contact in a period
-    real(wp), allocatable :: smallest_stick(:)         !! of each contact
+    real(wp), allocatable :: min_stick_half_width(:)         !! of each contact
   end type response_row
 
   type, public :: contact_loop
@@ -50,11 +50,11 @@ contains
       call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, control, path)
       allocate (response%row(path%points))
       do i = 1, path%points
-        call tell(path%omega(i), path%displacement(:, :, i), response%row(i))
+        call fill_row(path%omega(i), path%displacement(:, :, i), response%row(i))
       end do
       call refine_peak(problem, path, response%row%amplitude, data%response_dof, omega, displacement)
     end associate
-    call tell(omega, displacement, response%peak)
+    call fill_row(omega, displacement, response%peak)
     allocate (response%loop(size(data%contacts)))
     do i = 1, size(data%contacts)
       associate (loop => response%loop(i), stiffness => problem%contacts%initial_stiffness(i))
@@ -65,8 +65,8 @@ contains
 
   contains
 
-    !> The row for a balance that holds.
-    subroutine tell(omega, displacement, row)
+    !> The row of a converged balance.
+    subroutine fill_row(omega, displacement, row)
       real(wp), intent(in) :: omega
       real(wp), intent(in), contiguous :: displacement(:,:)
       type(response_row), intent(out) :: row
@@ -79,7 +79,7 @@ contains
       row%amplitude = series_peak(motion(:, data%response_dof))
       row%harmonic = harmonic_amplitude(motion(:, data%response_dof))
       row%dissipated = point%dissipated
-      row%smallest_stick = [(problem%contacts%smallest_stick(i, displacement(:, i)), i=1, size(displacement, 2))]
-    end subroutine tell
+      row%min_stick_half_width = [(problem%contacts%min_stick_half_width(i, displacement(:, i)), i=1, size(displacement, 2))]
+    end subroutine fill_row
   end subroutine respond
 end module load_response

@@ -1,7 +1,7 @@
 !> Newmark's method with constant average acceleration for a linear structure with friction contacts.
 !>
-!> It is written for the accelerations: with short steps the displacements would lose digits. As in the harmonic balance
-!> only the relative displacements of the contacts are unknown, since the structure is linear.
+!> It is written for the accelerations: with short steps the displacements would be subject to cancellation. As in the
+!> harmonic balance only the relative displacements of the contacts are unknown, since the structure is linear.
 module newmark
   use dense_algebra, only: solve
   use friction_contacts, only: contact_history, contact_set
@@ -22,7 +22,7 @@ module newmark
 
   type, public :: motion
     real(wp), allocatable :: displacement(:), velocity(:), acceleration(:)
-    type(contact_history) :: contacts, trial     !! memory at the last instant, and of a step that is being solved
+    type(contact_history) :: contacts, trial     !! history until the last instant, and of the trial step
     real(wp), allocatable :: contact_displacement(:), contact_force(:)
   end type motion
 
@@ -51,7 +51,7 @@ contains
     scheme%compliance = 0.25_wp * step**2 * matmul(transpose(incidence), scheme%by_force)
   end subroutine prepare_newmark
 
-  !> Acceleration that the equation of motion asks for.
+  !> Acceleration from the equation of motion.
   subroutine initial_acceleration(model, incidence, excitation, state)
     type(structure), intent(in) :: model
     real(wp), intent(in) :: incidence(:,:), excitation(:)
@@ -65,15 +65,14 @@ contains
     state%acceleration = right(:, 1)
   end subroutine initial_acceleration
 
-  !> One step; `excitation` is the force at its end. Where the memory of the contacts is full, the state stays.
-  subroutine newmark_step(scheme, model, incidence, contacts, excitation, state, memory_full)
+  !> One step; `excitation` is the force at its end.
+  subroutine newmark_step(scheme, model, incidence, contacts, excitation, state)
     type(newmark_scheme), intent(in) :: scheme
     type(structure), intent(in) :: model
     real(wp), intent(in) :: incidence(:,:)
     type(contact_set), intent(in) :: contacts
     real(wp), intent(in) :: excitation(:)
     type(motion), intent(inout) :: state
-    logical, intent(out) :: memory_full
     real(wp), dimension(size(excitation)) :: displacement, velocity, acceleration
     real(wp), dimension(size(incidence, 2)) :: u, u_free, force, stiffness
     real(wp) :: matrix(size(u), size(u)), correction(size(u), 1)
@@ -89,8 +88,7 @@ contains
 
       u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, incidence)
       do iteration = 1, newton_steps
-        call contacts%try_step(state%contacts, u, force, stiffness, state%trial, memory_full)
-        if (memory_full) return
+        call contacts%try_step(state%contacts, u, force, stiffness, state%trial)
         correction(:, 1) = u_free - u - matmul(scheme%compliance, force)
         if (all(abs(correction(:, 1)) <= newton_tolerance * scheme%contact_scale)) exit
         do i = 1, size(u)

@@ -8,7 +8,7 @@ module resonance
   private
   public :: refine_peak
 
-  integer, parameter :: most_steps = 40
+  integer, parameter :: max_steps = 40
   real(wp), parameter :: amplitude_tolerance = 1.0e-9_wp
   real(wp), parameter :: golden = 0.381966011250105_wp
 
@@ -37,7 +37,7 @@ contains
     if (x(1) >= x(2) .or. x(2) >= x(3)) return
 
     previous_width = huge(previous_width)
-    do step = 1, most_steps
+    do step = 1, max_steps
       call parabola_vertex(x, y, vertex, gain)
       width = x(3) - x(1)
       if (gain <= amplitude_tolerance * y(2)) exit

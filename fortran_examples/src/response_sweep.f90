@@ -16,7 +16,7 @@ program response_sweep
   use csv_output, only: csv_file
   use kinds, only: path_length, wp
   use messages, only: end_others, fail, progress, text
-  use microslip, only: MSLIP_OK, mslip_int, mslip_masing_tractions, mslip_status_text
+  use microslip, only: MSLIP_OK, mslip_contact_check, mslip_int, mslip_masing_tractions, mslip_state_check, mslip_status_text
   use mpi_f08
   use sweep_results, only: checksum, results_file
   use sweep_units, only: frequency_sweep, point_amplitude, point_energy, point_found, prepare_contacts, read_sweep
@@ -28,7 +28,7 @@ program response_sweep
   type(frequency_sweep) :: sweep
   real(wp), allocatable :: record(:)
   integer :: rank, ranks, i
-  ! What rank 0 keeps in mind.
+  ! Data of rank 0.
   type(results_file) :: results
   integer, allocatable :: missing(:)                     !! units that were not found in the file
   integer, allocatable :: in_work(:)                     !! units that each other rank has
@@ -52,6 +52,7 @@ program response_sweep
 
   if (rank == 0) call prepare_contacts(sweep)
   call MPI_Bcast(sweep%contacts, storage_size(sweep%contacts) / 8 * size(sweep%contacts), MPI_BYTE, 0, MPI_COMM_WORLD)
+  call check_contacts()
   if (rank == 0) then
     call lead()
   else
@@ -61,7 +62,20 @@ program response_sweep
 
 contains
 
-  !> Not every launcher ends the other ranks where one has ended.
+  !> Contacts that come from another process are validated once.
+  subroutine check_contacts()
+    integer(mslip_int) :: status
+    integer :: contact, load
+
+    do load = 1, size(sweep%load_factor)
+      do contact = 1, size(sweep%cases(sweep%case_of(load))%contacts)
+        call mslip_contact_check(sweep%contacts(contact, load), status)
+        if (status /= MSLIP_OK) call fail('contact from rank 0: '//mslip_status_text(status))
+      end do
+    end do
+  end subroutine check_contacts
+
+  !> Not every launcher ends the other ranks if one has ended.
   subroutine abort_all()
     call MPI_Abort(MPI_COMM_WORLD, 1)
   end subroutine abort_all
@@ -159,7 +173,7 @@ contains
     call MPI_Send(missing(handed_out), 1, MPI_INTEGER, other, 0, MPI_COMM_WORLD)
   end subroutine hand_out
 
-  !> The record of whoever is the next to finish.
+  !> The record of the rank that finishes next.
   subroutine expect()
     call MPI_Irecv(arriving, 8 * size(arriving), MPI_BYTE, MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, receipt)
   end subroutine expect
@@ -211,7 +225,7 @@ contains
     call peaks%open(trim(directory)//'/sweep_peaks.csv')
     call table%add('case,load_factor,frequency_hz,amplitude_m,found')
     call peaks%add('case,load_factor,frequency_hz,amplitude_m')
-    do contact = 1, sweep%most_contacts
+    do contact = 1, sweep%max_contacts
       call table%add('dissipated_'//text(contact)//'_J')
       call peaks%add('shear_'//text(contact)//'_Pa')
     end do
@@ -244,8 +258,8 @@ contains
           call peaks%add(sweep%load_factor(load))
           call peaks%add(peak_frequency)
           call peaks%add(peak_amplitude)
-          call peaks%add([(largest_shear(load, contact, peak_state(:, contact)), contact=1, contacts), &
-                          (0.0_wp, contact=contacts + 1, sweep%most_contacts)])
+          call peaks%add([(max_shear(load, contact, peak_state(:, contact)), contact=1, contacts), &
+                          (0.0_wp, contact=contacts + 1, sweep%max_contacts)])
           call peaks%end_row()
           peak_amplitude = -1.0_wp
         end if
@@ -256,8 +270,8 @@ contains
     call progress('wrote '//trim(directory)//'/sweep.csv and sweep_peaks.csv')
   end subroutine write_tables
 
-  !> By a contact that rank 0 prepared, in a state that another rank led one of its copies to.
-  real(wp) function largest_shear(load, contact, state)
+  !> For a contact that rank 0 prepared, in a state that comes from a file, and perhaps from another rank before.
+  real(wp) function max_shear(load, contact, state)
     integer, intent(in) :: load, contact
     real(wp), intent(in) :: state(:)
     integer, parameter :: positions = 201
@@ -266,8 +280,9 @@ contains
     integer :: j
 
     x = sweep%contacts(contact, load)%half_width * [(2.0_wp * j / (positions - 1) - 1.0_wp, j=0, positions - 1)]
-    call mslip_masing_tractions(sweep%contacts(contact, load), state, x, status, shear=shear)
+    call mslip_state_check(state, status)
+    if (status == MSLIP_OK) call mslip_masing_tractions(sweep%contacts(contact, load), state, x, status, shear=shear)
     if (status /= MSLIP_OK) call fail('shear tractions: '//mslip_status_text(status))
-    largest_shear = maxval(abs(shear))
-  end function largest_shear
+    max_shear = maxval(abs(shear))
+  end function max_shear
 end program response_sweep

@@ -4,24 +4,22 @@ module sweep_units
   use case_input, only: case_data, read_case
   use case_problem, only: prepare_problem
   use fourier_series, only: coefficient_count, series_basis, series_peak
-  use friction_contacts, only: contact_history, contact_set, law_microslip
+  use friction_contacts, only: contact_history, contact_set, law_microslip, max_reversals
   use harmonic_balance, only: balance_point, balance_problem, solve_at, solve_from_rest, structure_response
   use kinds, only: pi, wp
   use messages, only: fail, text
-  use microslip, only: mslip_contact, mslip_size, mslip_state_length
+  use microslip, only: mslip_contact, mslip_state_length
   implicit none
   private
   public :: prepare_contacts, read_sweep
 
-  ! A steady state with some harmonics nests a few reversals.
-  integer(mslip_size), parameter :: reversals_sent = 16
-  ! A point's numbers before the energies of its contacts.
+  ! Values of a point before the energies of its contacts.
   integer, parameter, public :: point_amplitude = 1, point_found = 2, point_energy = 3
 
   type, public :: frequency_sweep
     type(case_data), allocatable :: cases(:)
     integer :: blocks = 0, points = 0                      !! of each load, of each block
-    integer :: most_contacts = 0                           !! of a case
+    integer :: max_contacts = 0                           !! of a case
     integer, allocatable :: case_of(:)                     !! of each load of each case
     real(wp), allocatable :: load_factor(:)
     type(mslip_contact), allocatable :: contacts(:,:)      !! (contact, load), all prepared
@@ -59,10 +57,10 @@ contains
         call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, sweep%problems(i))
         sweep%case_of = [sweep%case_of, (i, j=1, size(data%load_factors))]
         sweep%load_factor = [sweep%load_factor, data%load_factors]
-        sweep%most_contacts = max(sweep%most_contacts, size(data%contacts))
+        sweep%max_contacts = max(sweep%max_contacts, size(data%contacts))
       end associate
     end do
-    allocate (sweep%contacts(sweep%most_contacts, size(sweep%load_factor)))
+    allocate (sweep%contacts(sweep%max_contacts, size(sweep%load_factor)))
   end subroutine read_sweep
 
   subroutine prepare_contacts(sweep)
@@ -100,14 +98,14 @@ contains
     end associate
   end function frequency
 
-  !> Numbers of a record: of the unit, its points and its states.
+  !> Number of values in a record: the unit, its points and its states.
   pure integer function record_length(self)
     class(frequency_sweep), intent(in) :: self
-    record_length = 1 + self%points * (point_energy - 1 + self%most_contacts) + self%most_contacts * state_length()
+    record_length = 1 + self%points * (point_energy - 1 + self%max_contacts) + self%max_contacts * state_length()
   end function record_length
 
   pure integer function state_length()
-    state_length = int(mslip_state_length(reversals_sent))
+    state_length = int(mslip_state_length(max_reversals))
   end function state_length
 
   subroutine solve(self, unit, record)
@@ -119,7 +117,7 @@ contains
     type(balance_point) :: point
     type(contact_history) :: history
     real(wp), allocatable :: displacement(:,:), largest(:,:), force(:)
-    real(wp) :: row(point_energy - 1 + self%most_contacts, self%points), state(state_length(), self%most_contacts)
+    real(wp) :: row(point_energy - 1 + self%max_contacts, self%points), state(state_length(), self%max_contacts)
     real(wp) :: omega
     logical :: found
     integer :: load, contacts, i
@@ -152,18 +150,18 @@ contains
     call problem%contacts%start_history(cshift(matmul(series_basis(data%harmonics, data%samples), largest), 1), &
                                         history, force)
     state = 0.0_wp
-    state(:, :contacts) = history%reversals(:state_length(), :)
+    state(:, :contacts) = history%states
     record = [real(unit, wp), row, state]
   end subroutine solve
 
-  !> `row` tells of each point its amplitude, whether a balance was found, and the energy dissipated by each contact in a
-  !> period; `state` holds the states of the contacts at the point of largest amplitude.
+  !> `row` has for each point its amplitude, whether a balance was found, and the energy dissipated by each contact in a
+  !> period; `state` has the states of the contacts at the point of largest amplitude.
   pure subroutine unpack(self, record, row, state)
     class(frequency_sweep), intent(in) :: self
     real(wp), intent(in) :: record(:)
     real(wp), allocatable, intent(out) :: row(:,:), state(:,:)
 
-    allocate (row(point_energy - 1 + self%most_contacts, self%points), state(state_length(), self%most_contacts))
+    allocate (row(point_energy - 1 + self%max_contacts, self%points), state(state_length(), self%max_contacts))
     row = reshape(record(2:size(row) + 1), shape(row))
     state = reshape(record(size(row) + 2:), shape(state))
   end subroutine unpack

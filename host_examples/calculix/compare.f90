@@ -1,4 +1,4 @@
-! compare RESULTS [MATRICES]: what CalculiX found, against the library and, where the matrices of the blade are given, against
+! compare RESULTS [MATRICES]: the results of CalculiX against the library and, if the matrices of the blade are given, against
 ! the same problem solved here.
 !
 ! RESULTS holds law.inp and, for the jobs static and dynamic, tables of time, displacement of the tip, displacement and
@@ -58,14 +58,15 @@ contains
     character(len=*), intent(in) :: job
     real(wp), allocatable :: table(:, :), displacement(:), force(:), dissipated(:), state(:)
     real(wp) :: displaced
-    integer :: i, n, turns, status
+    integer :: i, n, reversals, status
 
     call read_table(trim(results)//'/'//job//'.csv', 5, table)
     displacement = table(3, :)
     n = size(displacement)
     allocate (force(n), dissipated(n), state(mslip_state_length(30_mslip_size)))
     call mslip_state_init(state, status)
-    call mslip_masing_path(contact, state, displacement, status, force=force, dissipated=dissipated)
+    if (status == MSLIP_OK) &
+      call mslip_masing_path_advance(contact, state, displacement, status, force=force, dissipated=dissipated)
     if (status /= MSLIP_OK) call give_up(mslip_status_text(status))
     do i = 2, n
       dissipated(i) = dissipated(i - 1) + dissipated(i)
@@ -75,14 +76,14 @@ contains
     ! history of displacements is changed by so much.
     call check(job//': force along the displacements', maxval(abs(force - table(4, :))), &
       2*contact%initial_stiffness*displaced + rounding*contact%slip_force, contact%slip_force)
-    ! Energy errs where a displacement that counts, that of a turn or the last, does: by no more than the whole force
-    ! range times that.
-    turns = count((displacement(3:) - displacement(2:n - 1))*(displacement(2:n - 1) - displacement(:n - 2)) < 0)
+    ! The error of the energy is due to those of the displacements at the reversals and at the end: at most the whole range
+    ! of the force times these.
+    reversals = count((displacement(3:) - displacement(2:n - 1))*(displacement(2:n - 1) - displacement(:n - 2)) < 0)
     call check(job//': energy along the displacements', maxval(abs(dissipated - table(5, :))), &
-      2*(turns + 1)*contact%slip_force*displaced + rounding*dissipated(n), dissipated(n))
+      2*(reversals + 1)*contact%slip_force*displaced + rounding*dissipated(n), dissipated(n))
   end subroutine compare_law
 
-  !> For the picture: the law along straight ways between the displacements that CalculiX printed.
+  !> For the figure: the law along straight segments between the displacements that CalculiX printed.
   subroutine write_curve(job, parts)
     character(len=*), intent(in) :: job
     integer, intent(in) :: parts
@@ -99,7 +100,8 @@ contains
     do i = 1, size(table, 2)
       do j = 1, parts
         displacement = before + (table(3, i) - before)*j/parts
-        call mslip_masing_update(contact, state, displacement, status, force)
+        if (status == MSLIP_OK) call mslip_masing_advance(contact, state, displacement, status, force)
+        if (status /= MSLIP_OK) call give_up(mslip_status_text(status))
         write (unit, '(es14.7, a, es14.7)') displacement, ',', force
       end do
       before = table(3, i)
@@ -210,8 +212,9 @@ contains
     call check('frequency: lowest, squared', abs(square - table(1, 1)), against_own_solution*square, square)
   end subroutine compare_frequency
 
-  !> Where a structure comes to rest that would be displaced by `free` without the contact, and by `free - compliance*force`
-  !> with it: Newton's method within bounds, since force grows with displacement and stays within mu N.
+  !> Equilibrium of a structure that is displaced by `free` without the contact and by `free - compliance*force` with it:
+  !> Newton's method within bounds, since force increases with displacement and is at most mu N. Trial steps start from `state`,
+  !> which becomes that of the solution.
   subroutine rest(free, compliance, state, displacement, force)
     real(wp), intent(in) :: free, compliance
     real(wp), intent(inout) :: state(:)
@@ -223,7 +226,7 @@ contains
     high = free + compliance*contact%slip_force
     displacement = (low + high)/2
     do i = 1, 200
-      call mslip_masing_update(contact, state, displacement, status, force, stiffness, state_new=trial)
+      call mslip_masing_update(contact, state, displacement, trial, status, force, stiffness)
       if (status /= MSLIP_OK) call give_up(mslip_status_text(status))
       excess = displacement - free + compliance*force
       if (excess > 0) high = displacement
@@ -328,19 +331,19 @@ contains
   function equation(node, axis) result(number)
     integer, intent(in) :: node, axis
     integer :: number, unit, status
-    character(len=32) :: line, wanted
+    character(len=32) :: line, requested
 
-    write (wanted, '(i0, a, i0)') node, '.', axis
+    write (requested, '(i0, a, i0)') node, '.', axis
     open (newunit=unit, file=trim(matrices)//'/matrices.dof', status='old', action='read')
     number = 0
     do
       read (unit, '(a)', iostat=status) line
       if (status /= 0) exit
       number = number + 1
-      if (adjustl(line) == wanted) exit
+      if (adjustl(line) == requested) exit
     end do
     close (unit)
-    if (node /= 0 .and. status /= 0) call give_up('no equation '//trim(wanted))
+    if (node /= 0 .and. status /= 0) call give_up('no equation '//trim(requested))
   end function equation
 
   !> Linear between the lines of a table.

@@ -21,15 +21,15 @@ module contact_element
   use microslip
   implicit none
   private
-  public :: prepare, direction, answer, stop_for
+  public :: prepare, direction, update, fail
 
   integer, parameter, public :: wp = mslip_real
   integer, parameter, public :: printed = 3  ! state variables before the state of the law
 
 contains
 
-  !> The contact of the element's material. It is prepared anew in every call: 20 us, and nothing is kept between calls,
-  !> which CalculiX makes from several threads.
+  !> The contact of the element's material. It is initialised in every call, in 20 us, and nothing is kept between calls, which
+  !> CalculiX makes from several threads.
   subroutine prepare(element, kind_and_count, constants, contact)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
@@ -37,7 +37,7 @@ contains
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    if (kind_and_count /= -109) call stop_for(element, 'its material is to be a *USER MATERIAL with 9 constants')
+    if (kind_and_count /= -109) call fail(element, 'its material is to be a *USER MATERIAL with 9 constants')
     call mslip_parameters_default(p)
     p%flat_half_width = constants(1)
     p%edge_radius = constants(2)
@@ -46,7 +46,7 @@ contains
     p%friction_coefficient = constants(5)
     p%material = [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))]
     call mslip_contact_init(p, contact, status)
-    if (status /= MSLIP_OK) call stop_for(element, mslip_status_text(status))
+    if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
   end subroutine prepare
 
   !> Unit vector of sliding.
@@ -56,45 +56,47 @@ contains
     real(wp) :: d(3)
 
     d = properties(property + 1:property + 3)
-    if (.not. norm2(d) > 0) call stop_for(element, 'its *USER SECTION is to give a direction')
+    if (.not. norm2(d) > 0) call fail(element, 'its *USER SECTION is to give a direction')
     d = d/norm2(d)
   end function direction
 
-  !> Force and stiffness at a displacement, from the variables of the last accepted increment to those of this attempt.
-  !> `accepted` is false for a displacement that is none: Newton's method has diverged.
-  subroutine answer(element, contact, displacement, start, before, after, stiffness, accepted)
+  !> A trial step: force and stiffness at a displacement, from the variables of the last accepted increment to those of this
+  !> attempt. `accepted` is false if the displacement is not finite: Newton's method has diverged.
+  subroutine update(element, contact, displacement, start, before, after, stiffness, accepted)
     integer, intent(in) :: element
     type(mslip_contact), intent(in) :: contact
     real(wp), intent(in) :: displacement, start, before(:)
     real(wp), intent(inout) :: after(:)
     real(wp), intent(out) :: stiffness
     logical, intent(out) :: accepted
-    real(wp) :: state(size(before) - printed), force, dissipated
+    real(wp), dimension(size(before) - printed) :: state, trial
+    real(wp) :: force, dissipated
     integer(mslip_int) :: status
 
     status = MSLIP_OK
     state = before(printed + 1:)
     if (all(abs(state) <= 0)) then  ! CalculiX begins with zeros
-      if (abs(start) > 0) call stop_for(element, 'it is displaced and has no memory (restart files of CalculiX hold ' // &
-        'state variables only where the model has a *CONTACT PAIR)')
+      if (abs(start) > 0) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
+        'have state variables only if the model has a *CONTACT PAIR)')
       call mslip_state_init(state, status)
     end if
     if (status == MSLIP_OK) &
-      call mslip_masing_update(contact, state, displacement, status, force, stiffness, dissipated)
+      call mslip_masing_update(contact, state, displacement, trial, status, force, stiffness, dissipated)
     accepted = status /= MSLIP_BAD_DISPLACEMENT
     if (.not. accepted) return
-    if (status /= MSLIP_OK) call stop_for(element, mslip_status_text(status))
+    if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
     after(1:printed) = [force, displacement, before(3) + dissipated]
-    after(printed + 1:) = state
-  end subroutine answer
+    after(printed + 1:) = trial
+  end subroutine update
 
-  subroutine stop_for(element, reason)
+  !> Ends the program: an error of the model.
+  subroutine fail(element, reason)
     integer, intent(in) :: element
     character(len=*), intent(in) :: reason
 
     write (error_unit, '(a, i0, 2a)') ' *ERROR in the contact element ', element, ': ', reason
-    stop 201
-  end subroutine stop_for
+    stop 1
+  end subroutine fail
 
 end module contact_element
 
@@ -133,17 +135,17 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   d = direction(i, ielprop(i), prop)
   call prepare(i, nelcon(1, material), elcon(1, 1, material), contact)
   if (iperturb(1) >= 2) then
-    call answer(i, contact, slide(v), slide(vini), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
+    call update(i, contact, slide(v), slide(vini), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
     if (.not. accepted) then
       qa(3) = 0.25_wp  ! asks for an increment of a quarter
       return
     end if
     force = xstate(1, 1, i)
   else
-    ! Linear, and not of the history: small vibrations about any state begin with the initial stiffness. So does any branch,
-    ! in the first iteration of a step whose supports move (-1), which asks for the force of the change alone.
+    ! Linear and independent of the load history: small vibrations about any state begin with the initial stiffness. So does any
+    ! branch in the first iteration of a step whose supports move (-1), in which the force of the change alone is required.
     if (nmethod == 1 .and. iperturb(1) /= -1) &
-      call stop_for(i, 'the step is linear, as CalculiX takes one after *FREQUENCY unless it has NLGEOM')
+      call fail(i, 'the step is linear, as CalculiX takes one after *FREQUENCY unless it has NLGEOM')
     stiffness = contact%initial_stiffness
     force = stiffness*slide(v)
     if (iperturb(1) == -1) force = force - stiffness*slide(vold)

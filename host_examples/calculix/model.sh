@@ -48,7 +48,7 @@ root, 1, 3
 5000, 1, 3
 END
 
-# 33 state variables: 3 to be read, and a state for 12 reversals.
+# 44 state variables: 3 to be read, and a state that holds 12 reversals exactly.
 cat > blade.inp << 'END'
 *INCLUDE, INPUT=blade_alone.inp
 *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
@@ -57,7 +57,7 @@ cat > blade.inp << 'END'
 *MATERIAL, NAME=law
 *INCLUDE, INPUT=law.inp
 *DEPVAR
-33
+44
 *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
 0., 0., 1.
 *INCLUDE, INPUT=for_restart.inp

@@ -1,16 +1,16 @@
-!> Harmonic balance held against direct time integration in the steady state.
+!> Harmonic balance compared with direct time integration in the steady state.
 !>
-!>     time_march CASE DIRECTORY
+!>     time_integration CASE DIRECTORY
 !>
-!> The group &march of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from the
-!> balance with the most harmonics, which leaves little of a transient, and marches until it is periodic. Written to
+!> The group &time_integration of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from
+!> the balance with the most harmonics, so that the transient is small, and is integrated until it is periodic. Written to
 !> DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every frequency and number of harmonics;
 !> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact.
 !>
-!> The exit code is 1 where the peak of the balance of the case itself (&harmonic_balance) differs by more than the
-!> allowed_difference of &march.
-program time_march
+!> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
+!> allowed_difference of &time_integration.
+program time_integration
   use case_input, only: case_data, read_case
   use case_problem, only: prepare_problem
   use csv_output, only: csv_file
@@ -35,42 +35,42 @@ program time_march
   type(csv_file) :: table, waveforms
   integer :: i
 
-  if (command_argument_count() /= 2) call fail('usage: time_march CASE DIRECTORY')
+  if (command_argument_count() /= 2) call fail('usage: time_integration CASE DIRECTORY')
   call get_command_argument(1, case_file)
   call get_command_argument(2, directory)
   call read_case(trim(case_file), data)
-  if (size(data%march_frequencies) == 0) call fail(trim(case_file)//': the group &march is missing')
+  if (size(data%integration_frequencies) == 0) call fail(trim(case_file)//': the group &time_integration is missing')
 
   call table%open(trim(directory)//'/'//trim(data%name)//'_comparison.csv')
-  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_march_m,peak_difference')
+  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_time_integration_m,peak_difference')
   call table%add('response_difference,displacement_difference,force_difference')
   call table%add('periods,steps_per_period,change_per_period,remaining_transient')
   call table%end_row()
   call waveforms%open(trim(directory)//'/'//trim(data%name)//'_waveforms.csv')
   call waveforms%add('frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
   call waveforms%end_row()
-  do i = 1, size(data%march_frequencies)
-    call compare_at(data%march_frequencies(i))
+  do i = 1, size(data%integration_frequencies)
+    call compare_at(data%integration_frequencies(i))
   end do
   call table%close()
   call waveforms%close()
 
 contains
 
-  !> The balances of the list, and with them that of the case itself, with fewer samples.
+  !> The balances of the list, and that of the case itself, with fewer samples.
   subroutine compare_at(frequency)
     real(wp), intent(in) :: frequency
     type(balance_problem) :: problem
     type(waveform), allocatable :: balances(:)
-    type(waveform) :: marched
+    type(waveform) :: integrated
     real(wp), allocatable :: displacement(:,:), response(:,:), peak(:)
-    integer, dimension(1 + size(data%march_harmonics)) :: harmonics, samples
-    real(wp) :: change, remaining, march_peak, difference(3)
+    integer, dimension(1 + size(data%integration_harmonics)) :: harmonics, samples
+    real(wp) :: change, remaining, integrated_peak, difference(3)
     integer :: k, most, periods
 
-    harmonics = [data%harmonics, data%march_harmonics]
+    harmonics = [data%harmonics, data%integration_harmonics]
     samples(1) = data%samples
-    samples(2:) = data%march_samples
+    samples(2:) = data%integration_samples
     allocate (balances(size(harmonics)), peak(size(harmonics)))
     most = maxloc(harmonics, dim=1)
     do k = 1, size(harmonics)
@@ -79,21 +79,21 @@ contains
     end do
     call balance_at(frequency, harmonics(most), samples(most), problem, displacement, response, &
                     balances(most), peak(most))
-    call march(frequency, problem, displacement, response, marched, periods, change, remaining)
+    call integrate(frequency, problem, displacement, response, integrated, periods, change, remaining)
 
-    march_peak = maxval(abs(marched%response))
-    call add_waveform(frequency, 'march', 0, data%steps_per_period, marched)
+    integrated_peak = maxval(abs(integrated%response))
+    call add_waveform(frequency, 'time_integration', 0, data%steps_per_period, integrated)
     do k = 1, size(balances)
-      difference = [relative_difference(balances(k)%response, marched%response), &
-                    relative_difference(balances(k)%displacement, marched%displacement), &
-                    relative_difference(balances(k)%force, marched%force)]
-      call table%add(data%march_load_factor)
+      difference = [relative_difference(balances(k)%response, integrated%response), &
+                    relative_difference(balances(k)%displacement, integrated%displacement), &
+                    relative_difference(balances(k)%force, integrated%force)]
+      call table%add(data%integration_load_factor)
       call table%add(frequency)
       call table%add(harmonics(k))
       call table%add(samples(k))
       call table%add(peak(k))
-      call table%add(march_peak)
-      call table%add(abs(peak(k) / march_peak - 1.0_wp))
+      call table%add(integrated_peak)
+      call table%add(abs(peak(k) / integrated_peak - 1.0_wp))
       call table%add(difference)
       call table%add(periods)
       call table%add(data%steps_per_period)
@@ -101,13 +101,14 @@ contains
       call table%end_row()
       call add_waveform(frequency, 'balance', harmonics(k), samples(k), balances(k))
       call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
-                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, marched '//text(1.0e6_wp * march_peak, '(f10.4)')// &
-                    ' um, difference '//text(abs(peak(k) / march_peak - 1.0_wp), '(es8.1)')//', waveform '// &
+                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
+                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, difference '// &
+                    text(abs(peak(k) / integrated_peak - 1.0_wp), '(es8.1)')//', waveform '// &
                     text(difference(1), '(es8.1)')//', contact '//text(difference(2), '(es8.1)'))
     end do
-    if (.not. abs(peak(1) / march_peak - 1.0_wp) <= data%allowed_difference) then
+    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= data%allowed_difference) then
       call fail('the peak of the balance with '//text(harmonics(1))//' harmonics at '//text(frequency)// &
-                ' Hz differs from the marched one by more than '//text(data%allowed_difference))
+                ' Hz differs from that of time integration by more than '//text(data%allowed_difference))
     end if
   end subroutine compare_at
 
@@ -122,7 +123,7 @@ contains
     type(balance_point) :: point
     logical :: converged
 
-    call prepare_problem(data, data%march_load_factor, harmonics, samples, problem)
+    call prepare_problem(data, data%integration_load_factor, harmonics, samples, problem)
     allocate (displacement(2 * harmonics + 1, size(data%contacts)))
     call solve_from_rest(problem, 2.0_wp * pi * frequency, displacement, point, converged)
     if (.not. converged) then
@@ -135,8 +136,8 @@ contains
     call problem%contacts%steady_loop(shown_contact, displacement(:, shown_contact), waves%displacement, waves%force)
   end subroutine balance_at
 
-  !> Marches until the transient left is below the tolerance of the case, relative to the response.
-  subroutine march(frequency, problem, contact_displacement, response, waves, periods, change, remaining)
+  !> Integrates until the remaining transient is below the tolerance of the case, relative to the response.
+  subroutine integrate(frequency, problem, contact_displacement, response, waves, periods, change, remaining)
     real(wp), intent(in) :: frequency, contact_displacement(:,:), response(:,:)
     type(balance_problem), intent(in) :: problem
     type(waveform), intent(out) :: waves
@@ -144,59 +145,49 @@ contains
     real(wp), intent(out) :: change, remaining
     type(newmark_scheme) :: scheme
     type(motion) :: state
-    real(wp), allocatable :: excitation(:,:), last_period(:,:), before(:)
-    real(wp) :: decay
-    logical :: memory_full
-    integer :: renewals, j, k
+    real(wp), allocatable :: excitation(:,:), before(:)
+    real(wp) :: decay, force_error
+    integer :: j, k
 
     call prepare_newmark(problem%model, problem%incidence, 1.0_wp / (frequency * data%steps_per_period), &
                          [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
-    call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation, last_period)
+    call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation)
     allocate (waves%response(data%steps_per_period), source=0.0_wp)
     allocate (waves%displacement, waves%force, mold=waves%response)
     decay = exp(-slowest_decay(problem) / frequency)
-    renewals = 0
-    do periods = 1, data%most_periods
+    do periods = 1, data%max_periods
       before = waves%response
       do j = 1, data%steps_per_period
         k = modulo(j, data%steps_per_period) + 1
-        call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
-                          memory_full)
-        if (memory_full) then
-          ! Each period of a slowly decaying motion lies within the one before, and all of them are remembered. The
-          ! steady state looked for remembers its own period alone, so the memory is made anew from the last one.
-          call problem%contacts%start_history(cshift(last_period, j - 1, dim=1), state%contacts, state%contact_force)
-          call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state, &
-                            memory_full)
-          if (memory_full) call fail('the memory of the contacts is full right after it was made anew')
-          renewals = renewals + 1
-        end if
-        last_period(j, :) = state%contact_displacement
+        call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state)
         waves%response(k) = state%displacement(data%response_dof)
         waves%displacement(k) = state%contact_displacement(shown_contact)
         waves%force(k) = state%contact_force(shown_contact) / data%contacts(shown_contact)%count
       end do
       change = relative_difference(before, waves%response)
-      ! What a transient that shrinks by `decay` in each period will still change.
+      ! The remaining change by a transient that shrinks by the factor `decay` in each period.
       remaining = change * decay / (1.0_wp - decay)
       if (remaining <= data%steady_tolerance) exit
     end do
-    if (periods > data%most_periods) then
-      call fail('the motion at '//text(frequency)//' Hz is not periodic after '//text(data%most_periods)// &
-                ' periods: it still changes by '//text(change)//'; raise most_periods or steady_tolerance')
+    ! Each period of a slowly decaying motion lies within the one before: its reversals are more than a state holds, and the
+    ! least significant ones are merged.
+    force_error = maxval([(problem%contacts%force_error(state%contacts, j), j=1, size(state%contact_force))])
+    if (periods > data%max_periods) then
+      call fail('the motion at '//text(frequency)//' Hz is not periodic after '//text(data%max_periods)// &
+                ' periods: it still changes by '//text(change)//'; raise max_periods or steady_tolerance')
     end if
     call progress(text(frequency, '(f10.2)')//' Hz: periodic after '//text(periods)//' periods of '// &
                   text(data%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
-                  ', transient left '//text(remaining, '(es8.1)')//', memory renewed '//text(renewals)//' times')
-  end subroutine march
+                  ', remaining transient '//text(remaining, '(es8.1)')//', force error of merged reversals '// &
+                  text(force_error, '(es8.1)')//' N')
+  end subroutine integrate
 
-  !> The motion of a balance at t = 0, with the excitation and the last period's displacements of the contacts at the
-  !> instants of the steps: excitation(:, 1) is at t = 0, last_period(1, :) one step after it.
-  subroutine start_motion(omega, problem, contact_displacement, response, state, excitation, last_period)
+  !> The motion of a balance at t = 0, and the excitation at the instants of the steps: excitation(:, 1) is at t = 0.
+  subroutine start_motion(omega, problem, contact_displacement, response, state, excitation)
     real(wp), intent(in) :: omega, contact_displacement(:,:), response(:,:)
     type(balance_problem), intent(in) :: problem
     type(motion), intent(out) :: state
-    real(wp), allocatable, intent(out) :: excitation(:,:), last_period(:,:)
+    real(wp), allocatable, intent(out) :: excitation(:,:)
     real(wp), allocatable :: basis(:,:)
     real(wp) :: rate(size(response, 1))
     integer :: k
@@ -216,9 +207,8 @@ contains
     state%velocity = matmul(rate, response)
     state%contact_displacement = matmul(state%displacement, problem%incidence)
     allocate (state%contact_force(size(data%contacts)))
-    allocate (last_period(data%steps_per_period, size(data%contacts)))
-    last_period = cshift(matmul(basis, contact_displacement), 1, dim=1)
-    call problem%contacts%start_history(last_period, state%contacts, state%contact_force)
+    call problem%contacts%start_history(cshift(matmul(basis, contact_displacement), 1, dim=1), state%contacts, &
+                                        state%contact_force)
     call initial_acceleration(problem%model, problem%incidence, excitation(:, 1), state)
   end subroutine start_motion
 
@@ -231,7 +221,7 @@ contains
 
     call symmetric_modes(problem%model%damping, problem%model%mass, root, modes)
     rate = 0.5_wp * root(1)**2
-    if (rate <= 0.0_wp) call fail('time marching needs a damping matrix that is positive definite')
+    if (rate <= 0.0_wp) call fail('time integration needs a damping matrix that is positive definite')
   end function slowest_decay
 
   !> Largest difference over the period, relative to the largest value.
@@ -240,7 +230,7 @@ contains
     relative_difference = maxval(abs(a - reference)) / maxval(abs(reference))
   end function relative_difference
 
-  !> `points` are the samples of a balance, or the steps of marching.
+  !> `points` are the samples of a balance, or the steps of time integration.
   subroutine add_waveform(frequency, source, harmonics, points, waves)
     real(wp), intent(in) :: frequency
     character(len=*), intent(in) :: source
@@ -260,4 +250,4 @@ contains
       call waveforms%end_row()
     end do
   end subroutine add_waveform
-end program time_march
+end program time_integration
