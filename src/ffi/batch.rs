@@ -26,6 +26,7 @@ impl<'a> Items<'a> {
     ///
     /// # Safety
     /// `contacts` is NULL or valid for n_contacts contacts, `index` and `active` NULL or valid for n flags.
+    #[inline(never)]
     unsafe fn new(
         n: usize,
         n_contacts: usize,

@@ -122,7 +122,7 @@ pub unsafe extern "C" fn mslip_masing_update(
 /// # Safety
 /// `state_old` is valid for state_length doubles; `state_new` is NULL, the same, or valid for as many doubles elsewhere; the outputs
 /// force, stiffness and dissipated are NULL, or aligned and valid for one double.
-#[inline(always)]
+#[inline(never)]
 pub(super) unsafe fn update(
     contact: &Contact,
     state_length: usize,

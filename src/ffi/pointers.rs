@@ -163,7 +163,7 @@ pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 4], Error> {
 ///
 /// # Safety
 /// `pointer` is NULL or valid for four doubles, and for a whole workspace if these are the header of one.
-#[inline(always)]
+#[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     // SAFETY: by the function's contract.
     let header = unsafe { workspace_header(pointer) }?;
