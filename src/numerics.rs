@@ -1,7 +1,10 @@
-//! Numerical building blocks that know nothing of contacts: interpolation, quadrature, polynomials, classification of numbers.
+//! Numerical methods that do not depend on contact mechanics: interpolation, quadrature, root finding, polynomials, and the
+//! classification of floating-point values.
 
 pub(crate) mod chebyshev;
+mod const_math;
 pub(crate) mod fp_class;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
+pub(crate) mod roots;
 pub(crate) mod sn_midpoint;

@@ -26,7 +26,7 @@ use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use super::{HarmonicOutput, Requested};
 use crate::error::Error;
 use crate::law::{Evaluator, Law, Point, Response, Reversal};
-use crate::numerics::quadrature::{GAUSS_FOURS, gauss_rule};
+use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
@@ -35,10 +35,10 @@ const MIN_BLOCKS: usize = 2;
 const MIN_BLOCKS_TO_SLIP: usize = 4;
 
 /// Nodes that are taken together.
-const PANEL: usize = 4 * GAUSS_FOURS;
+const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
 /// Numbers in fours, of a panel.
-type Nodes = [[f64; 4]; GAUSS_FOURS];
+type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// Doubles of the parts of a workspace.
 pub(super) struct Layout(Size);
@@ -222,7 +222,7 @@ impl Buffers<'_> {
     /// cos and sin of all orders up to `orders` at the nodes of a panel, and the displacement there.
     #[inline(always)]
     fn fill_waves(&mut self, motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-        let rows = self.waves.as_chunks_mut::<4>().0.as_chunks_mut::<{ 2 * GAUSS_FOURS }>().0;
+        let rows = self.waves.as_chunks_mut::<4>().0.as_chunks_mut::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
         for (four, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
             let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
             for k in 0..4 {
@@ -232,7 +232,7 @@ impl Buffers<'_> {
             let mut u = [motion.mean; 4];
             let mut pairs = motion.pairs.iter();
             for row in rows.iter_mut().take(orders) {
-                let (cosines, sines) = row.split_at_mut(GAUSS_FOURS);
+                let (cosines, sines) = row.split_at_mut(MAX_GAUSS_BLOCKS);
                 if let (Some(cosines), Some(sines)) = (cosines.get_mut(four), sines.get_mut(four)) {
                     (*cosines, *sines) = (c, s);
                 }
@@ -265,9 +265,9 @@ fn add_sums(sums: &mut [f64], waves: &[f64], values: &[[f64; 4]]) {
         }
     }
     *constant += total(sum);
-    let rows = waves.as_chunks::<4>().0.as_chunks::<{ 2 * GAUSS_FOURS }>().0;
+    let rows = waves.as_chunks::<4>().0.as_chunks::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
     for ([by_cosine, by_sine], row) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
-        let (cosines, sines) = row.split_at(GAUSS_FOURS);
+        let (cosines, sines) = row.split_at(MAX_GAUSS_BLOCKS);
         let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
         for ((value, cosine), sine) in values.iter().zip(cosines).zip(sines) {
             for k in 0..4 {
@@ -443,7 +443,7 @@ impl<L: Law> Walk<'_, L> {
         // Those of the cube root are three times as far apart at the piece's start.
         let (density, least) = if to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
         let blocks = ((density * length * self.blocks_per_radian + 0.5) as usize).max(least);
-        let panels = blocks.div_ceil(GAUSS_FOURS);
+        let panels = blocks.div_ceil(MAX_GAUSS_BLOCKS);
         let rule = gauss_rule(blocks.div_ceil(panels.max(1)));
         let share = 1.0 / panels as f64;
         let evaluator = self.law.evaluator();

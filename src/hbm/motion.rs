@@ -1,6 +1,7 @@
 //! A periodic displacement in time: where it turns, and where it crosses a level.
 
 use super::fourier::sample;
+use crate::numerics::roots::bracketed_newton;
 use core::f64::consts::PI;
 
 /// An instant, and the displacement there.
@@ -106,7 +107,7 @@ impl<'a> Motion<'a> {
         // As if the swing were half a wave.
         let start = from.t + (to.t - from.t) * ((1.0 - 2.0 * part).acos() / PI);
         let sign = if to.displacement < from.displacement { -1.0 } else { 1.0 };
-        root(at.t, to.t, if start < at.t { at.t } else { start }, |t| {
+        bracketed_newton(at.t, to.t, if start < at.t { at.t } else { start }, |t| {
             let [u, rate, ..] = self.at(t);
             (sign * (u - level), sign * rate)
         })
@@ -124,7 +125,7 @@ struct Turns<'a> {
 impl Turns<'_> {
     /// One between two instants, where the rate times `sign` rises through zero.
     fn add(&mut self, low: f64, high: f64, start: f64, sign: f64) {
-        let t = root(low, high, start, |t| {
+        let t = bracketed_newton(low, high, start, |t| {
             let [_, rate, second, _] = self.motion.at(t);
             (sign * rate, sign * second)
         });
@@ -138,7 +139,7 @@ impl Turns<'_> {
     /// Two of them, if the rate times `sign`, positive at `low` and `high`, dips below zero between them.
     #[cold]
     fn add_two(&mut self, low: f64, middle: f64, high: f64, sign: f64) {
-        let bottom = root(low, high, middle, |t| {
+        let bottom = bracketed_newton(low, high, middle, |t| {
             let [_, _, second, third] = self.motion.at(t);
             (sign * second, sign * third)
         });
@@ -148,32 +149,6 @@ impl Turns<'_> {
             self.add(bottom, high, 0.5 * (bottom + high), sign);
         }
     }
-}
-
-/// Where a function that is negative at `low` and not at `high` has its root: Newton's method, and bisection where that
-/// leaves the bracket. `evaluate` gives value and slope.
-fn root(low: f64, high: f64, start: f64, evaluate: impl Fn(f64) -> (f64, f64)) -> f64 {
-    let (mut low, mut high, mut at) = (low, high, start);
-    for _ in 0..80 {
-        let (value, slope) = evaluate(at);
-        if value < 0.0 {
-            low = at;
-        } else {
-            high = at;
-        }
-        // Where Newton's step would be longer than any bracket, no division by what may be zero.
-        let slope = if slope > 0.0 { slope } else { 0.0 };
-        let newton = at - value / slope.max(0.01 * value.abs()).max(f64::MIN_POSITIVE);
-        let inside = newton >= low && newton <= high;
-        let next = if inside { newton } else { 0.5 * (low + high) };
-        let step = (next - at).abs();
-        at = next;
-        // Newton's next step would be about as long as this one squared.
-        if (inside && step < 1e-9) || high - low < 1e-15 {
-            break;
-        }
-    }
-    at
 }
 
 /// φ of an instant.

@@ -1,11 +1,11 @@
-//! Power series, summed four terms side by side so that none has to wait for the one before.
+//! Polynomials evaluated by four interleaved Horner schemes, two vectors of two, to shorten the chain of dependent operations.
 
 use wide::f64x2;
 
 /// Coefficients of x⁰, x¹, ... in rows of four.
 pub(crate) type Rows<const R: usize> = [[f64; 4]; R];
 
-/// Coefficients in rows.
+/// Arranges coefficients in rows.
 pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Rows<R> {
     assert!(N == 4 * R);
     let mut rows = [[0.0; 4]; R];
@@ -17,7 +17,7 @@ pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Ro
     rows
 }
 
-/// The sum at x of a series given by its rows.
+/// Value at x of a polynomial given by its rows.
 #[inline]
 pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f64) -> f64 {
     let square = x * x;
@@ -30,7 +30,7 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
     even + odd * x
 }
 
-/// A polynomial and its derivative at x: in every row the even and the odd power are one pair.
+/// Value and derivative at x. Each vector is a pair of an even and an odd power.
 #[inline(always)]
 pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
     let square = x * x;
@@ -48,13 +48,13 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
     let square_pair = f64x2::splat(square);
     let sums = low + high * square_pair;
     let slopes = low_slope + high_slope * square_pair;
-    // The derivative of x² and of x⁴, by which they were summed.
+    // Chain rule: the sums are polynomials in x² and x⁴.
     let rates = high * f64x2::splat(2.0 * x) + slopes * f64x2::splat(4.0 * (square * x));
     let ([even, odd], [even_rate, odd_rate]) = (sums.to_array(), rates.to_array());
     (even + odd * x, odd + (even_rate + odd_rate * x))
 }
 
-/// Rows that a series with coefficients near 1 needs for all digits at x, at most those there are.
+/// Number of rows, at most `all`, after which a series with coefficients near 1 is converged to double precision at x.
 #[inline]
 pub(crate) fn rows_for(x: f64, all: usize) -> usize {
     // (1/16)¹⁶, (1/4)²⁸ and (1/3)³⁶ are below 2⁻⁵³.

@@ -1,20 +1,20 @@
-//! Quadrature over the approaches of a cycle, for integrands that are singular where gross slip begins.
+//! Midpoint rules under the map `t = sn²(u|m)`, for the complex stiffness of a cycle close to gross slip.
 //!
-//! With `x = δ0 t` and ξ = δ0/δ_slip < 1 the tangent stiffness is singular at t = 1/ξ. Jacobi's `t = sn²(u|m)` with m >= ξ takes that
-//! point to the line Im u = K'(m), and `sqrt(t (1-t)) dt` becomes periodic and smooth: the midpoint rule in u with n nodes errs
-//! by `exp(-2π n K'/K)`, where K'/K falls but as a logarithm of 1-m.
+//! With displacement δ0 t and ξ = δ0/δ_slip < 1, the tangent stiffness is singular at t = 1/ξ. Jacobi's sn with m >= ξ maps this point
+//! to the line Im u = K'(m), and `sqrt(t (1-t)) dt` becomes periodic and smooth: the midpoint rule in u with n nodes has an error
+//! of `exp(-2π n K'/K)`, where K'/K decreases only logarithmically in 1-m.
 
-/// A node: t, its weight in K' (they add up to 1), and that in the derivative of K' times δ0 (they add up to 0).
+/// A node: t, its weight in K' (sum 1), and its weight in δ0 dK'/dδ0 (sum 0).
 pub(crate) type Node = (f64, f64, f64);
 
-/// The rule for amplitudes up to a share of that of gross slip.
+/// A rule for amplitudes up to `largest` times the displacement at gross slip.
 #[derive(Debug)]
 pub(crate) struct Rule {
     pub largest: f64,
     pub nodes: &'static [Node],
 }
 
-/// m is the largest ξ; the numbers of nodes keep cylinders with 2L near b, the worst there are, within 1e-15.
+/// m is the largest ξ. The error is below 1e-15 for cylinders with 2L near b, the worst case.
 pub(crate) static RULES: [Rule; 3] = [
     Rule {
         largest: 0.8,
@@ -146,12 +146,12 @@ mod tests {
     use super::*;
     use core::f64::consts::PI;
 
-    /// `K'` of `1/(1/ξ - t)`, the derivative of which is known as well: `8/π ∫ sqrt(t (1-t))/(A-t) dt = 4 (2A - 1 - 2 sqrt(A ))`.
+    /// `8/π ∫ sqrt(t (1-t))/(A-t) dt = 4 (2A - 1 - 2 sqrt(A ))`.
     #[test]
-    fn a_pole_at_gross_slip_is_integrated() {
-        for (rule, worst) in RULES.iter().zip([1.0_f64, 0.8, 0.97]) {
-            for part in [worst.min(rule.largest), rule.largest] {
-                // A pole is stronger than what a curve has there.
+    fn a_pole_beyond_gross_slip_is_integrated() {
+        for (rule, ratio) in RULES.iter().zip([1.0_f64, 0.8, 0.97]) {
+            for part in [ratio.min(rule.largest), rule.largest] {
+                // A pole is a stronger singularity than that of any curve at gross slip.
                 let a = 1.0 / (0.9 * part);
                 let sum: f64 = rule.nodes.iter().map(|(t, weight, _)| weight / (a - t)).sum();
                 let exact = 4.0 * (2.0 * a - 1.0 - 2.0 * (a * (a - 1.0)).sqrt());
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn forty_points_integrate_what_they_are_for() {
+    fn the_40_point_rule_integrates_a_sine() {
         let sum: f64 = GAUSS.iter().map(|(x, weight)| weight * (PI * x).sin()).sum();
         assert!((sum * PI / 2.0 - 1.0).abs() < 4e-16);
     }

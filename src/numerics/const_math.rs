@@ -1,0 +1,68 @@
+//! Elementary functions for tables that are computed at compile time.
+
+use core::f64::consts::{FRAC_PI_2, LN_2};
+
+/// `cos(π/2 m/quarter)`: Taylor series on the first octant, symmetry elsewhere.
+pub(super) const fn cosine(m: usize, quarter: usize) -> f64 {
+    let m = m % (4 * quarter);
+    if m > 2 * quarter {
+        return cosine(4 * quarter - m, quarter);
+    }
+    if m > quarter {
+        return -cosine(2 * quarter - m, quarter);
+    }
+    let (from_axis, first) = if 2 * m <= quarter { (m, 0) } else { (quarter - m, 1) };
+    let angle = FRAC_PI_2 * from_axis as f64 / quarter as f64;
+    // Σ (-1)ⁿ x²ⁿ⁺ᶠ/(2n+f)!: the cosine for f = 0, the sine for f = 1.
+    let mut sum = 0.0;
+    let mut n = 10;
+    while n > 0 {
+        n -= 1;
+        let next = (2 * n + 1 + first) as f64 * (2 * n + 2 + first) as f64;
+        sum = 1.0 - angle * angle / next * sum;
+    }
+    if first == 0 { sum } else { angle * sum }
+}
+
+/// `exp(x)`: Taylor series after reduction of the argument by multiples of ln 2.
+pub(super) const fn exp(x: f64) -> f64 {
+    let exponent = (x / LN_2) as i32;
+    let reduced = x - exponent as f64 * LN_2;
+    let mut sum = 1.0;
+    let mut n = 24;
+    while n > 0 {
+        sum = 1.0 + sum * reduced / n as f64;
+        n -= 1;
+    }
+    let mut k = 0;
+    while k < exponent.abs() {
+        sum *= if exponent > 0 { 2.0 } else { 0.5 };
+        k += 1;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cosine_agrees_with_the_standard_library_beyond_two_periods() {
+        for quarter in [1, 3, 16, 20] {
+            for m in 0..=9 * quarter {
+                let exact = (FRAC_PI_2 * m as f64 / quarter as f64).cos();
+                // The argument of `exact` is rounded: at most 2.25 periods.
+                assert!((cosine(m, quarter) - exact).abs() < 3e-15, "{m} {quarter}");
+            }
+        }
+    }
+
+    #[test]
+    fn exp_agrees_with_the_standard_library() {
+        for k in 0..=64 {
+            let x = -40.0 + 0.7 * f64::from(k);
+            // One unit of rounding per power of two.
+            assert!((exp(x) / x.exp() - 1.0).abs() < 64.0 * f64::EPSILON, "{x}");
+        }
+    }
+}
