@@ -1,28 +1,27 @@
-//! The harmonic force: from the coefficients of a periodic displacement to those of the force in steady state, with the exact
-//! Jacobian, and the energy.
+//! Harmonic force of a periodic displacement in steady state: Fourier coefficients, exact Jacobian and dissipated energy.
 //!
-//! The displacement is `c0 + Σ (a_k cos kt + b_k sin kt)`. The steady state is that of the second of two periods from the
-//! virgin state. It starts where the displacement is farthest from 0: there nothing is remembered but the virgin curve,
-//! whatever was before. So one period is walked, from that instant; and half of it where the displacement has odd harmonics
-//! only, for then force and displacement change their sign with half a period.
+//! The displacement is `c0 + Σ (a_k cos kt + b_k sin kt)`. The steady state is that of the second of two periods from the initial
+//! (unloaded) state. It is entered at the displacement of largest magnitude, at which no reversal is on the stack whatever the history:
+//! one period is integrated from that instant. If only odd harmonics are present, displacement and force change their sign after half
+//! a period (half-wave symmetry), and half a period is enough.
 //!
-//! Both rules walk it by `steady_state`, and what they need of each period is `waves` and their sums. `uniform_sampling` steps from
-//! sample to sample; `event_driven` finds the instants at which the force has a kink, by `motion`, and integrates between
-//! them.
-//!
-//! On a branch from a reversal r, `T = T_r ± 2 M⁻¹(|δ-δ_r|/2)`, so that with the tangent stiffness k of the branch and φ the
-//! row 1, cos t, sin t, cos 2t, ... of an instant
+//! There are two quadrature rules. `uniform_sampling` advances the law from sample to sample; `event_driven` locates the instants at
+//! which the force is not smooth, by `motion`, and integrates between them, by `segments`. With φ the row 1, cos t, sin t, cos 2t, ...
+//! at an instant, the force on a branch that leaves reversal r has the derivative
 //!
 //! ```text
-//! dT = k (φ - φ_r) + dT_r,
+//! dT = k (φ - φ_r) + dT_r
 //! ```
 //!
-//! and `dT_r` was known when the reversal was passed.
+//! by the coefficients of the displacement, with k the tangent stiffness; `dT_r` is stored when the reversal is passed.
 
 mod event_driven;
 mod fourier;
 mod fourier_sums;
+mod jacobian;
 mod motion;
+mod sampled_gradients;
+mod segments;
 mod uniform_sampling;
 mod workspace;
 
@@ -31,18 +30,18 @@ use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
 use workspace::{HEADER, WorkspaceLayout};
 
-/// What the integrals over a period are made of.
+/// Quadrature rule for the integrals over a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
-    /// Equidistant samples.
+    /// Uniformly spaced samples.
     UniformSampling,
-    /// Gauss-Legendre nodes between the kinks of the force.
+    /// Gauss-Legendre nodes between the events of the force.
     EventDriven,
 }
 
 impl Rule {
-    /// Doubles of a workspace for so many harmonics H and samples, or nodes, a period; 0 where there is none (H = 0, or too few
-    /// samples).
+    /// Number of doubles in a workspace for the given number of harmonics and of samples, or nodes, per period; 0 if these are not
+    /// allowed.
     #[must_use]
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         match self {
@@ -53,10 +52,10 @@ impl Rule {
         }
     }
 
-    /// Prepares a workspace: the tables of one pair of harmonics and samples, and scratch memory.
+    /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
     ///
     /// # Errors
-    /// `BadHarmonics` for none, `BadSamples` for samples <= 2H, both for more than there is any use for; `WorkspaceTooShort`.
+    /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         match self {
             Rule::UniformSampling => uniform_sampling::Layout::init(harmonics, samples, workspace),
@@ -71,10 +70,10 @@ impl Rule {
     }
 }
 
-/// Doubles that a prepared workspace occupies, from what it begins with.
+/// Number of doubles in an initialised workspace, from its header.
 ///
 /// # Errors
-/// `BadWorkspace` for memory that was not initialised, or was changed.
+/// `BadWorkspace` if uninitialised.
 pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
     match Rule::of_workspace(header) {
         Rule::UniformSampling => uniform_sampling::Layout::read(header).map(|layout| layout.length()),
@@ -85,7 +84,7 @@ pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
 /// Harmonics, samples and rule of an initialised workspace, from its header.
 ///
 /// # Errors
-/// `BadWorkspace` for memory that was not initialised.
+/// `BadWorkspace` if uninitialised.
 pub fn workspace_size(header: &[f64; HEADER]) -> Result<(usize, usize, Rule), Error> {
     let rule = Rule::of_workspace(header);
     let size = match rule {
@@ -95,7 +94,7 @@ pub fn workspace_size(header: &[f64; HEADER]) -> Result<(usize, usize, Rule), Er
     Ok((size.harmonics, size.samples, rule))
 }
 
-/// A workspace as it is used.
+/// An opened workspace.
 #[derive(Debug)]
 pub struct Workspace<'a>(ByRule<'a>);
 
@@ -106,10 +105,10 @@ enum ByRule<'a> {
 }
 
 impl<'a> Workspace<'a> {
-    /// Takes a prepared workspace into use.
+    /// Opens an initialised workspace.
     ///
     /// # Errors
-    /// `BadWorkspace` for memory that was not initialised, or was changed.
+    /// `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
@@ -132,8 +131,7 @@ impl<'a> Workspace<'a> {
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
 ///
 /// # Errors
-/// `BadDisplacement` for a coefficient that is not finite, or beyond 1e150; `BadArraySize` where a length is not that of the
-/// workspace.
+/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
 #[inline(always)]
 pub fn harmonic_force(
     contact: &Contact,
@@ -152,18 +150,18 @@ pub fn harmonic_force(
     Ok(())
 }
 
-/// Where the coefficients of the force, its Jacobian (column-major) and the energy go; `None` is not computed.
+/// Outputs: the coefficients of the force, its Jacobian (column-major) and the energy; `None` is not computed.
 #[derive(Debug)]
 pub struct HarmonicOutput<'a> {
     /// 2H + 1 coefficients of the force \[N\].
     pub force: Option<&'a mut [f64]>,
-    /// (2H + 1)² derivatives of force i by displacement j \[N/m\] at `i + (2H + 1) j`.
+    /// (2H + 1)² derivatives of force i with respect to displacement j \[N/m\] at `i + (2H + 1) j`.
     pub jacobian: Option<&'a mut [f64]>,
     /// Energy dissipated per period \[J\].
     pub dissipated: Option<&'a mut f64>,
 }
 
-/// What is needed of each point of the curve.
+/// Quantities requested at each point of the curve.
 #[derive(Debug, Clone, Copy)]
 struct Requested {
     force: bool,
@@ -175,8 +173,8 @@ impl HarmonicOutput<'_> {
         Requested { force: self.force.is_some(), stiffness: self.jacobian.is_some() }
     }
 
-    /// Checks all lengths and coefficients, and clears the Jacobian; whether that was all: nothing else is wanted, or there is no
-    /// friction and all of it is zero.
+    /// Checks lengths and coefficients, and clears the Jacobian. Returns whether the outputs are complete: none is requested, or the
+    /// contact is frictionless and all are zero.
     ///
     /// # Errors
     /// `BadDisplacement`, `BadArraySize`.
@@ -204,7 +202,7 @@ impl HarmonicOutput<'_> {
     }
 }
 
-/// Refuses a coefficient that is no number, or too large.
+/// Rejects coefficients that are not finite or too large.
 ///
 /// # Errors
 /// `BadDisplacement`.
@@ -221,7 +219,7 @@ mod tests {
 
     const RULES: [Rule; 2] = [Rule::UniformSampling, Rule::EventDriven];
 
-    /// A motion that nests loops, and one of odd harmonics, in slip displacements.
+    /// Coefficients of a motion with nested loops, and of one with odd harmonics only.
     pub(super) const SHAPE: [f64; 7] = [0.2, 0.5, -0.1, 0.05, 0.3, -0.35, 0.2];
     pub(super) const ODD: [f64; 7] = [0.0, 0.8, 0.1, 0.0, 0.0, -0.2, 0.3];
 
@@ -248,15 +246,15 @@ mod tests {
     }
 
     #[test]
-    fn memory_without_the_header_of_a_workspace_is_rejected() {
+    fn an_invalid_header_or_length_of_a_workspace_is_rejected() {
         for rule in RULES {
             let good = workspace(rule, 3, 16);
-            for (place, value) in
+            for (index, value) in
                 [(0, 0.0), (0, f64::NAN), (0, good[1]), (1, 0.0), (1, 16.0), (1, f64::INFINITY), (1, good[0])]
             {
                 let mut bad = good.clone();
-                bad[place] = value;
-                assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{place} {value}");
+                bad[index] = value;
+                assert_eq!(Workspace::new(&mut bad).map(|_| ()), Err(Error::BadWorkspace), "{index} {value}");
             }
             let mut short = good.clone();
             short.pop();
@@ -265,21 +263,21 @@ mod tests {
             let header = good.first_chunk().unwrap();
             assert_eq!(workspace_extent(header), Ok(good.len()));
             assert_eq!(workspace_size(header), Ok((3, 16, rule)));
-            // Memory beyond its extent is left alone.
+            // Memory beyond the extent is not written.
             let mut long = vec![-1.0; good.len() + 2];
             rule.workspace_init(3, 16, &mut long).unwrap();
             let contact = contact(50e-6);
             compute(&contact, &mut long, &scaled(&contact, &SHAPE, 1.0));
             assert_eq!(long.get(good.len()..), Some(&[-1.0, -1.0][..]));
         }
-        // Neither rule accepts the other's workspace.
+        // Neither rule accepts a workspace of the other.
         let [mut one, mut two] = RULES.map(|rule| workspace(rule, 3, 16));
         assert!(matches!(event_driven::Workspace::new(&mut one), Err(Error::BadWorkspace)));
         assert!(matches!(uniform_sampling::Workspace::new(&mut two), Err(Error::BadWorkspace)));
     }
 
     #[test]
-    fn harmonics_samples_and_arrays_are_refused_by_name() {
+    fn invalid_harmonics_samples_and_lengths_have_their_own_errors() {
         for rule in RULES {
             let mut memory = [0.0; 8];
             for (harmonics, samples, error) in [
@@ -296,7 +294,7 @@ mod tests {
             assert_eq!(memory, [0.0; 8]);
 
             let (contact, mut good) = (contact(50e-6), workspace(rule, 1, 8));
-            let mut refuses = |displacement: &[f64], length: usize, squared: usize, error: Error| {
+            let mut rejects = |displacement: &[f64], length: usize, squared: usize, error: Error| {
                 let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
                 let output = HarmonicOutput {
                     force: Some(&mut force),
@@ -307,23 +305,23 @@ mod tests {
                 assert_eq!(harmonic_force(&contact, &mut workspace, displacement, output), Err(error));
                 assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
             };
-            refuses(&[0.0; 2], 3, 9, Error::BadArraySize);
-            refuses(&[0.0; 3], 2, 9, Error::BadArraySize);
-            refuses(&[0.0; 3], 3, 8, Error::BadArraySize);
-            refuses(&[0.0, f64::NAN, 0.0], 3, 9, Error::BadDisplacement);
-            refuses(&[0.0, 0.0, 1.1e150], 3, 9, Error::BadDisplacement);
+            rejects(&[0.0; 2], 3, 9, Error::BadArraySize);
+            rejects(&[0.0; 3], 2, 9, Error::BadArraySize);
+            rejects(&[0.0; 3], 3, 8, Error::BadArraySize);
+            rejects(&[0.0, f64::NAN, 0.0], 3, 9, Error::BadDisplacement);
+            rejects(&[0.0, 0.0, 1.1e150], 3, 9, Error::BadDisplacement);
         }
     }
 
     #[test]
-    fn nothing_depends_on_what_the_workspace_did_before() {
+    fn results_do_not_depend_on_earlier_use_of_the_workspace() {
         for rule in RULES {
             let (contact, mut memory) = (contact(50e-6), workspace(rule, 3, 32));
             let motion = |size: f64| scaled(&contact, &SHAPE, size);
             let first = compute(&contact, &mut memory, &motion(0.8));
             compute(&contact, &mut memory, &motion(-3.0));
             assert_eq!(compute(&contact, &mut memory, &motion(0.8)), first);
-            // Outputs that are not wanted change nothing in the others.
+            // Omitted outputs do not change the others.
             let mut force = vec![0.0; 7];
             let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
             let mut workspace = Workspace::new(&mut memory).unwrap();

@@ -1,21 +1,21 @@
-//! Workspaces of the harmonic force: their sizes, their headers, and how they are divided.
+//! Workspaces of the harmonic force: size, header and layout.
 //!
 //! ```text
-//! [tag with harmonics, tag with samples],   tables,   scratch memory
+//! [tag with harmonics, tag with samples, 0, 0 | tables | scratch memory]
 //! ```
 //!
-//! The tables are made once and then only read. A quadrature rule describes them by its [`WorkspaceLayout`].
+//! The tables are filled once and only read afterwards. Each quadrature rule implements [`WorkspaceLayout`].
 
 use crate::error::Error;
 use crate::tag::Kind;
 
-/// Two tags; padded so that the tables keep the alignment of the workspace.
+/// Length of the header: two tags, padded so that the tables have the alignment of the workspace.
 pub(super) const HEADER: usize = 4;
 
-/// Numbers in fours.
+/// Doubles in blocks of four.
 pub(super) type Blocks = [[f64; 4]];
 
-/// Harmonics H and samples, or nodes, a period.
+/// Number of harmonics H, and of samples or nodes per period.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Size {
     pub harmonics: usize,
@@ -29,34 +29,33 @@ impl Size {
     }
 }
 
-/// How a rule divides a workspace of some size.
+/// Layout of the workspace of a quadrature rule.
 pub(super) trait WorkspaceLayout: Sized {
-    /// What tells its workspaces from those of the other rule.
+    /// Kind of the tag, which distinguishes the rules.
     const KIND: Kind;
 
     fn of(size: Size) -> Self;
 
     fn size(&self) -> Size;
 
-    /// How many rows of all orders up to 2H a workspace holds at most.
-    fn rows(&self) -> usize;
+    /// Upper bound on the number of rows over all orders up to 2H.
+    fn max_rows(&self) -> usize;
 
-    /// Doubles of the tables.
-    fn tables(&self) -> usize;
+    /// Number of doubles in the tables.
+    fn tables_length(&self) -> usize;
 
-    /// Doubles of all, the header included.
+    /// Number of doubles in the workspace, including the header.
     fn length(&self) -> usize;
 
-    /// Makes the tables.
+    /// Fills the tables.
     ///
     /// # Errors
     /// Those of [`Parts::take`].
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error>;
 
     /// # Errors
-    /// `BadHarmonics` for none, `BadSamples` for samples <= 2H; both for more than there is any use for.
+    /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24.
     fn new(harmonics: usize, samples: usize) -> Result<Self, Error> {
-        // Far beyond any use.
         const LARGEST: usize = 1 << 24;
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
@@ -65,9 +64,9 @@ pub(super) trait WorkspaceLayout: Sized {
             return Err(Error::BadSamples);
         }
         let layout = Self::of(Size { harmonics, samples });
-        // Where addresses have 32 bits even that may be too much: eight tables are more than a workspace holds.
-        let numbers = layout.rows().checked_mul(8 * (2 * harmonics + 8));
-        if numbers.is_none_or(|numbers| numbers > isize::MAX as usize / 8) {
+        // With 32-bit addresses these sizes may still be too large. The workspace is smaller than eight times `max_rows` rows.
+        let doubles = layout.max_rows().checked_mul(8 * (2 * harmonics + 8));
+        if doubles.is_none_or(|doubles| doubles > isize::MAX as usize / 8) {
             return Err(Error::BadSamples);
         }
         Ok(layout)
@@ -82,16 +81,16 @@ pub(super) trait WorkspaceLayout: Sized {
         let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        let tables = buffers.get_mut(..layout.tables()).ok_or(Error::WorkspaceTooShort)?;
+        let tables = buffers.get_mut(..layout.tables_length()).ok_or(Error::WorkspaceTooShort)?;
         layout.fill_tables(&mut Parts(tables))?;
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), 0.0, 0.0];
         Ok(())
     }
 
-    /// The layout of an initialised workspace, from its header.
+    /// Layout of an initialised workspace, from its header.
     ///
     /// # Errors
-    /// `BadWorkspace` for memory that was not initialised.
+    /// `BadWorkspace` if uninitialised.
     #[inline(always)]
     fn read(&[first, second, ..]: &[f64; HEADER]) -> Result<Self, Error> {
         let (harmonics, samples) = (Self::KIND.count(first), Kind::Samples.count(second));
@@ -99,10 +98,10 @@ pub(super) trait WorkspaceLayout: Sized {
             .map_err(|_| Error::BadWorkspace)
     }
 
-    /// The layout and the memory behind the header of an initialised workspace.
+    /// Layout of an initialised workspace, and the memory behind its header.
     ///
     /// # Errors
-    /// `BadWorkspace` for memory that was not initialised, or is too short.
+    /// `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
     fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
@@ -112,17 +111,17 @@ pub(super) trait WorkspaceLayout: Sized {
     }
 }
 
-/// Length of a part of a workspace with what keeps the next part aligned with vector registers.
+/// Length of a part of a workspace, rounded up to keep the next part aligned to vector registers.
 pub(super) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
-/// Divides a slice from its front, in [`padded`] parts.
+/// Splits [`padded`] parts off the front of a slice.
 pub(super) struct Parts<'a>(&'a mut [f64]);
 
 impl<'a> Parts<'a> {
     /// # Errors
-    /// `BadWorkspace` if fewer doubles are left.
+    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
         let parts = core::mem::take(&mut self.0).split_at_mut_checked(padded(length));
         let (front, back) = parts.ok_or(Error::BadWorkspace)?;
