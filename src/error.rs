@@ -1,12 +1,12 @@
-//! Status codes: what can be wrong with a call, one code for each argument, and the message that says what is allowed.
+//! Status codes: one per argument that can be invalid, with a message that states the allowed range.
 
 use core::ffi::CStr;
 
-/// Defines [`Error`] and the constants of the C interface from one table: name, constant, code and message. The message is the
-/// documentation of both.
+/// Defines [`Error`] and the constants of the C interface from one table: name, constant, code and message. The message is also
+/// their documentation.
 macro_rules! status_codes {
     ($($name:ident, $constant:ident = $code:literal: $message:literal;)*) => {
-        /// Why a call was rejected. The number is the status code of the C interface: assigned by hand, never reused.
+        /// Reason for which a call was rejected. The discriminants are the status codes of the C interface: explicit, never reused.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         #[repr(i32)]
         #[non_exhaustive]
@@ -20,7 +20,7 @@ macro_rules! status_codes {
         }
 
         impl Error {
-            /// Every error, in the order of the status codes.
+            /// All errors, in the order of their status codes.
             pub const ALL: &[Error] = &[$(Error::$name),*];
 
             /// Name of the constant of the C interface.
@@ -31,7 +31,7 @@ macro_rules! status_codes {
                 }
             }
 
-            /// What is wrong, and what is allowed.
+            /// Message: the error and the allowed range.
             #[must_use]
             pub const fn message(self) -> &'static CStr {
                 match self {
@@ -89,7 +89,7 @@ status_codes! {
 }
 
 impl Error {
-    /// The status code of the C interface.
+    /// Status code of the C interface.
     #[must_use]
     pub const fn code(self) -> i32 {
         self as i32

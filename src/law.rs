@@ -1,9 +1,8 @@
-//! What the harmonic balance requires of a contact law: to advance along a periodic displacement, and to be evaluated and
-//! differentiated on the way.
+//! Interface between harmonic balance and a contact law: advancing along a periodic displacement, evaluation, differentiation.
 //!
 //! Between two events (a reversal, the closure of a loop, the onset of gross slip) the force follows one branch. On a branch that
-//! leaves reversal r, `dT = k (dδ - dδ_r) + dT_r` with the tangent stiffness k: the reversals on the stack are all that the
-//! derivative depends on.
+//! leaves reversal r, `dT = k (dδ - dδ_r) + dT_r` with the tangent stiffness k: the derivative depends only on the reversals on the
+//! stack.
 
 /// A point of a load history.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +11,7 @@ pub(crate) struct Point {
     pub force: f64,
 }
 
-/// Storage of a reversal on the stack: displacement, force, and a value of the law's own.
+/// Storage of a reversal on the stack: displacement, force, and a value private to the law.
 pub(crate) type Reversal = [f64; 3];
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
@@ -22,7 +21,7 @@ pub(crate) struct Response {
     pub stiffness: f64,
 }
 
-/// The range of displacements on a branch.
+/// Range of displacements of a branch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BranchRange {
     /// Number of reversals on the stack up to the one that the branch leaves; 0 for the initial loading curve.
@@ -31,7 +30,7 @@ pub(crate) struct BranchRange {
     pub direction: f64,
     /// Displacement at which it ends; infinite in gross slip.
     pub end: f64,
-    /// The force is constant.
+    /// The contact is in gross slip: the force is constant.
     pub gross_slip: bool,
 }
 
@@ -44,7 +43,7 @@ pub(crate) trait Evaluator: Copy {
 pub(crate) trait Law {
     type Evaluator: Evaluator;
 
-    /// Enters the steady state at the displacement farthest from zero, where no reversal is on the stack.
+    /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
     fn begin(&mut self, displacement: f64) -> Response;
 
     /// Range of the present branch.
@@ -56,22 +55,22 @@ pub(crate) trait Law {
     /// Response at a displacement on the present branch.
     fn response(&self, displacement: f64) -> Response;
 
-    /// Applies a step from a point of the present branch, which may reverse, close loops and slip. Returns whether the point has
-    /// become a reversal that is still on the stack.
+    /// Applies a step from a point of the present branch, which may reverse, close loops and enter gross slip. Returns whether the
+    /// point is now a reversal on the stack.
     fn advance(&mut self, from: Point, displacement: f64) -> bool;
 
-    /// Makes a point of the present branch the newest reversal; `false` if the stack has no room.
+    /// Pushes a point of the present branch as the newest reversal; returns `false` if the stack is full.
     fn reverse(&mut self, at: Point, direction: f64) -> bool;
 
     /// Whether gross slip starts at the end of the present branch.
     fn ends_in_gross_slip(&self) -> bool;
 
-    /// Passes from the end of the present branch to its continuation.
+    /// Continues on the branch that follows at the end of the present one.
     fn pass_end(&mut self);
 
-    /// Accounts for a motion along the present branch: its energy, and the displacement of the slider in gross slip.
+    /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.
     fn account_for(&mut self, from: f64, to: f64);
 
-    /// The energy \[J\] dissipated since the beginning, if it was requested.
+    /// Energy \[J\] dissipated since `begin`, if requested.
     fn dissipated(self) -> Option<f64>;
 }

@@ -1,9 +1,9 @@
-//! What the user gives: geometry, material and load (section 2.1 and Fig. 1 of the paper), and the checks on it.
+//! Input parameters: geometry, material and load (section 2.1 and Fig. 1 of the paper), and their validation.
 
 use crate::error::Error;
 use crate::numerics::fp_class::{abs_le, in_0_to};
 
-/// Displacement of the centre point of the contact under a line of uniform traction: the paper's Eq. 5-10.
+/// Displacement of the centre point of the contact under a line of uniform traction: Eq. 5-10 of the paper.
 pub const CENTRE_POINT: i32 = 0;
 /// Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
 pub const RIGID_STRIP: i32 = 1;
@@ -18,13 +18,13 @@ pub struct Material {
     pub poisson_ratio: f64,
 }
 
-/// Flat with rounded edges on a flat (Eq. 1-24); a cylinder when the flat has no width.
+/// Flat with rounded edges on a flat (Eq. 1-24); a cylinder if the flat has no width.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
     /// Half-width a >= 0 of the flat \[m\]; 0 is a Hertzian cylinder.
     pub flat_half_width: f64,
-    /// Radius R > 0 of the rounded edges (of the cylinder when a = 0) \[m\].
+    /// Radius R > 0 of the rounded edges (of the cylinder if a = 0) \[m\].
     pub edge_radius: f64,
     /// Length L > 0 of the contact along its line \[m\]; the model needs 2L > b and a positive initial stiffness.
     pub length: f64,
@@ -34,13 +34,13 @@ pub struct Parameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
-    /// `MSLIP_CENTRE_POINT` (0, the paper's displacement) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
+    /// `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     pub displacement_reference: i32,
-    /// Not read; 0.
+    /// Not read; set to 0.
     pub reserved: i32,
 }
 
-/// Elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
+/// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipticParameters {
@@ -56,7 +56,7 @@ pub struct EllipticParameters {
     pub material: [Material; 2],
 }
 
-/// A number that was forgotten stays a NaN, and is refused by name.
+/// Default of all parameters: NaN, so that an omitted parameter is rejected by its own error.
 const UNSET: f64 = f64::NAN;
 
 const UNSET_MATERIAL: Material = Material { young_modulus: UNSET, poisson_ratio: UNSET };
@@ -88,12 +88,12 @@ impl Default for EllipticParameters {
     }
 }
 
-/// `Ok` when `value` is finite and not below zero.
+/// `Ok` if `value` is finite and >= 0.
 fn not_negative(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
 }
 
-/// `Ok` when `value` is finite and above zero.
+/// `Ok` if `value` is finite and > 0.
 fn positive(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
 }
@@ -109,10 +109,10 @@ fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
 }
 
 impl Parameters {
-    /// Refuses each number that is not allowed by an error of its own.
+    /// Checks the ranges of all parameters.
     ///
     /// # Errors
-    /// The error of the first parameter, in the order of the fields, that is not a number, infinite or out of its range.
+    /// The error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     pub fn check(&self) -> Result<(), Error> {
         not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
         positive(self.edge_radius, Error::BadEdgeRadius)?;
@@ -128,10 +128,10 @@ impl Parameters {
 }
 
 impl EllipticParameters {
-    /// Refuses each number that is not allowed by an error of its own.
+    /// Checks the ranges of all parameters.
     ///
     /// # Errors
-    /// The error of the first parameter, in the order of the fields, that is not a number, infinite or out of its range.
+    /// The error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     pub fn check(&self) -> Result<(), Error> {
         positive(self.semi_axis_x, Error::BadSemiAxisX)?;
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
@@ -141,14 +141,14 @@ impl EllipticParameters {
     }
 }
 
-/// The two bodies as one: `1/E* = Σ (1-ν²)/E` (Eq. 2) and the weights of each body's own terms in it.
+/// Combined elastic constants of the two bodies: `1/E* = Σ (1-ν²)/E` (Eq. 2) and the fraction of each body in it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pair {
     /// E*, Eq. 2 \[Pa\].
     pub composite_modulus: f64,
-    /// Share of each body in 1/E*; the two add up to 1.
-    share: [f64; 2],
-    ratio: [f64; 2],
+    /// Fraction of each body in 1/E*; the sum is 1.
+    fraction: [f64; 2],
+    poisson_ratio: [f64; 2],
 }
 
 impl Pair {
@@ -158,16 +158,16 @@ impl Pair {
         let sum = first + second;
         Pair {
             composite_modulus: 1.0 / sum,
-            share: [first / sum, second / sum],
-            ratio: [material[0].poisson_ratio, material[1].poisson_ratio],
+            fraction: [first / sum, second / sum],
+            poisson_ratio: [material[0].poisson_ratio, material[1].poisson_ratio],
         }
     }
 
-    /// Mean of a function of Poisson's ratio, each body weighted by its share in the compliance. For like bodies it is
-    /// the function itself, to the last bit.
+    /// Mean of a function of Poisson's ratio, weighted by the fraction of each body in the compliance; exactly the value of the
+    /// function if both bodies are of the same material.
     pub fn mean(&self, function: impl Fn(f64) -> f64) -> f64 {
-        let [first, second] = [function(self.ratio[0]), function(self.ratio[1])];
-        first + self.share[1] * (second - first)
+        let [first, second] = [function(self.poisson_ratio[0]), function(self.poisson_ratio[1])];
+        first + self.fraction[1] * (second - first)
     }
 }
 
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn a_forgotten_number_is_refused_by_name() {
+    fn omitted_and_invalid_parameters_have_their_own_errors() {
         assert_eq!(Parameters::default().check(), Err(Error::BadFlatHalfWidth));
         assert_eq!(EllipticParameters::default().check(), Err(Error::BadSemiAxisX));
         let mut one = steel();
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pair_is_symmetric_and_exact_for_like_bodies() {
+    fn the_pair_is_symmetric_and_exact_for_equal_materials() {
         let soft = Material { young_modulus: 7e10, poisson_ratio: 0.33 };
         let hard = Material { young_modulus: 2.1e11, poisson_ratio: 0.28 };
         let (one, two) = (Pair::new(&[soft, hard]), Pair::new(&[hard, soft]));

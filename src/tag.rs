@@ -1,12 +1,12 @@
-//! Tags: the first double of each buffer that the library initialises in the caller's memory.
+//! Tags: the first double of each buffer that the library initialises in memory of the calling application.
 //!
-//! A tag holds the kind of the buffer, the version of its layout and one count, so that a call recognises uninitialised memory
-//! and the buffers of other versions by a comparison. It is a finite, normal double: it survives a text file with 17 digits.
+//! A tag encodes the kind of the buffer, the version of its layout and one count, so that uninitialised memory and buffers of other
+//! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
 
 /// Version of the layout of contacts, states and workspaces.
 pub(crate) const LAYOUT: u64 = 3;
 
-/// What a buffer is: the leading 16 bits of its tag, those of a double of about 1e64.
+/// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(u16)]
 pub(crate) enum Kind {
@@ -24,13 +24,13 @@ impl Kind {
         ((self as u64) << 8) | LAYOUT
     }
 
-    /// The tag of a buffer of this kind with a count below 2^40.
+    /// Tag of a buffer of this kind with a count below 2^40.
     #[inline(always)]
     pub const fn tag(self, count: usize) -> f64 {
         f64::from_bits((self.leading_bits() << COUNT_BITS) | (count as u64 & ((1 << COUNT_BITS) - 1)))
     }
 
-    /// The count in a tag; `None` for what is no tag of this kind and layout.
+    /// Count in a tag; `None` unless it is a tag of this kind and layout.
     #[inline(always)]
     pub const fn count(self, tag: f64) -> Option<usize> {
         let bits = tag.to_bits();
@@ -45,7 +45,7 @@ mod tests {
     const KINDS: [Kind; 4] = [Kind::State, Kind::UniformSampling, Kind::EventDriven, Kind::Samples];
 
     #[test]
-    fn a_tag_holds_its_count_and_survives_as_text() {
+    fn a_tag_preserves_its_count_and_is_preserved_as_text() {
         for kind in KINDS {
             for count in [0, 1, 31, 1 << 24, (1 << COUNT_BITS) - 1] {
                 let tag = kind.tag(count);
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn other_memory_has_no_tag() {
+    fn other_values_and_kinds_are_not_accepted() {
         for kind in KINDS {
             for other in [
                 0.0,
