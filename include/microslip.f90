@@ -107,7 +107,7 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 3
     !! Version of this interface: incremented whenever a name, a meaning or a size changes.
   integer(mslip_int), parameter, public :: MSLIP_CENTRE_POINT = 0
-    !! Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
+    !! Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
   integer(mslip_int), parameter, public :: MSLIP_RIGID_STRIP = 1
     !! Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
   integer(mslip_int), parameter, public :: MSLIP_UNIFORM_SAMPLING = 0
@@ -156,15 +156,15 @@ module microslip
   ! The reserved components are public, because `write` rejects types with private ones.
   ! <generated: types>
   type, bind(c), public :: mslip_contact
-    !! A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be
-    !! copied, stored and sent. An open contact (N = 0) has zero width, force and stiffness.
+    !! A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that
+    !! may be copied, stored and sent. An open contact (N = 0) has zero width, force and stiffness.
     real(mslip_real) :: composite_modulus = 0  !! E*, Eq. 2 [Pa].
     real(mslip_real) :: half_width = 0  !! Half-width b of the contact under its normal force [m]; elliptical: semi_axis_x.
     real(mslip_real) :: slip_force = 0  !! mu N [N].
     real(mslip_real) :: slip_displacement = 0  !! Displacement at the onset of gross slip on the monotonic curve [m].
-    real(mslip_real) :: initial_stiffness = 0  !! dT/d(displacement) at 0 [N/m].
-    real(mslip_real) :: slip_energy = 0  !! Dissipated per cycle at incipient gross slip [J].
-    real(mslip_real) :: reserved(241) = 0  !! Tables: neither to be read nor to be written.
+    real(mslip_real) :: initial_stiffness = 0  !! Tangent stiffness at zero displacement [N/m].
+    real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip [J].
+    real(mslip_real) :: reserved(241) = 0  !! Internal tables.
   end type mslip_contact
   ! </generated>
 

@@ -128,7 +128,7 @@
 // Version of this interface: incremented whenever a name, a meaning or a size changes.
 #define MSLIP_ABI_VERSION 3
 
-// Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
+// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 #define MSLIP_CENTRE_POINT 0
 
 // Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
@@ -151,11 +151,11 @@ typedef struct mslip_material {
     double poisson_ratio;
 } mslip_material;
 
-// Flat with rounded edges on a flat (Eq. 1-24); a cylinder when the flat has no width.
+// Flat with rounded edges on a flat (Eq. 1-24); a cylinder if the flat has no width.
 typedef struct mslip_parameters {
     // Half-width a >= 0 of the flat [m]; 0 is a Hertzian cylinder.
     double flat_half_width;
-    // Radius R > 0 of the rounded edges (of the cylinder when a = 0) [m].
+    // Radius R > 0 of the rounded edges (of the cylinder if a = 0) [m].
     double edge_radius;
     // Length L > 0 of the contact along its line [m]; the model needs 2L > b and a positive initial stiffness.
     double length;
@@ -165,13 +165,13 @@ typedef struct mslip_parameters {
     double friction_coefficient;
     // The two bodies.
     struct mslip_material material[2];
-    // `MSLIP_CENTRE_POINT` (0, the paper's displacement) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
+    // `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     int32_t displacement_reference;
-    // Not read; 0.
+    // Not read; set to 0.
     int32_t reserved;
 } mslip_parameters;
 
-// Elliptical Hertz contact (section 3.3); a sphere when both semi-axes are equal.
+// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 typedef struct mslip_elliptic_parameters {
     // Semi-axis b > 0 of the contact ellipse along the tangential force [m].
     double semi_axis_x;
@@ -185,7 +185,7 @@ typedef struct mslip_elliptic_parameters {
     struct mslip_material material[2];
 } mslip_elliptic_parameters;
 
-// A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be copied,
+// A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
 // stored and sent. An open contact (N = 0) has zero width, force and stiffness.
 typedef struct mslip_contact {
     // E*, Eq. 2 [Pa].
@@ -196,11 +196,11 @@ typedef struct mslip_contact {
     double slip_force;
     // Displacement at the onset of gross slip on the monotonic curve [m].
     double slip_displacement;
-    // dT/d(displacement) at 0 [N/m].
+    // Tangent stiffness at zero displacement [N/m].
     double initial_stiffness;
-    // Dissipated per cycle at incipient gross slip [J].
+    // Energy dissipated per cycle at incipient gross slip [J].
     double slip_energy;
-    // Tables: neither to be read nor to be written.
+    // Internal tables.
     double reserved[241];
 } mslip_contact;
 
@@ -214,47 +214,46 @@ const char *mslip_version(void);
 // Version of this interface: equals MSLIP_ABI_VERSION of the header that belongs to the library.
 int32_t mslip_abi_version(void);
 
-// Message of a status, a static string: what is wrong and what is allowed.
+// Message of a status code: a static string, never NULL.
 const char *mslip_status_text(int32_t status);
 
-// Parameters with every number unset (NaN), so that a forgotten one is rejected by name; the centre point as reference.
-// NULL is ignored.
+// Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
+// MSLIP_CENTRE_POINT. NULL is ignored.
 //
 // Memory: `p` is NULL or valid for parameters.
 void mslip_parameters_default(struct mslip_parameters *p);
 
-// Elliptical parameters with every number unset (NaN). NULL is ignored.
+// Sets all parameters to NaN. NULL is ignored.
 //
 // Memory: `p` is NULL or valid for parameters.
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
 // Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 //
-// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
+// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 // MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 //
 // Memory: `p` and `contact` are NULL or valid for their types.
-int32_t mslip_contact_init(const struct mslip_parameters *p,
-                           struct mslip_contact *contact);
+int32_t mslip_contact_init(const struct mslip_parameters *p, struct mslip_contact *contact);
 
 // Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 //
-// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; the contact is
+// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 // unchanged then.
 //
 // Memory: `p` and `contact` are NULL or valid for their types.
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
-// Validates a contact that was read from a file or a message: it is bit for bit what initialisation wrote. Other calls compare a
-// tag only.
+// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
+// only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 //
 // Memory: `contact` is NULL or valid for a contact.
 int32_t mslip_contact_check(const struct mslip_contact *contact);
 
-// Tractions [Pa] at x[n] [m] along the width, under a monotonically increased force [N] (Eq. 17, 21-24); 0 outside the
+// Tractions [Pa] at x[n] [m] along the width, under a monotonically increasing force [N] (Eq. 17, 21-24); 0 outside the
 // contact. Elliptical: on the x axis.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
@@ -281,7 +280,7 @@ int32_t mslip_slip(const struct mslip_contact *contact,
                    double *slip,
                    double *damage);
 
-// Monotonic curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick half-width [m] at
+// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick half-width [m] at
 // force[n] [N]. The compliance at mu N is infinite for a cylinder and an elliptical contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
@@ -307,19 +306,19 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *stiffness,
                               double *stick_half_width);
 
-// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2. A state is never full:
-// beyond that number, the pair of neighbouring reversals whose removal changes later forces least is merged away.
+// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
+// is exceeded, the pair of adjacent reversals whose removal changes later forces least is removed.
 size_t mslip_state_length(size_t reversals);
 
-// Initialises a state: unloaded, no force, no displacement.
+// Initialises a state: unloaded, with zero force and displacement.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 //
 // Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_state_init(size_t state_length, double *state);
 
-// Validates a state that was read from a file or a message: all values are finite, and the reversals are nested. Other calls
-// compare a tag and the number of reversals only.
+// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
+// check a tag and the number of reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 //
@@ -327,8 +326,7 @@ int32_t mslip_state_init(size_t state_length, double *state);
 int32_t mslip_state_check(size_t state_length,
                           const double *state);
 
-// Bound on the error [N] of the force that merged reversals have caused: 0 while nothing was merged, and again once gross slip
-// has erased the memory.
+// Bound on the error [N] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 //
@@ -337,8 +335,8 @@ int32_t mslip_state_error(size_t state_length,
                           const double *state,
                           double *force_error);
 
-// Advances the contact from a state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated by this
-// step [J] (Eq. 11, 12). state_new may be state_old; if NULL, the new state is discarded.
+// Advances the contact state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated in this step [J]
+// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -353,9 +351,9 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
                             double *stiffness,
                             double *dissipated);
 
-// Advances the contact through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those of
-// each step. state_new receives the last state and may be state_old. If NULL, the path runs in a copy of the state that holds
-// 128 nested reversals at most, and the new state is discarded.
+// Advances the contact state through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those
+// of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
+// evaluated with a capacity of at most 128 nested reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -371,7 +369,7 @@ int32_t mslip_masing_path(const struct mslip_contact *contact,
                           double *stiffness,
                           double *dissipated);
 
-// Tractions [Pa] at x[n] [m] after any history (Eq. 21 superposed by Masing's rule).
+// Tractions [Pa] at x[n] [m] after an arbitrary load history (Eq. 21, superposed by Masing's rule).
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 // MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
@@ -385,8 +383,8 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                double *pressure,
                                double *shear);
 
-// Closed loop between +amplitude and -amplitude [m]: displacement[n] [m] and force[n] [N] at n uniformly spaced instants of
-// one period of amplitude cos(t), from t = 0.
+// Hysteresis loop of the displacement amplitude cos(t), amplitude in [m]: displacement[n] [m] and force[n] [N] at n uniformly
+// spaced instants of one period, from t = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
@@ -397,7 +395,7 @@ int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
                               double *displacement,
                               double *force);
 
-// Energy [J] dissipated per cycle between ± force_amplitude[n] [N], from 0 to mu N (Eq. 13-16).
+// Energy [J] dissipated per cycle between +- force_amplitude[n] [N], each from 0 to mu N (Eq. 13-16).
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
@@ -408,7 +406,7 @@ int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
                                 double *energy);
 
 // Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude[n] >= 0 [m] and its derivatives with respect to
-// the amplitude [N/m^2] (section 3.4); an amplitude of 0 gives the initial stiffness.
+// the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
@@ -421,8 +419,8 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *dk_real,
                                 double *dk_imag);
 
-// The spring-slider with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip force [N]. At the
-// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
+// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip
+// force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
@@ -432,9 +430,9 @@ int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
                                  double *stiffness,
                                  double *slip_force);
 
-// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n sliders allow: stiffness[n] [N/m],
-// slip_force[n] [N], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
-// that carries no force.
+// Iwan model of n parallel Jenkins elements that approximates the monotonic curve with the smallest maximum error: stiffness[n]
+// [N/m], slip_force[n] [N] of sum mu N, and force_error, the maximum error of the force divided by mu N. All are 0 if
+// mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
 //
@@ -445,18 +443,18 @@ int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
                               double *slip_force,
                               double *force_error);
 
-// Number of doubles in a workspace for the given number of harmonics H >= 1, samples > 2H a period, and rule,
-// MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
+// Number of doubles in a workspace for H harmonics, H >= 1, more than 2H samples per period, and a rule, MSLIP_UNIFORM_SAMPLING or
+// MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
 size_t mslip_harmonic_workspace_length(size_t harmonics,
                                        size_t samples,
                                        int32_t rule);
 
-// Initialises a workspace: tables for one (harmonics, samples, rule), and scratch memory; one for each thread.
+// Initialises a workspace: tables for one (harmonics, samples, rule), and scratch memory. Each thread needs its own.
 //
-// MSLIP_UNIFORM_SAMPLING takes `samples` uniformly spaced instants of a period; its error falls with the square of their number.
-// MSLIP_EVENT_DRIVEN finds the instants of reversals, loop closures and the onset of gross slip, and places about `samples`
-// Gauss-Legendre nodes a period between them, 8 at least between two; its error falls exponentially, and the energy is exact.
-// It searches for the events on a grid of `samples` instants, 16 H at least.
+// MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
+// MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
+// nodes per period between them, at least 8 between two events; its error decreases exponentially, and the energy is exact. It
+// searches for reversals on a grid of at least `samples` and 16 H instants.
 //
 // Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
@@ -467,7 +465,7 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t workspace_length,
                                       double *workspace);
 
-// What a workspace was initialised for; an output that is NULL is not written.
+// Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
 //
@@ -477,16 +475,17 @@ int32_t mslip_harmonic_workspace_size(const double *workspace,
                                       size_t *samples,
                                       int32_t *rule);
 
-// Harmonic force by alternating frequency/time (AFT), in steady state (the second of two periods from the initial, unloaded
-// state), by the rule of the workspace. Coefficients [c0, cos1, sin1, cos2, sin2, ...], 2H+1 of them: displacement [m],
-// force [N]; jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major. With MSLIP_UNIFORM_SAMPLING it is
-// exact for this discretisation, and one-sided if two samples are equally far at a reversal or one is at the onset of gross slip;
-// with MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the integrals, and as accurate as the force.
-// dissipated [J] is per period.
+// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
+// with the rule of the workspace. displacement [m] and force [N] are 2H+1 coefficients, [c0, cos1, sin1, cos2, sin2, ...];
+// jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated [J] is the energy per period.
+//
+// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
+// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
+// integrals, as accurate as the force.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
-// Memory: `workspace` is NULL or was initialised; the others are NULL or of the lengths above; outputs must not alias any other argument.
+// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other argument.
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -494,10 +493,10 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
-// mslip_complex_stiffness of n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
+// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
 // active is not NULL and active[i] is 0, item i is skipped.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; no item has written anything then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
 //
 // Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
 // argument.
@@ -512,11 +511,11 @@ int32_t mslip_batch_complex_stiffness(size_t n,
                                       double *dk_real,
                                       double *dk_imag);
 
-// mslip_masing_update of n items: states hold state_length doubles an item, item after item; displacement, force, stiffness and
-// dissipated one. states_new may be states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is
-// not NULL and active[i] is 0, item i is skipped, its state too.
+// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
+// dissipated one. states_new may alias states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is
+// not NULL and active[i] is 0, item i is skipped, and its state is not written.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; no item has written anything then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
 //
 // Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
 // like the outputs, does not alias any other argument.
@@ -533,11 +532,11 @@ int32_t mslip_batch_masing_update(size_t n,
                                   double *stiffness,
                                   double *dissipated);
 
-// mslip_harmonic_force of n items through one workspace: displacement and force hold 2H+1 doubles an item, jacobian (2H+1)^2,
+// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
 // dissipated one. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is not NULL and active[i] is 0, item i
 // is skipped.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; no item has written anything then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
 //
 // Memory: `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
 // lengths above; outputs must not alias any other argument.

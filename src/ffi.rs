@@ -1,7 +1,6 @@
-//! The C interface: a thin shell that turns pointers into slices, calls the modules, and writes the requested outputs.
+//! The C interface: converts pointers to slices, calls the other modules, and writes the requested outputs.
 //!
-//! The only module with `unsafe`. Every function follows one order: take the inputs, check them all, compute, write. A rejected
-//! call has written nothing.
+//! The only module with unsafe code. All functions check every input before they write: a rejected call leaves all outputs unchanged.
 
 #![allow(unsafe_code, non_camel_case_types)]
 
@@ -31,7 +30,7 @@ use core::ffi::c_char;
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
 pub const MSLIP_ABI_VERSION: i32 = 3;
 
-/// Displacement of the centre point under a line of uniform traction: the paper's Eq. 5-10.
+/// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 pub const MSLIP_CENTRE_POINT: i32 = 0;
 /// Displacement of a rigid strip, corrected to three-dimensional contact mechanics.
 pub const MSLIP_RIGID_STRIP: i32 = 1;
@@ -44,7 +43,7 @@ pub const MSLIP_EVENT_DRIVEN: i32 = 1;
 /// Success.
 pub const MSLIP_OK: i32 = 0;
 
-/// A contact under a constant normal force: initialised once, then only read. Plain data of fixed size that may be copied,
+/// A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
 /// stored and sent. An open contact (N = 0) has zero width, force and stiffness.
 #[repr(C)]
 pub struct mslip_contact {
@@ -56,11 +55,11 @@ pub struct mslip_contact {
     pub slip_force: f64,
     /// Displacement at the onset of gross slip on the monotonic curve \[m\].
     pub slip_displacement: f64,
-    /// dT/d(displacement) at 0 \[N/m\].
+    /// Tangent stiffness at zero displacement \[N/m\].
     pub initial_stiffness: f64,
-    /// Dissipated per cycle at incipient gross slip \[J\].
+    /// Energy dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
-    /// Tables: neither to be read nor to be written.
+    /// Internal tables.
     pub reserved: [f64; 241],
 }
 
@@ -87,7 +86,7 @@ pub extern "C" fn mslip_abi_version() -> i32 {
     MSLIP_ABI_VERSION
 }
 
-/// Message of a status, a static string: what is wrong and what is allowed.
+/// Message of a status code: a static string, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_status_text(status: i32) -> *const c_char {
     if status == MSLIP_OK {

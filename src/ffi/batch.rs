@@ -1,4 +1,4 @@
-//! Many contacts at once: every item is checked before the first one writes.
+//! Batches of contacts: all items are checked before the first output is written.
 
 use super::cycle::write_complex_stiffness;
 use super::hbm::harmonic_force_dispatched;
@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput};
 use libc::size_t;
 
-/// The items of a batch: which contact belongs to each, and which take part.
+/// Items of a batch: their contacts, and the flags of the active items.
 #[derive(Clone, Copy)]
 struct Items<'a> {
     n: usize,
@@ -22,10 +22,10 @@ struct Items<'a> {
 }
 
 impl<'a> Items<'a> {
-    /// All items that take part, with their contacts checked.
+    /// Checks the contacts of all active items.
     ///
     /// # Safety
-    /// `contacts` is NULL or valid for n_contacts contacts, `index` and `active` NULL or valid for n flags.
+    /// `contacts` is NULL or valid for n_contacts contacts, `index` and `active` are NULL or valid for n integers.
     #[inline(never)]
     unsafe fn new(
         n: usize,
@@ -34,14 +34,14 @@ impl<'a> Items<'a> {
         index: *const i32,
         active: *const i32,
     ) -> Result<Items<'a>, Error> {
-        // SAFETY: by the function's contract; any bits are valid for a contact.
+        // SAFETY: by the function's contract; all bit patterns are valid for a contact.
         let (contacts, index, active) = unsafe {
             let contacts = input(contacts.cast::<Contact>(), n_contacts)?;
             (contacts, optional_input(index, n)?, optional_input(active, n)?)
         };
         check_length::<i32>(n)?;
         let items = Items { n, contacts, index, active };
-        for i in items.numbers() {
+        for i in items.active() {
             if !items.contact(i).ok_or(Error::BadIndex)?.is_initialised() {
                 return Err(Error::BadContact);
             }
@@ -49,9 +49,9 @@ impl<'a> Items<'a> {
         Ok(items)
     }
 
-    /// Numbers of the items that take part.
+    /// Indices of the active items.
     #[inline(always)]
-    fn numbers(self) -> impl Iterator<Item = usize> {
+    fn active(self) -> impl Iterator<Item = usize> {
         (0..self.n).filter(move |i| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0)))
     }
 
@@ -63,17 +63,17 @@ impl<'a> Items<'a> {
         }
     }
 
-    /// The items that take part, each with its contact and its part of an input of `length` values an item.
+    /// Active items: index, contact, and the part of an input of `length` values per item.
     #[inline(always)]
     fn with<'d>(self, values: &'d [f64], length: usize) -> impl Iterator<Item = (usize, &'a Contact, &'d [f64])> {
-        self.numbers().filter_map(move |i| Some((i, self.contact(i)?, values.get(i * length..(i + 1) * length)?)))
+        self.active().filter_map(move |i| Some((i, self.contact(i)?, values.get(i * length..(i + 1) * length)?)))
     }
 }
 
-/// mslip_complex_stiffness of n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
+/// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
 /// active is not NULL and active\[i\] is 0, item i is skipped.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; no item has written anything then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
 ///
 /// # Safety
 /// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
@@ -106,11 +106,11 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     status(compute())
 }
 
-/// mslip_masing_update of n items: states hold state_length doubles an item, item after item; displacement, force, stiffness and
-/// dissipated one. states_new may be states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is
-/// not NULL and active\[i\] is 0, item i is skipped, its state too.
+/// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
+/// dissipated one. states_new may alias states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is
+/// not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; no item has written anything then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
 ///
 /// # Safety
 /// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
         {
             // SAFETY: by the function's contract.
             let states = unsafe { input(states_old, length) }?;
-            for i in items.numbers() {
+            for i in items.active() {
                 let tag = states.get(i * state_length).ok_or(Error::BadArraySize)?;
                 state::check_tag(*tag, state_length)?;
                 check_displacement(displacement.get(i).copied().unwrap_or(0.0))?;
@@ -163,11 +163,11 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     status(update())
 }
 
-/// mslip_harmonic_force of n items through one workspace: displacement and force hold 2H+1 doubles an item, jacobian (2H+1)^2,
+/// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
 /// dissipated one. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i
 /// is skipped.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; no item has written anything then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
 ///
 /// # Safety
 /// `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
@@ -210,7 +210,7 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     status(compute())
 }
 
-/// Outputs of many harmonic forces, item after item.
+/// Outputs of a batch of harmonic forces.
 struct Outputs<'a> {
     force: Option<&'a mut [f64]>,
     jacobian: Option<&'a mut [f64]>,
@@ -218,7 +218,7 @@ struct Outputs<'a> {
 }
 
 impl Outputs<'_> {
-    /// Those of item i with the given number of coefficients. Not inlined: the loop over the items is short for those that do not move.
+    /// Outputs of item i. Not inlined, to keep the loop over the items small.
     #[inline(never)]
     fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
         let Outputs { force, jacobian, dissipated } = self;
@@ -230,7 +230,7 @@ impl Outputs<'_> {
     }
 }
 
-/// Item i of an output of `length` values an item.
+/// Part of item i of an output of `length` values per item.
 fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Option<&'a mut [f64]> {
     output.as_mut()?.get_mut(i * length..(i + 1) * length)
 }

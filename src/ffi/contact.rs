@@ -9,39 +9,39 @@ use crate::numerics::fp_class::is_finite;
 use crate::parameters::{EllipticParameters, Parameters};
 use libc::size_t;
 
-/// Parameters with every number unset (NaN), so that a forgotten one is rejected by name; the centre point as reference.
-/// NULL is ignored.
+/// Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
+/// MSLIP_CENTRE_POINT. NULL is ignored.
 ///
 /// # Safety
 /// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
-        // SAFETY: valid by the function's contract; there is no status that could report a misaligned pointer.
+        // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
         unsafe { p.write_unaligned(Parameters::default()) }
     }
 }
 
-/// Elliptical parameters with every number unset (NaN). NULL is ignored.
+/// Sets all parameters to NaN. NULL is ignored.
 ///
 /// # Safety
 /// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
     if !p.is_null() {
-        // SAFETY: valid by the function's contract; there is no status that could report a misaligned pointer.
+        // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
         unsafe { p.write_unaligned(EllipticParameters::default()) }
     }
 }
 
-/// Initialises a contact by `make`.
+/// Initialises a contact with a constructor.
 ///
 /// # Safety
 /// Both pointers are NULL or valid for their types.
 unsafe fn initialise<P>(
     parameters: *const P,
     contact: *mut mslip_contact,
-    make: impl FnOnce(&P) -> Result<Contact, Error>,
+    construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
     let initialise = || {
         // SAFETY: by the function's contract.
@@ -50,9 +50,9 @@ unsafe fn initialise<P>(
             return Err(Error::NullPointer);
         }
         check_alignment(contact)?;
-        let made = make(parameters)?.into();
+        let initialised = construct(parameters)?.into();
         // SAFETY: aligned, not NULL, and valid by the function's contract.
-        unsafe { contact.write(made) };
+        unsafe { contact.write(initialised) };
         Ok(())
     };
     status(initialise())
@@ -60,7 +60,7 @@ unsafe fn initialise<P>(
 
 /// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 ///
-/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, MSLIP_LENGTH_TOO_SHORT or
+/// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 /// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 ///
 /// # Safety
@@ -73,7 +73,7 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 
 /// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 ///
-/// Returns MSLIP_NULL_POINTER, the code of the first parameter that is not allowed, or MSLIP_OUT_OF_RANGE; the contact is
+/// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 /// unchanged then.
 ///
 /// # Safety
@@ -84,8 +84,8 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
     unsafe { initialise(p, contact, Contact::elliptic) }
 }
 
-/// Validates a contact that was read from a file or a message: it is bit for bit what initialisation wrote. Other calls compare a
-/// tag only.
+/// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
+/// only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 ///
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i
     status(unsafe { pointers::contact(contact) }.and_then(pointers::check_contact))
 }
 
-/// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increased force \[N\] (Eq. 17, 21-24); 0 outside the
+/// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
 /// contact. Elliptical: on the x axis.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
@@ -160,16 +160,16 @@ pub unsafe extern "C" fn mslip_slip(
             return Ok(());
         }
         for (i, &x) in x.iter().enumerate() {
-            let here = point.slip(x)?;
-            set(&mut slip, i, || here);
-            set(&mut damage, i, || point.damage_of(x, here));
+            let local_slip = point.slip(x)?;
+            set(&mut slip, i, || local_slip);
+            set(&mut damage, i, || point.damage_of(x, local_slip));
         }
         Ok(())
     };
     status(compute())
 }
 
-/// Monotonic curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
+/// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
 /// force\[n\] \[N\]. The compliance at mu N is infinite for a cylinder and an elliptical contact.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.

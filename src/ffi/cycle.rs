@@ -1,4 +1,4 @@
-//! One contact in cycles: hysteresis loops, energy, complex stiffness, and equivalent spring-sliders.
+//! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
 use super::mslip_contact;
 use super::pointers::{self, input, output, outputs, set, status};
@@ -9,8 +9,8 @@ use crate::constant_load::equivalents;
 use crate::error::Error;
 use libc::size_t;
 
-/// Closed loop between +amplitude and -amplitude \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly spaced instants of
-/// one period of amplitude cos(t), from t = 0.
+/// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
+/// spaced instants of one period, from t = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 ///
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     status(compute())
 }
 
-/// Energy \[J\] dissipated per cycle between ± force_amplitude\[n\] \[N\], from 0 to mu N (Eq. 13-16).
+/// Energy \[J\] dissipated per cycle between +- force_amplitude\[n\] \[N\], each from 0 to mu N (Eq. 13-16).
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
 ///
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
 }
 
 /// Complex (harmonic) stiffness K' + iK'' \[N/m\] at displacement amplitude\[n\] >= 0 \[m\] and its derivatives with respect to
-/// the amplitude \[N/m^2\] (section 3.4); an amplitude of 0 gives the initial stiffness.
+/// the amplitude \[N/m^2\] (section 3.4); at amplitude 0: the initial stiffness.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 ///
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     status(compute())
 }
 
-/// The requested outputs, in the order of `mslip_complex_stiffness`.
+/// Writes the requested outputs of `mslip_complex_stiffness`, in its order.
 pub(super) fn write_complex_stiffness(
     contact: &Contact,
     amplitude: f64,
@@ -140,8 +140,8 @@ fn imaginary_with_derivative(stiffness: &ComplexStiffness) -> (f64, f64) {
     dispatch_simd!(ComplexStiffness::imaginary_with_derivative, stiffness: &ComplexStiffness => (f64, f64))
 }
 
-/// The spring-slider with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip force \[N\]. At the
-/// amplitude 0: the initial stiffness, and mu N. Both are 0 for a contact that carries no force.
+/// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip
+/// force \[N\]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 ///
@@ -166,9 +166,9 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     status(compute())
 }
 
-/// n parallel spring-sliders with the contact's monotonic curve to the smallest error that n sliders allow: stiffness\[n\] \[N/m\],
-/// slip_force\[n\] \[N\], adding up to mu N, and force_error, the largest error of the force over mu N. All are 0 for a contact
-/// that carries no force.
+/// Iwan model of n parallel Jenkins elements that approximates the monotonic curve with the smallest maximum error: stiffness\[n\]
+/// \[N/m\], slip_force\[n\] \[N\] of sum mu N, and force_error, the maximum error of the force divided by mu N. All are 0 if
+/// mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
 ///

@@ -1,4 +1,4 @@
-//! Harmonic balance: workspaces and the harmonic force.
+//! Harmonic balance: workspaces and harmonic force.
 
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, check_length, input, output, status};
@@ -9,28 +9,28 @@ use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput, Rule, Workspace};
 use libc::size_t;
 
-/// The rule of that number.
-fn rule_of(number: i32) -> Result<Rule, Error> {
-    match number {
+/// The rule of a constant of the C interface.
+fn rule_of(constant: i32) -> Result<Rule, Error> {
+    match constant {
         MSLIP_UNIFORM_SAMPLING => Ok(Rule::UniformSampling),
         MSLIP_EVENT_DRIVEN => Ok(Rule::EventDriven),
         _ => Err(Error::BadRule),
     }
 }
 
-/// Number of doubles in a workspace for the given number of harmonics H >= 1, samples > 2H a period, and rule,
-/// MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
+/// Number of doubles in a workspace for H harmonics, H >= 1, more than 2H samples per period, and a rule, MSLIP_UNIFORM_SAMPLING or
+/// MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: size_t, rule: i32) -> size_t {
     rule_of(rule).map_or(0, |rule| rule.workspace_length(harmonics, samples))
 }
 
-/// Initialises a workspace: tables for one (harmonics, samples, rule), and scratch memory; one for each thread.
+/// Initialises a workspace: tables for one (harmonics, samples, rule), and scratch memory. Each thread needs its own.
 ///
-/// MSLIP_UNIFORM_SAMPLING takes `samples` uniformly spaced instants of a period; its error falls with the square of their number.
-/// MSLIP_EVENT_DRIVEN finds the instants of reversals, loop closures and the onset of gross slip, and places about `samples`
-/// Gauss-Legendre nodes a period between them, 8 at least between two; its error falls exponentially, and the energy is exact.
-/// It searches for the events on a grid of `samples` instants, 16 H at least.
+/// MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
+/// MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
+/// nodes per period between them, at least 8 between two events; its error decreases exponentially, and the energy is exact. It
+/// searches for reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
@@ -57,7 +57,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     status(init())
 }
 
-/// What a workspace was initialised for; an output that is NULL is not written.
+/// Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
 ///
@@ -70,25 +70,25 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     samples: *mut size_t,
     rule: *mut i32,
 ) -> i32 {
-    let report = || {
+    let read = || {
         // SAFETY: by the function's contract.
         let header = unsafe { pointers::workspace_header(workspace) }?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
-        let (found_harmonics, found_samples, found_rule) = hbm::workspace_size(&header)?;
-        let number = match found_rule {
+        let (harmonics_found, samples_found, rule_found) = hbm::workspace_size(&header)?;
+        let constant = match rule_found {
             Rule::UniformSampling => MSLIP_UNIFORM_SAMPLING,
             Rule::EventDriven => MSLIP_EVENT_DRIVEN,
         };
         // SAFETY: aligned; NULL or valid for one item by the function's contract.
         unsafe {
-            harmonics.as_mut().into_iter().for_each(|output| *output = found_harmonics);
-            samples.as_mut().into_iter().for_each(|output| *output = found_samples);
-            rule.as_mut().into_iter().for_each(|output| *output = number);
+            harmonics.as_mut().into_iter().for_each(|output| *output = harmonics_found);
+            samples.as_mut().into_iter().for_each(|output| *output = samples_found);
+            rule.as_mut().into_iter().for_each(|output| *output = constant);
         }
         Ok(())
     };
-    status(report())
+    status(read())
 }
 
 pub(super) fn harmonic_force_dispatched(
@@ -106,17 +106,18 @@ pub(super) fn harmonic_force_dispatched(
     )
 }
 
-/// Harmonic force by alternating frequency/time (AFT), in steady state (the second of two periods from the initial, unloaded
-/// state), by the rule of the workspace. Coefficients \[c0, cos1, sin1, cos2, sin2, ...\], 2H+1 of them: displacement \[m\],
-/// force \[N\]; jacobian \[N/m\] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major. With MSLIP_UNIFORM_SAMPLING it is
-/// exact for this discretisation, and one-sided if two samples are equally far at a reversal or one is at the onset of gross slip;
-/// with MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the integrals, and as accurate as the force.
-/// dissipated \[J\] is per period.
+/// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
+/// with the rule of the workspace. displacement \[m\] and force \[N\] are 2H+1 coefficients, \[c0, cos1, sin1, cos2, sin2, ...\];
+/// jacobian \[N/m\] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated \[J\] is the energy per period.
+///
+/// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
+/// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
+/// integrals, as accurate as the force.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///
 /// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or of the lengths above; outputs must not alias any other argument.
+/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_force(
     contact: *const mslip_contact,

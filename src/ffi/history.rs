@@ -10,14 +10,14 @@ use crate::error::Error;
 use core::{ptr, slice};
 use libc::size_t;
 
-/// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2. A state is never full:
-/// beyond that number, the pair of neighbouring reversals whose removal changes later forces least is merged away.
+/// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
+/// is exceeded, the pair of adjacent reversals whose removal changes later forces least is removed.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
     state::state_length(reversals)
 }
 
-/// Initialises a state: unloaded, no force, no displacement.
+/// Initialises a state: unloaded, with zero force and displacement.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 ///
@@ -36,7 +36,7 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
     status(init())
 }
 
-/// A state.
+/// A state as an input; not NULL.
 ///
 /// # Safety
 /// `state` is NULL or valid for state_length doubles.
@@ -49,8 +49,8 @@ unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a 
     unsafe { input(state, state_length) }
 }
 
-/// Validates a state that was read from a file or a message: all values are finite, and the reversals are nested. Other calls
-/// compare a tag and the number of reversals only.
+/// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
+/// check a tag and the number of reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 ///
@@ -62,8 +62,7 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
     status(unsafe { state_input(state_length, state) }.and_then(state::state_check))
 }
 
-/// Bound on the error \[N\] of the force that merged reversals have caused: 0 while nothing was merged, and again once gross slip
-/// has erased the memory.
+/// Bound on the error \[N\] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 ///
@@ -81,8 +80,8 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
     status(compute())
 }
 
-/// Advances the contact from a state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated by this
-/// step \[J\] (Eq. 11, 12). state_new may be state_old; if NULL, the new state is discarded.
+/// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
+/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -117,11 +116,11 @@ pub unsafe extern "C" fn mslip_masing_update(
     status(checked_update())
 }
 
-/// One update, all inputs checked: finds the step, then writes.
+/// One update with checked inputs: evaluates the step, then writes.
 ///
 /// # Safety
-/// `state_old` is valid for state_length doubles; `state_new` is NULL, the same, or valid for as many doubles elsewhere; the outputs
-/// force, stiffness and dissipated are NULL, or aligned and valid for one double.
+/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the
+/// outputs are NULL, or aligned and valid for one double.
 #[inline(never)]
 pub(super) unsafe fn update(
     contact: &Contact,
@@ -202,9 +201,9 @@ unsafe fn write(output: *mut f64, value: f64) {
     }
 }
 
-/// Advances the contact through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those of
-/// each step. state_new receives the last state and may be state_old. If NULL, the path runs in a copy of the state that holds
-/// 128 nested reversals at most, and the new state is discarded.
+/// Advances the contact state through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those
+/// of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
+/// evaluated with a capacity of at most 128 nested reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -250,7 +249,7 @@ pub unsafe extern "C" fn mslip_masing_path(
     status(advance())
 }
 
-/// Tractions \[Pa\] at x\[n\] \[m\] after any history (Eq. 21 superposed by Masing's rule).
+/// Tractions \[Pa\] at x\[n\] \[m\] after an arbitrary load history (Eq. 21, superposed by Masing's rule).
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 /// MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.

@@ -1,4 +1,4 @@
-//! From pointers to slices, and from results to status codes.
+//! Conversion of pointers to slices, and of results to status codes.
 
 use super::{MSLIP_OK, mslip_contact};
 use crate::constant_load::contact::Contact;
@@ -13,7 +13,7 @@ pub fn status(result: Result<(), Error>) -> i32 {
     }
 }
 
-/// Rejects more items than memory can hold.
+/// Rejects lengths that exceed the address space.
 #[inline(always)]
 pub fn check_length<T>(n: usize) -> Result<(), Error> {
     if n <= isize::MAX as usize / size_of::<T>().max(1) { Ok(()) } else { Err(Error::BadArraySize) }
@@ -25,13 +25,12 @@ pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
     if pointer.is_aligned() { Ok(()) } else { Err(Error::BadAlignment) }
 }
 
-/// One item, a contact or parameters.
+/// One item: a contact or parameters.
 ///
-/// Its contents are unspecified: applications are compiled separately from this archive, so that memory they never wrote holds
-/// arbitrary bytes here.
+/// All bit patterns are valid for these types, also those of memory that the application has not initialised.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for its type, which is not written while the reference lives.
+/// `pointer` is NULL or valid for its type, and the item is not written during the lifetime of the reference.
 #[inline(always)]
 pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
     check_alignment(pointer)?;
@@ -42,7 +41,7 @@ pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
 /// An input of n items.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for n items that are not written while the slice lives.
+/// `pointer` is NULL or valid for n items that are not written during the lifetime of the slice.
 #[inline(always)]
 pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
     check_length::<T>(n)?;
@@ -53,14 +52,14 @@ pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, not NULL, and not longer than memory; valid by the function's contract.
+    // SAFETY: aligned, not NULL, and of admissible length; valid by the function's contract.
     Ok(unsafe { slice::from_raw_parts(pointer, n) })
 }
 
-/// An input of n items that may be absent.
+/// An optional input of n items.
 ///
 /// # Safety
-/// As for an input.
+/// As for [`input`].
 pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Option<&'a [T]>, Error> {
     if pointer.is_null() {
         return Ok(None);
@@ -72,19 +71,19 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for n items that nobody else uses while the slice lives.
+/// `pointer` is NULL or valid for n items that are not accessed otherwise during the lifetime of the slice.
 #[inline(always)]
 pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut [T]>, Error> {
     check_length::<T>(n)?;
     check_alignment(pointer)?;
-    // SAFETY: not longer than memory, and aligned; valid by the function's contract.
+    // SAFETY: aligned, and of admissible length; valid by the function's contract.
     Ok(unsafe { requested(pointer, n) })
 }
 
 /// Outputs of n doubles each.
 ///
 /// # Safety
-/// As for one.
+/// As for [`output`], for each pointer.
 #[inline(always)]
 pub unsafe fn outputs<'a, const K: usize>(
     pointers: [*mut f64; K],
@@ -92,12 +91,14 @@ pub unsafe fn outputs<'a, const K: usize>(
 ) -> Result<[Option<&'a mut [f64]>; K], Error> {
     check_length::<f64>(n)?;
     pointers.iter().try_for_each(|pointer| check_alignment(*pointer))?;
-    // SAFETY: as for one.
+    // SAFETY: aligned, and of admissible length; valid by the function's contract.
     Ok(pointers.map(|pointer| unsafe { requested(pointer, n) }))
 }
 
+/// An output of n items whose alignment and length are checked; `None` if it is NULL or empty.
+///
 /// # Safety
-/// As for an output; aligned, and not longer than memory.
+/// As for [`output`]; aligned, and of admissible length.
 #[inline(always)]
 pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
     // SAFETY: by the function's contract.
@@ -110,42 +111,42 @@ pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]>
 /// `pointer` is NULL or valid for a contact.
 #[inline(always)]
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
-    // SAFETY: by the function's contract; both types are made of the same doubles and 64-bit words, for which any bits are valid.
+    // SAFETY: by the function's contract; both types consist of the same doubles and 64-bit words, for which all bit patterns are valid.
     let contact = unsafe { item(pointer.cast::<Contact>()) }?;
     if contact.is_initialised() { Ok(contact) } else { Err(Error::BadContact) }
 }
 
-/// Rejects a contact whose contents are not those that were written when it was initialised.
+/// Rejects a contact that was modified after its initialisation.
 pub fn check_contact(contact: &Contact) -> Result<(), Error> {
     if sum(contact) == 0 { Ok(()) } else { Err(Error::BadContact) }
 }
 
-/// A contact as callers hold it, with its checksum: the sum of all words is 0.
+/// The C type of a contact, with its checksum: the sum of all words is 0.
 impl From<Contact> for mslip_contact {
     fn from(mut contact: Contact) -> mslip_contact {
         contact.checksum = 0;
         contact.checksum = sum(&contact).wrapping_neg();
-        // SAFETY: both are the same doubles and words of their size.
+        // SAFETY: both types consist of the same doubles and 64-bit words.
         unsafe { mem::transmute(contact) }
     }
 }
 
-/// The sum of all words of a contact.
+/// Sum of all 64-bit words of a contact.
 fn sum(contact: &Contact) -> u64 {
-    // SAFETY: a contact is made of doubles and words of their size, without gaps.
+    // SAFETY: a contact consists of doubles and 64-bit words, without padding.
     let words = unsafe { &*ptr::from_ref(contact).cast::<[u64; size_of::<Contact>() / size_of::<u64>()]>() };
     words.iter().fold(0, |sum, word| sum.wrapping_add(*word))
 }
 
-/// Sets item i of an output.
+/// Sets element i of an output, if requested.
 #[inline(always)]
 pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f64) {
-    if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
-        *place = value();
+    if let Some(element) = output.as_mut().and_then(|output| output.get_mut(i)) {
+        *element = value();
     }
 }
 
-/// The header of a workspace.
+/// Header of a workspace.
 ///
 /// # Safety
 /// `pointer` is NULL or valid for four doubles.
@@ -162,7 +163,7 @@ pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 4], Error> {
 /// An initialised workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for four doubles, and for a whole workspace if these are the header of one.
+/// `pointer` is NULL or valid for four doubles, and for the whole workspace if these are the header of one.
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     // SAFETY: by the function's contract.
@@ -182,17 +183,17 @@ mod tests {
         for initialised in FLATS.map(flat).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let good = mslip_contact::from(initialised);
             let check = |contact: *const mslip_contact| {
-                // SAFETY: a contact.
+                // SAFETY: `contact` is valid for a contact.
                 unsafe { self::contact(contact) }.and_then(check_contact)
             };
             assert_eq!(check(&raw const good), Ok(()));
-            // SAFETY: a contact is as many words.
+            // SAFETY: a contact consists of 64-bit words and doubles.
             let mut words: [u64; size_of::<Contact>() / 8] = unsafe { mem::transmute(good) };
-            for place in 0..words.len() {
+            for index in 0..words.len() {
                 for bit in 0..64 {
-                    words[place] ^= 1 << bit;
-                    assert_eq!(check(words.as_ptr().cast()), Err(Error::BadContact), "{place} {bit}");
-                    words[place] ^= 1 << bit;
+                    words[index] ^= 1 << bit;
+                    assert_eq!(check(words.as_ptr().cast()), Err(Error::BadContact), "{index} {bit}");
+                    words[index] ^= 1 << bit;
                 }
             }
         }

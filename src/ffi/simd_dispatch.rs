@@ -1,9 +1,8 @@
-//! The same computation for the widest vectors that the processor at hand has, chosen at run time.
+//! SIMD dispatch: functions compiled for the baseline and for AVX2, selected at run time.
 //!
-//! Only the registers differ: every path performs the same operations in the same order, without fused multiplication and
-//! addition, and gives the same bits.
+//! Both variants perform the same operations in the same order, without fused multiply-add: the results are bit-identical.
 
-/// Calls a function that is inlined always, compiled for the vectors that there are.
+/// Calls a function, which must be `#[inline(always)]`, in the variant for the present processor.
 macro_rules! dispatch_simd {
     ($function:path, $($argument:ident: $type:ty),+ => $result:ty) => {{
         #[cfg(target_arch = "x86_64")]
@@ -13,7 +12,7 @@ macro_rules! dispatch_simd {
                 $function($($argument),+)
             }
             if std::is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor has what the function was compiled for.
+                // SAFETY: the processor supports AVX2.
                 return unsafe { on_avx2($($argument),+) };
             }
         }
