@@ -338,7 +338,9 @@ impl ComplexStiffness<'_> {
             })
         } else {
             self.integrate_sigma(Some(stick), |x, y, station| {
-                x * (x * y).sqrt() * station.dcompliance_dsigma / (station.compliance * station.compliance)
+                // Not less than in full stick; rounded to 0 if that nearly vanishes.
+                let compliance = station.compliance.max(self.zones().small_load().compliance);
+                x * (x * y).sqrt() * station.dcompliance_dsigma / (compliance * compliance)
             })
         };
         -8.0 / PI / shift * sum
