@@ -1,6 +1,6 @@
-/* The floating-point environment of the caller: four directions of rounding, subnormal numbers flushed, flags raised already. No
-   call hangs, raises what may be trapped, answers by another status or changes the environment, and every number is near
-   the one of the usual environment. */
+/* Floating-point environments of the caller: four rounding modes, subnormal values flushed, flags already raised. No call hangs,
+   raises an exception that may be trapped, returns another status or changes the environment, and every result is near that of the
+   default environment. */
 #include "bad_calls.h"
 
 #if defined(__SSE2__) && (defined(__GNUC__) || defined(__clang__))
@@ -49,7 +49,7 @@ static void enter(int environment)
 #endif
 }
 
-/* Contacts of every kind, each prepared in the environment. */
+/* Contacts of every kind, each initialised in the environment. */
 enum { CONTACTS = 8 };
 static int32_t make_contact(int kind, mslip_contact *contact)
 {
@@ -59,8 +59,8 @@ static int32_t make_contact(int kind, mslip_contact *contact)
         case 0: break;
         case 1: p.flat_half_width = 0.0; break;
         case 2: p.flat_half_width = 1e-6; break;
-        case 3: p.normal_force = 1e-9; break;             /* nearly all flat */
-        case 4:                                           /* hardly longer than half the half-width */
+        case 3: p.normal_force = 1e-9; break;             /* nearly flat */
+        case 4:                                           /* little longer than half the half-width */
             p.normal_force *= 1.7e-4 / p.length;
             p.length = 1.7e-4;
             break;
@@ -71,15 +71,15 @@ static int32_t make_contact(int kind, mslip_contact *contact)
     return mslip_contact_init(&p, contact);
 }
 
-/* Numbers of a displacement or an amplitude are stretched: from full stick to gross slip, and beyond all measure. */
-static const double stretches[] = { 1e-310, 1e-12, 0.03, 1.0, 12.0, 1e140 };
-enum { STRETCHES = sizeof stretches / sizeof *stretches };
+/* Factors of displacements and amplitudes: from full stick to gross slip, and far beyond. */
+static const double factors[] = { 1e-310, 1e-12, 0.03, 1.0, 12.0, 1e140 };
+enum { FACTORS = sizeof factors / sizeof *factors };
 
 enum { MOST_VALUES = 1 << 19, MOST_CALLS = 1 << 12 };
 static double values[2][MOST_VALUES];
 static int32_t statuses[2][MOST_CALLS];
 
-/* The environment is what it was, and of the flags only those were raised that nobody traps. */
+/* The environment is unchanged, and no exception was raised that may be trapped. */
 static void check_environment(int environment, const char *name, unsigned control)
 {
     const int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
@@ -88,7 +88,7 @@ static void check_environment(int environment, const char *name, unsigned contro
     }
 }
 
-/* Every function with every contact and every stretch: its status, and its numbers, one array after the other. */
+/* Every function with every contact and every factor: its status, and its results, one array after the other. */
 static void run(int environment, int32_t *status, double *value)
 {
     const unsigned control = control_bits();
@@ -96,18 +96,18 @@ static void run(int environment, int32_t *status, double *value)
         const function *f = &functions[i];
         const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
         for (int kind = 0; kind < CONTACTS; ++kind) {
-            for (int stretch = 0; stretch < STRETCHES; ++stretch) {
+            for (int factor = 0; factor < FACTORS; ++factor) {
                 set_up(f);
                 for (size_t k = 0; k < items; ++k) {
                     CHECK(make_contact((kind + (int)k) % CONTACTS, &contacts()[k]) == MSLIP_OK);
                 }
-                lead_states(f, HELD);
+                fill_states(f, HELD);
                 for (size_t k = 0; k < f->inputs; ++k) {
-                    input()[k] = good_number(f->kind, k, contacts()[0].slip_force);
-                    input()[k] *= f->kind == DISPLACEMENT || f->kind == AMPLITUDE ? stretches[stretch] : 1.0;
+                    input()[k] = valid_value(f->kind, k, contacts()[0].slip_force);
+                    input()[k] *= f->kind == DISPLACEMENT || f->kind == AMPLITUDE ? factors[factor] : 1.0;
                 }
-                call.scalar = good_number(f->scalar, 3, contacts()[0].slip_force);
-                call.scalar *= f->scalar == DISPLACEMENT || f->scalar == AMPLITUDE ? stretches[stretch] : 1.0;
+                call.scalar = valid_value(f->scalar, 3, contacts()[0].slip_force);
+                call.scalar *= f->scalar == DISPLACEMENT || f->scalar == AMPLITUDE ? factors[factor] : 1.0;
                 feclearexcept(FE_ALL_EXCEPT);
                 *status++ = f->call();
                 check_environment(environment, f->name, control);
@@ -119,7 +119,7 @@ static void run(int environment, int32_t *status, double *value)
         }
     }
 }
-/* The largest finite number of an array. */
+/* The largest finite magnitude of an array. */
 static double largest(const double *value, size_t n)
 {
     double most = 0.0;
@@ -131,7 +131,7 @@ static double largest(const double *value, size_t n)
     return most;
 }
 
-/* The largest difference of two arrays; infinite where a number is finite in one of them alone. */
+/* The largest difference of two arrays; infinite if a value is finite in one of them only. */
 static double distance(const double *value, const double *other, size_t n)
 {
     double most = 0.0;
@@ -145,40 +145,40 @@ static double distance(const double *value, const double *other, size_t n)
     return most;
 }
 
-/* How far the numbers of an output may be from the usual ones, over what they come to at most. */
-static double tolerance(const function *f, int output, size_t stretch)
+/* Allowed difference from the default environment, relative to the size of an output. */
+static double tolerance(const function *f, int output, size_t factor)
 {
     if (strcmp(f->name, "mslip_iwan_equivalent") == 0) {
-        return output == 2 ? 1e-3 : 1e-6; /* found by bisection to 1e-6, and an error that small is mostly rounding */
+        return output == 2 ? 1e-3 : 1e-6; /* by bisection to 1e-6; so small an error is mostly rounding */
     }
     if (strcmp(f->name, "mslip_jenkins_equivalent") == 0) {
-        return 1e-5; /* far in gross slip it hangs on the third power of a small angle */
+        return 1e-5; /* far in gross slip it depends on the third power of a small angle */
     }
-    if (f->rule == MSLIP_BETWEEN_REVERSALS) {
-        /* The error of the rule, where rounding divides the period in another way; beyond all measure the root of rounding, with
-           which turning points are known. */
-        return stretch + 1 < STRETCHES ? 1e-8 : 4e-8;
+    if (f->rule == MSLIP_EVENT_DRIVEN) {
+        /* The error of the rule if rounding divides the period differently; far in gross slip, the root of rounding, the error of
+           the instants of reversals. */
+        return factor + 1 < FACTORS ? 1e-8 : 4e-8;
     }
-    return 1e-13; /* some hundred units, all rounded to one side */
+    return 1e-13; /* hundreds of roundings of one sign */
 }
 
-/* What the numbers of an output come to: the most over all stretches but the last, which goes beyond all measure. Derivatives are
-   known to the rounding of a stiffness over the amplitude. */
-static double usual_size(const function *f, int output, const double *value, size_t all, size_t n, size_t stretch)
+/* The size of an output: the largest magnitude over all factors but the last. Derivatives have the rounding of a stiffness over the
+   amplitude. */
+static double usual_size(const function *f, int output, const double *value, size_t all, size_t n, size_t factor)
 {
     double usual = 0.0;
-    for (size_t k = 0; k + 1 < STRETCHES; ++k) {
+    for (size_t k = 0; k + 1 < FACTORS; ++k) {
         const double most = largest(value + k * all, n);
         usual = most > usual ? most : usual;
     }
-    if (strstr(f->name, "complex_stiffness") != NULL && output >= 2 && stretch > 0) {
-        const double quotient = largest(value + stretch * all - output * n, n) / (4e-8 * stretches[stretch]);
+    if (strstr(f->name, "complex_stiffness") != NULL && output >= 2 && factor > 0) {
+        const double quotient = largest(value + factor * all - output * n, n) / (4e-8 * factors[factor]);
         usual = quotient > usual ? quotient : usual;
     }
     return usual;
 }
 
-/* Every number against that of the usual environment; but not what subnormal amplitudes give where these are zeros. */
+/* Every result is compared with that of the default environment, except for subnormal amplitudes if these are flushed. */
 static void compare(int environment)
 {
     const int32_t *status = statuses[0], *other_status = statuses[1];
@@ -187,17 +187,17 @@ static void compare(int environment)
         const function *f = &functions[i];
         const size_t all = f->out[0] + f->out[1] + f->out[2] + f->out[3];
         for (int kind = 0; kind < CONTACTS; ++kind) {
-            for (size_t stretch = 0; stretch < STRETCHES; ++stretch) {
+            for (size_t factor = 0; factor < FACTORS; ++factor) {
                 const double *first = value;
                 CHECK(*status++ == *other_status++);
                 for (int k = 0; k < 4; ++k) {
                     const size_t n = f->out[k];
-                    const double usual = usual_size(f, k, first - stretch * all, all, n, stretch), most = largest(value, n);
+                    const double usual = usual_size(f, k, first - factor * all, all, n, factor), most = largest(value, n);
                     const double scale = most > usual ? most : usual, off = distance(value, other, n);
-                    if ((stretch > 0 || environments[environment].flushing == 0) &&
-                        !CHECK(off <= tolerance(f, k, stretch) * scale)) {
-                        printf("    %s, %s: contact %d, stretch %g, output %d: %.2g of %.2g\n", f->name,
-                               environments[environment].name, kind, stretches[stretch], k, off, scale);
+                    if ((factor > 0 || environments[environment].flushing == 0) &&
+                        !CHECK(off <= tolerance(f, k, factor) * scale)) {
+                        printf("    %s, %s: contact %d, factor %g, output %d: %.2g of %.2g\n", f->name,
+                               environments[environment].name, kind, factors[factor], k, off, scale);
                     }
                     value += n;
                     other += n;
@@ -208,8 +208,8 @@ static void compare(int environment)
     }
 }
 
-/* What is no number is refused in every environment, and so is what is below zero by the least there is. */
-static void refuse(int environment)
+/* Non-finite values are rejected in every environment, and so is the negative value of least magnitude. */
+static void reject(int environment)
 {
     const unsigned control = control_bits();
     const double least_negative = from_bits(0x8000000000000001);
@@ -218,22 +218,22 @@ static void refuse(int environment)
         set_up(f);
         double *number = f->scalar != NONE ? &call.scalar : input();
         const int kind = f->scalar != NONE ? f->scalar : f->kind;
-        for (int k = 0; kind != NONE && k < NOT_NUMBERS; ++k) {
-            memcpy(number, &not_numbers[k], sizeof *number);
+        for (int k = 0; kind != NONE && k < NON_FINITE; ++k) {
+            memcpy(number, &non_finite[k], sizeof *number);
             feclearexcept(FE_ALL_EXCEPT);
-            CHECK(f->call() == status_of_no_number(kind));
+            CHECK(f->call() == status_of_non_finite(kind));
             check_environment(environment, f->name, control);
         }
         if (kind == AMPLITUDE || kind == FORCE_AMPLITUDE) {
             memcpy(number, &least_negative, sizeof *number);
-            CHECK(f->call() == status_of_no_number(kind));
+            CHECK(f->call() == status_of_non_finite(kind));
             check_environment(environment, f->name, control);
         }
     }
-    for (int k = 0; k < NOT_NUMBERS; ++k) {
+    for (int k = 0; k < NON_FINITE; ++k) {
         mslip_parameters p = flat_parameters();
         mslip_contact contact;
-        memcpy(&p.edge_radius, &not_numbers[k], sizeof p.edge_radius);
+        memcpy(&p.edge_radius, &non_finite[k], sizeof p.edge_radius);
         CHECK(mslip_contact_init(&p, &contact) == MSLIP_BAD_EDGE_RADIUS);
         p = flat_parameters();
         p.length = from_bits(1);
@@ -244,7 +244,7 @@ static void refuse(int environment)
     }
 }
 
-/* Flags that are raised before a call stay raised; those that may be trapped, where they are not. */
+/* Flags raised before a call stay raised; with traps, only those that are not trapped. */
 static void keep_flags(int traps)
 {
     const int raised_before = traps ? FE_INEXACT | FE_UNDERFLOW : FE_ALL_EXCEPT;
@@ -262,16 +262,117 @@ static void keep_flags(int traps)
     feclearexcept(FE_ALL_EXCEPT);
 }
 
+/* The shortest length that is allowed: the half-width depends on the force per length. */
+static mslip_parameters shortest_parameters(double flat_half_width, double poisson_ratio, int32_t reference)
+{
+    const double load = flat_parameters().normal_force / flat_parameters().length;
+    mslip_parameters p = flat_parameters();
+    mslip_contact contact;
+    double low = 1e-6, high = p.length;
+    p.flat_half_width = flat_half_width;
+    p.material[0].poisson_ratio = p.material[1].poisson_ratio = poisson_ratio;
+    p.displacement_reference = reference;
+    for (;;) {
+        p.length = 0.5 * (low + high);
+        p.normal_force = load * p.length;
+        if (p.length <= low || p.length >= high) {
+            break;
+        }
+        *(mslip_contact_init(&p, &contact) == MSLIP_OK ? &high : &low) = p.length;
+    }
+    p.length = high;
+    p.normal_force = load * high;
+    return p;
+}
+
+/* A cylinder whose initial compliance is a rounding of 2L/b: upward, that of an interior stick zone comes out as 0. */
+static mslip_parameters smallest_compliance(void)
+{
+    mslip_parameters p = flat_parameters();
+    p.flat_half_width = 0.0;
+    p.edge_radius = 0x1.a45ab24969372p-4;
+    p.length = 0x1.defb5cf5285e8p-13;
+    p.normal_force = 0x1.089908bc07ccfp+5;
+    p.friction_coefficient = 0x1.470fb4015aec3p-1;
+    p.material[0].young_modulus = 0x1.350a122719055p+37;
+    p.material[1].young_modulus = 2e11;
+    p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.0;
+    return p;
+}
+
+/* Every function near the shortest length, where the initial compliance nearly vanishes: from full stick to gross slip. */
+static void run_shortest(int environment, const mslip_parameters *shortest)
+{
+    static const double margins[] = { 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2 };
+    static const double amplitudes[] = { 0.0, 5e-324, 1e-300, 1e-40, 1e-20, 1e-12, 1e-6, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.975, 0.99,
+                                         0.999, 0.999999, 1.0, 1.0000001, 1.01, 1.04, 1.06, 1.5, 3.0, 1e3, 1e100 };
+    const unsigned control = control_bits();
+    for (size_t m = 0; m < sizeof margins / sizeof *margins; ++m) {
+        mslip_parameters p = *shortest;
+        mslip_contact contact;
+        p.length *= 1.0 + margins[m];
+        p.normal_force *= 1.0 + margins[m];
+        feclearexcept(FE_ALL_EXCEPT);
+        const int32_t status = mslip_contact_init(&p, &contact);
+        check_environment(environment, "mslip_contact_init", control);
+        if (status != MSLIP_OK) {
+            CHECK(status == MSLIP_LENGTH_TOO_SHORT && margins[m] < 1e-12);
+            continue;
+        }
+        for (int i = 0; i < FUNCTIONS; ++i) {
+            const function *f = &functions[i];
+            set_up(f);
+            for (size_t k = 0; k < (f->takes & IS_BATCH ? ITEMS : 1); ++k) {
+                contacts()[k] = contact;
+            }
+            fill_states(f, f->takes & TAKES_STATE ? HELD : 0);
+            for (size_t a = 0; a < sizeof amplitudes / sizeof *amplitudes; ++a) {
+                const double unit = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE ? contact.slip_force
+                                                                                                          : contact.slip_displacement;
+                const double value = (unit == contact.slip_force ? fmin(amplitudes[a], 1.0) : amplitudes[a]) * unit;
+                call.scalar = f->scalar == NONE ? 0.0 : value;
+                for (size_t k = 0; k < f->inputs; ++k) {
+                    const int alternates = f->kind == DISPLACEMENT && k % 2 == 1;
+                    input()[k] = f->kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
+                }
+                feclearexcept(FE_ALL_EXCEPT);
+                if (!CHECK(f->call() == MSLIP_OK || strcmp(f->name, "mslip_masing_tractions") == 0)) {
+                    printf("    %s\n", f->name);
+                }
+                const int flags_before = checks_failed;
+                check_environment(environment, f->name, control);
+                if (checks_failed > flags_before) {
+                    printf("    a %g, length %a, reference %d, amplitude %g\n", p.flat_half_width, p.length,
+                           (int)p.displacement_reference, amplitudes[a]);
+                }
+                if (f->takes & IS_SLIDERS) {
+                    break;
+                }
+            }
+        }
+    }
+}
+
 int main(int argc, char **argv)
 {
     const int traps = check_arguments(argc, argv) > 1;
     make_regions();
     enter(0);
+    static const double flats[] = { 0.0, 1e-6, 3e-4, 1e-3 };
+    static const double poisson_ratios[] = { 0.0, 0.29 };
+    enum { SHORTEST = 17 };
+    mslip_parameters shortest[SHORTEST] = { smallest_compliance() };
+    for (int i = 1; i < SHORTEST; ++i) {
+        shortest[i] = shortest_parameters(flats[(i - 1) / 4], poisson_ratios[i / 2 % 2], i % 2);
+    }
     run(0, statuses[0], values[0]);
     for (int environment = 0; environment < ENVIRONMENTS; ++environment) {
         enter(environment);
         run(environment, statuses[1], values[1]);
-        refuse(environment);
+        reject(environment);
+        for (int i = 0; i < SHORTEST; ++i) {
+            run_shortest(environment, &shortest[i]);
+        }
         enter(0);
         compare(environment);
     }
