@@ -1,31 +1,31 @@
-/* bad_calls.h: every function that takes a contact in one table, and a call of each with good arguments, of which one at a time is
-   made bad. */
+/* bad_calls.h: a table of every function that takes a contact, and a valid call of each, of which tests invalidate one argument at
+   a time. */
 #ifndef BAD_CALLS_H
 #define BAD_CALLS_H
 
-#include "refusal.h"
+#include "rejection.h"
 
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
-enum { REVERSALS = 12, STATE = 6 + 2 * REVERSALS, HELD = 3 };
+enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, HELD = 3 };
 
-/* Kinds of numbers. */
+/* Quantities. */
 enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE };
 
-/* How a number of a kind is refused that is none. */
-static inline int32_t status_of_no_number(int kind)
+/* Status of a quantity that is not finite. */
+static inline int32_t status_of_non_finite(int kind)
 {
     static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
                                       MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE };
     return status[kind];
 }
 
-/* What a function takes beside a contact. The n of sliders is not that of an array to be read. */
+/* What a function takes beside a contact. The n of sliders is not the length of an input. */
 enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_SLIDERS = 16 };
 
 static struct {
     const mslip_contact *contacts;
-    const int32_t *active;
-    size_t n, state_length;
+    const int32_t *index, *active;
+    size_t n, n_contacts, state_length;
     double scalar;
     const double *input, *state0;
     double *state1, *workspace, *out[4];
@@ -46,21 +46,21 @@ CALL(complex_stiffness, call.contacts, call.n, call.input, call.out[0], call.out
 CALL(harmonic_force, call.contacts, call.workspace, call.input, call.out[0], call.out[1], call.out[2])
 CALL(jenkins_equivalent, call.contacts, call.scalar, call.out[0], call.out[1])
 CALL(iwan_equivalent, call.contacts, call.n, call.out[0], call.out[1], call.out[2])
-CALL(interface_complex_stiffness, call.n, call.contacts, call.active, call.input, call.out[0], call.out[1], call.out[2],
-     call.out[3])
-CALL(interface_masing_update, call.n, call.contacts, call.active, call.state_length, call.state0, call.input, call.state1,
+CALL(batch_complex_stiffness, call.n, call.n_contacts, call.contacts, call.index, call.active, call.input, call.out[0],
+     call.out[1], call.out[2], call.out[3])
+CALL(batch_masing_update, call.n, call.n_contacts, call.contacts, call.index, call.active, call.state_length, call.state0,
+     call.input, call.state1, call.out[0], call.out[1], call.out[2])
+CALL(batch_harmonic_force, call.n, call.n_contacts, call.contacts, call.index, call.active, call.workspace, call.input,
      call.out[0], call.out[1], call.out[2])
-CALL(interface_harmonic_force, call.n, call.contacts, call.active, call.workspace, call.input, call.out[0], call.out[1],
-     call.out[2])
 
 typedef struct {
     const char *name;
     int32_t (*call)(void);
     int takes, rule;
-    int scalar;    /* kind of the number that is passed by value */
-    int kind;      /* kind of those of the array */
-    size_t inputs; /* length of the array */
-    size_t state1; /* and of the outputs */
+    int scalar;    /* quantity passed by value */
+    int kind;      /* quantity of the input array */
+    size_t inputs; /* its length */
+    size_t state1; /* lengths of the outputs */
     size_t out[4];
 } function;
 
@@ -77,27 +77,27 @@ static const function functions[] = {
     { FUNCTION(hysteresis_loop), TAKES_COUNT, 0, AMPLITUDE, NONE, 0, 0, { ITEMS, ITEMS } },
     { FUNCTION(dissipated_energy), TAKES_COUNT, 0, NONE, FORCE_AMPLITUDE, ITEMS, 0, { ITEMS } },
     { FUNCTION(complex_stiffness), TAKES_COUNT, 0, NONE, AMPLITUDE, ITEMS, 0, { ITEMS, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_EQUIDISTANT, NONE, DISPLACEMENT, COEFFICIENTS, 0,
+    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_UNIFORM_SAMPLING, NONE, DISPLACEMENT, COEFFICIENTS, 0,
       { COEFFICIENTS, SQUARE, 1 } },
-    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_BETWEEN_REVERSALS, NONE, DISPLACEMENT, COEFFICIENTS, 0,
+    { FUNCTION(harmonic_force), TAKES_WORKSPACE, MSLIP_EVENT_DRIVEN, NONE, DISPLACEMENT, COEFFICIENTS, 0,
       { COEFFICIENTS, SQUARE, 1 } },
     { FUNCTION(jenkins_equivalent), 0, 0, AMPLITUDE, NONE, 0, 0, { 1, 1 } },
     { FUNCTION(iwan_equivalent), TAKES_COUNT | IS_SLIDERS, 0, NONE, NONE, 0, 0, { ITEMS, ITEMS, 1 } },
-    { FUNCTION(interface_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, 0,
+    { FUNCTION(batch_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, 0,
       { ITEMS, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(interface_masing_update), TAKES_COUNT | TAKES_STATE | IS_BATCH, 0, NONE, DISPLACEMENT, ITEMS,
+    { FUNCTION(batch_masing_update), TAKES_COUNT | TAKES_STATE | IS_BATCH, 0, NONE, DISPLACEMENT, ITEMS,
       ITEMS * STATE, { ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(interface_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_EQUIDISTANT, NONE,
+    { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_UNIFORM_SAMPLING, NONE,
       DISPLACEMENT, ITEMS * COEFFICIENTS, 0, { ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } },
-    { FUNCTION(interface_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_BETWEEN_REVERSALS, NONE,
+    { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_EVENT_DRIVEN, NONE,
       DISPLACEMENT, ITEMS * COEFFICIENTS, 0, { ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } },
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-static inline const function *find(const char *name)
+static inline const function *find(const char *name, int rule)
 {
     for (int i = 0; i < FUNCTIONS; ++i) {
-        if (strcmp(functions[i].name, name) == 0) {
+        if (strcmp(functions[i].name, name) == 0 && functions[i].rule == rule) {
             return &functions[i];
         }
     }
@@ -105,17 +105,19 @@ static inline const function *find(const char *name)
     exit(2);
 }
 
-static region *contact_region, *active_region, *input_region, *state0_region, *state1_region, *workspace_region, *out_regions[4];
+static region *contact_region, *index_region, *active_region, *input_region, *state0_region, *state1_region, *workspace_region;
+static region *out_regions[4];
 static size_t workspace_lengths[2];
 
 static inline void make_regions(void)
 {
     size_t largest;
     for (int rule = 0; rule < 2; ++rule) {
-        workspace_lengths[rule] = mslip_harmonic_workspace_length_rule(HARMONICS, SAMPLES, rule);
+        workspace_lengths[rule] = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
     }
     largest = workspace_lengths[workspace_lengths[1] > workspace_lengths[0]];
     contact_region = make_region(ITEMS * sizeof(mslip_contact));
+    index_region = make_region(ITEMS * sizeof(int32_t));
     active_region = make_region(ITEMS * sizeof(int32_t));
     input_region = make_region(ITEMS * COEFFICIENTS * sizeof(double));
     state0_region = make_region(ITEMS * STATE * sizeof(double));
@@ -126,10 +128,15 @@ static inline void make_regions(void)
     }
 }
 
-/* What is given, to be made bad. */
+/* The inputs, to be modified by tests. */
 static inline mslip_contact *contacts(void)
 {
     return (mslip_contact *)(size_t)call.contacts;
+}
+
+static inline int32_t *indices(void)
+{
+    return (int32_t *)(size_t)call.index;
 }
 
 static inline int32_t *active(void)
@@ -147,42 +154,26 @@ static inline double *states0(void)
     return (double *)(size_t)call.state0;
 }
 
-/* Displacements that nest, ever smaller: so many turn back and forth. */
-static inline double spiral(int turns)
+/* A decaying vibration: each displacement adds a reversal. */
+static inline double decaying(int reversals)
 {
-    return (turns % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * turns);
+    return (reversals % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * reversals);
 }
 
-/* As many as there is room for; a displacement that turns once more, and one that goes on. */
-static inline double filled_turn(void)
-{
-    return 0.5 * (spiral(REVERSALS) + spiral(REVERSALS - 1));
-}
-
-static inline double filled_end(void)
-{
-    return 1.01 * spiral(REVERSALS);
-}
-
-/* States of the contacts after so many turns. */
-static inline void lead_states(const function *f, int turns)
+/* Initialises the states and advances each to the given number of nested reversals. */
+static inline void fill_states(const function *f, int reversals)
 {
     const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items; ++i) {
         double *state = states0() + i * STATE;
         CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
-        for (int k = 0; k <= turns; ++k) {
-            CHECK(mslip_masing_update(&call.contacts[i], STATE, state, spiral(k), state, NULL, NULL, NULL) == MSLIP_OK);
+        for (int k = 0; k <= reversals; ++k) {
+            CHECK(mslip_masing_update(&call.contacts[i], STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
         }
     }
 }
 
-static inline void fill_states(const function *f)
-{
-    lead_states(f, REVERSALS);
-}
-
-static inline double good_number(int kind, size_t i, double slip_force)
+static inline double valid_value(int kind, size_t i, double slip_force)
 {
     switch (kind) {
         case POSITION: return 1e-4 * ((double)i - 2.0);
@@ -194,38 +185,40 @@ static inline double good_number(int kind, size_t i, double slip_force)
     }
 }
 
-/* Good arguments, each just before its page. */
+/* Valid arguments, each just before its protected page. Item i of a batch has contact i. */
 static inline void set_up(const function *f)
 {
     const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
     mslip_contact *c = last(contact_region, items * sizeof *c);
-    int32_t *flags = last(active_region, ITEMS * sizeof *flags);
-    double *numbers = last(input_region, f->inputs * sizeof *numbers);
+    int32_t *index = last(index_region, ITEMS * sizeof *index), *flags = last(active_region, ITEMS * sizeof *flags);
+    double *values = last(input_region, f->inputs * sizeof *values);
 
     memset(&call, 0, sizeof call);
-    call.n = ITEMS;
+    call.n = call.n_contacts = ITEMS;
     call.state_length = STATE;
     call.contacts = c;
     for (size_t i = 0; i < items; ++i) {
         c[i] = i % 3 == 0 ? flat_contact() : i % 3 == 1 ? cylinder_contact() : elliptic_contact();
     }
     for (size_t i = 0; i < ITEMS; ++i) {
+        index[i] = (int32_t)i;
         flags[i] = 1;
     }
+    call.index = f->takes & IS_BATCH ? index : NULL;
     call.active = f->takes & IS_BATCH ? flags : NULL;
     for (size_t i = 0; i < f->inputs; ++i) {
-        numbers[i] = good_number(f->kind, i, c->slip_force);
+        values[i] = valid_value(f->kind, i, c->slip_force);
     }
-    call.input = f->inputs > 0 ? numbers : NULL;
-    call.scalar = good_number(f->scalar, 3, c->slip_force);
+    call.input = f->inputs > 0 ? values : NULL;
+    call.scalar = valid_value(f->scalar, 3, c->slip_force);
     if (f->takes & TAKES_STATE) {
         call.state0 = last(state0_region, items * STATE * sizeof(double));
-        lead_states(f, HELD);
+        fill_states(f, HELD);
     }
     if (f->takes & TAKES_WORKSPACE) {
         const size_t length = workspace_lengths[f->rule];
         call.workspace = last(workspace_region, length * sizeof(double));
-        CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
+        CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
     }
     if (f->state1 > 0) {
         call.state1 = last(state1_region, f->state1 * sizeof(double));
@@ -235,16 +228,17 @@ static inline void set_up(const function *f)
     }
 }
 
-static inline void refused(const function *f, int32_t status, const char *what)
+/* The call is rejected with this status and modifies nothing. */
+static inline void rejected(const function *f, int32_t status, const char *what)
 {
     int32_t got;
     remember_regions();
     feclearexcept(FE_ALL_EXCEPT);
     got = f->call();
-    check_refused(got, status, f->name, what);
+    check_rejected(got, status, f->name, what);
 }
 
-/* Nothing but the scratch memory of a workspace, if there is one. */
+/* No bit changed, except in the scratch memory of a workspace. */
 static inline int nothing_changed_but_scratch(const function *f)
 {
     for (int i = 0; i < regions_made; ++i) {
@@ -255,7 +249,7 @@ static inline int nothing_changed_but_scratch(const function *f)
     return 1;
 }
 
-/* Whether an output has finite numbers for all items but one, which is as it was, and nothing before its start changed. */
+/* An output is finite for all items but one, which is unchanged, and so is the memory before the output. */
 static inline int is_written(const region *r, size_t length, size_t skipped)
 {
     const size_t bytes = length * sizeof(double), share = length / ITEMS;
@@ -271,12 +265,12 @@ static inline int is_written(const region *r, size_t length, size_t skipped)
     return 1;
 }
 
-/* The call is accepted, and only its outputs are written, for all items but that one. */
-static inline void skipped_alone(const function *f, size_t skipped, const char *what)
+/* The call succeeds and writes its outputs only, for all items but that one. */
+static inline void accepted_but(const function *f, size_t skipped, const char *what)
 {
     int32_t status;
     int flags, holds;
-    /* What is not written is no number. */
+    /* NaN. */
     memset(state1_region->start, 0xff, state1_region->bytes);
     for (int i = 0; i < 4; ++i) {
         memset(out_regions[i]->start, 0xff, out_regions[i]->bytes);
@@ -285,12 +279,11 @@ static inline void skipped_alone(const function *f, size_t skipped, const char *
     feclearexcept(FE_ALL_EXCEPT);
     status = f->call();
     flags = raised();
-    holds = status == MSLIP_OK && flags == 0 && region_is_unchanged(contact_region) && region_is_unchanged(active_region) &&
-            region_is_unchanged(input_region) && region_is_unchanged(state0_region);
+    holds = status == MSLIP_OK && flags == 0 && region_is_unchanged(contact_region) && region_is_unchanged(index_region) &&
+            region_is_unchanged(active_region) && region_is_unchanged(input_region) && region_is_unchanged(state0_region);
     for (int i = 0; i < 4; ++i) {
         holds &= is_written(out_regions[i], f->out[i], skipped);
     }
-    /* Beyond its reversals a state is copied as it is. */
     holds &= f->state1 == 0 || is_written(state1_region, f->state1, skipped);
     if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {
         printf("    %s, %s: status %d, flags %x\n", f->name, what, (int)status, flags);
@@ -299,7 +292,7 @@ static inline void skipped_alone(const function *f, size_t skipped, const char *
 
 static inline void accepted(const function *f, const char *what)
 {
-    skipped_alone(f, ITEMS, what);
+    accepted_but(f, ITEMS, what);
 }
 
 #endif

@@ -1,21 +1,21 @@
-/* Every parameter of a contact with every kind of bad value: refused by its own name, and nothing written. */
-#include "refusal.h"
+/* Every parameter of a contact with every kind of invalid value: its own status, and nothing modified. */
+#include "rejection.h"
 
-/* The parameters of both kinds of contact as arrays of numbers, and their names. */
-enum { FLAT, ELLIPTIC, KINDS, MOST_FIELDS = 9 };
+/* The parameters of both kinds of contact as arrays of doubles, and their names. */
+enum { FLAT, ELLIPTIC, KINDS, MAX_FIELDS = 9 };
 
 typedef struct {
     const char *name;
     int32_t status;
     int zero_is_allowed;
-    double largest; /* that is allowed by itself */
+    double largest; /* valid value */
 } field;
 
 static const struct {
     const char *function;
     size_t bytes;
     int fields;
-    field field[MOST_FIELDS];
+    field field[MAX_FIELDS];
 } kinds[KINDS] = {
     { "mslip_contact_init", sizeof(mslip_parameters), 9,
       { { "flat_half_width", MSLIP_BAD_FLAT_HALF_WIDTH, 1, DBL_MAX },
@@ -38,14 +38,14 @@ static const struct {
         { "material[1].poisson_ratio", MSLIP_BAD_POISSON_RATIO, 1, 0.5 } } },
 };
 
-static region *parameters[KINDS], *like, *output;
+static region *parameters[KINDS], *output;
 
-static double *number(int kind, int i)
+static double *value_at(int kind, int i)
 {
     return (double *)last(parameters[kind], kinds[kind].bytes) + i;
 }
 
-static mslip_contact *made(void)
+static mslip_contact *contact(void)
 {
     return last(output, sizeof(mslip_contact));
 }
@@ -53,27 +53,19 @@ static mslip_contact *made(void)
 static int32_t init(int kind)
 {
     void *p = last(parameters[kind], kinds[kind].bytes);
-    return kind == FLAT ? mslip_contact_init(p, made()) : mslip_contact_init_elliptic(p, made());
+    return kind == FLAT ? mslip_contact_init(p, contact()) : mslip_contact_init_elliptic(p, contact());
 }
 
-static int32_t init_like(void)
-{
-    return mslip_contact_init_like(last(parameters[FLAT], sizeof(mslip_parameters)), last(like, sizeof(mslip_contact)), made());
-}
-
-/* One number of otherwise good parameters is this: refused by both functions that take it. */
-static void refused(int kind, int i, double value, int32_t status, const char *what)
+/* One invalid value among otherwise valid parameters. */
+static void rejected(int kind, int i, double value, int32_t status, const char *what)
 {
     char row[128];
-    double good = *number(kind, i);
+    double good = *value_at(kind, i);
     snprintf(row, sizeof row, "%s %s", kinds[kind].field[i].name, what);
-    memcpy(number(kind, i), &value, sizeof value);
+    memcpy(value_at(kind, i), &value, sizeof value);
     remember_regions();
-    check_refused(init(kind), status, kinds[kind].function, row);
-    if (kind == FLAT) {
-        check_refused(init_like(), status, "mslip_contact_init_like", row);
-    }
-    *number(kind, i) = good;
+    check_rejected(init(kind), status, kinds[kind].function, row);
+    *value_at(kind, i) = good;
 }
 
 static int is_possible(const mslip_contact *c)
@@ -85,48 +77,48 @@ static int is_possible(const mslip_contact *c)
             return 0;
         }
     }
-    /* Either all of friction, or nothing of it. */
+    /* Either all quantities of friction vanish, or none. */
     return c->composite_modulus > 0.0 && (c->slip_force > 0.0) == (c->initial_stiffness > 0.0) &&
            (c->slip_force > 0.0) == (c->slip_displacement > 0.0) && (c->slip_force > 0.0) == (c->slip_energy > 0.0);
 }
 
-/* An extreme number that is allowed by itself: a contact with possible numbers, or a reason that names all of them together. */
+/* An extreme value that is valid by itself: either a contact with possible values, or a status for the combination. */
 static void extreme(int kind, int i, double value)
 {
-    double good = *number(kind, i);
+    double good = *value_at(kind, i);
     int32_t status;
-    *number(kind, i) = value;
+    *value_at(kind, i) = value;
     remember_regions();
     status = init(kind);
     if (status == MSLIP_OK) {
-        CHECK(raised() == 0 && is_possible(made()) && region_is_unchanged(parameters[kind]));
+        CHECK(raised() == 0 && is_possible(contact()) && region_is_unchanged(parameters[kind]));
         restore_regions();
     } else {
         CHECK(status == MSLIP_OUT_OF_RANGE || (kind == FLAT && status == MSLIP_LENGTH_TOO_SHORT));
-        check_refused(status, status, kinds[kind].function, kinds[kind].field[i].name);
+        check_rejected(status, status, kinds[kind].function, kinds[kind].field[i].name);
     }
-    *number(kind, i) = good;
+    *value_at(kind, i) = good;
 }
 
-static void test_every_number(void)
+static void test_every_value(void)
 {
     static const double extremes[] = { 5e-324, 1e-310, 1e-300, 1e-200, 1e-160, 1e-100, 1e100, 1e160, 1e200, 1e300, DBL_MAX };
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int i = 0; i < kinds[kind].fields; ++i) {
             const field *f = &kinds[kind].field[i];
-            for (int k = 0; k < NOT_NUMBERS; ++k) {
-                refused(kind, i, from_bits(not_numbers[k]), f->status, "is no finite number");
+            for (int k = 0; k < NON_FINITE; ++k) {
+                rejected(kind, i, from_bits(non_finite[k]), f->status, "is not finite");
             }
-            refused(kind, i, -1.0, f->status, "has the wrong sign");
-            refused(kind, i, -5e-324, f->status, "has the wrong sign, and is as small as can be");
-            refused(kind, i, -DBL_MAX, f->status, "has the wrong sign, and is as large as can be");
+            rejected(kind, i, -1.0, f->status, "has the wrong sign");
+            rejected(kind, i, -5e-324, f->status, "has the wrong sign, and is subnormal");
+            rejected(kind, i, -DBL_MAX, f->status, "has the wrong sign, and is the largest double");
             if (!f->zero_is_allowed) {
-                refused(kind, i, 0.0, f->status, "is zero");
-                refused(kind, i, -0.0, f->status, "is minus zero");
+                rejected(kind, i, 0.0, f->status, "is zero");
+                rejected(kind, i, -0.0, f->status, "is minus zero");
             }
             if (f->largest < DBL_MAX) {
-                refused(kind, i, f->largest * (1.0 + DBL_EPSILON), f->status, "is just too large");
-                refused(kind, i, DBL_MAX, f->status, "is too large");
+                rejected(kind, i, f->largest * (1.0 + DBL_EPSILON), f->status, "is just too large");
+                rejected(kind, i, DBL_MAX, f->status, "is too large");
                 extreme(kind, i, f->largest);
             }
             if (f->zero_is_allowed) {
@@ -142,7 +134,7 @@ static void test_every_number(void)
     }
 }
 
-/* Any two numbers extreme at once, and all four that may be zero. */
+/* Any two values extreme at once. */
 static void test_pairs(void)
 {
     static const double extremes[] = { 5e-324, 1e-300, 1e-150, 1e150, 1e300 };
@@ -151,11 +143,11 @@ static void test_pairs(void)
         for (int i = 0; i < kinds[kind].fields; ++i) {
             for (int j = 0; j < kinds[kind].fields; ++j) {
                 for (int k = 0; k < COUNT * COUNT; ++k) {
-                    double good = *number(kind, i), value = extremes[k / COUNT];
+                    double good = *value_at(kind, i), value = extremes[k / COUNT];
                     if (i != j && value <= kinds[kind].field[i].largest && extremes[k % COUNT] <= kinds[kind].field[j].largest) {
-                        *number(kind, i) = value;
+                        *value_at(kind, i) = value;
                         extreme(kind, j, extremes[k % COUNT]);
-                        *number(kind, i) = good;
+                        *value_at(kind, i) = good;
                     }
                 }
             }
@@ -163,18 +155,18 @@ static void test_pairs(void)
     }
 }
 
-/* The first that is wrong, in the order of the fields, is the one that is named. */
+/* The first invalid field determines the status. */
 static void test_order(void)
 {
     for (int kind = 0; kind < KINDS; ++kind) {
-        double good[MOST_FIELDS];
+        double good[MAX_FIELDS];
         for (int i = kinds[kind].fields - 1; i >= 0; --i) {
-            good[i] = *number(kind, i);
-            *number(kind, i) = -1.0;
+            good[i] = *value_at(kind, i);
+            *value_at(kind, i) = -1.0;
             remember_regions();
-            check_refused(init(kind), kinds[kind].field[i].status, kinds[kind].function, "all from here on are negative");
+            check_rejected(init(kind), kinds[kind].field[i].status, kinds[kind].function, "this and all later fields are negative");
         }
-        memcpy(number(kind, 0), good, (size_t)kinds[kind].fields * sizeof *good);
+        memcpy(value_at(kind, 0), good, (size_t)kinds[kind].fields * sizeof *good);
     }
 }
 
@@ -185,13 +177,12 @@ static void test_reference(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         p->displacement_reference = bad[i];
         remember_regions();
-        check_refused(init(FLAT), MSLIP_BAD_DISPLACEMENT_REFERENCE, "mslip_contact_init", "displacement_reference");
-        check_refused(init_like(), MSLIP_BAD_DISPLACEMENT_REFERENCE, "mslip_contact_init_like", "displacement_reference");
+        check_rejected(init(FLAT), MSLIP_BAD_DISPLACEMENT_REFERENCE, "mslip_contact_init", "displacement_reference");
     }
     p->displacement_reference = MSLIP_CENTRE_POINT;
 }
 
-/* Numbers that are allowed one by one, and contradict each other. */
+/* Values that are valid one by one, but not together. */
 static void test_inconsistent(void)
 {
     mslip_parameters *p = last(parameters[FLAT], sizeof *p);
@@ -215,8 +206,7 @@ static void test_inconsistent(void)
         p->edge_radius = rows[i].edge_radius;
         p->displacement_reference = rows[i].reference;
         remember_regions();
-        check_refused(init(FLAT), rows[i].status, "mslip_contact_init", "numbers that contradict each other");
-        check_refused(init_like(), rows[i].status, "mslip_contact_init_like", "numbers that contradict each other");
+        check_rejected(init(FLAT), rows[i].status, "mslip_contact_init", "inconsistent values");
     }
     *p = good;
 }
@@ -225,31 +215,20 @@ static void test_pointers(void)
 {
     void *p = last(parameters[FLAT], sizeof(mslip_parameters));
     void *e = last(parameters[ELLIPTIC], sizeof(mslip_elliptic_parameters));
-    mslip_contact *other = last(like, sizeof *other);
-    const mslip_contact good = *other;
-    const int32_t wanted = MSLIP_NULL_POINTER;
+    const int32_t expected = MSLIP_NULL_POINTER;
 
     remember_regions();
-    check_refused(mslip_contact_init(NULL, made()), wanted, "mslip_contact_init", "p");
-    check_refused(mslip_contact_init(p, NULL), wanted, "mslip_contact_init", "contact");
-    check_refused(mslip_contact_init(NULL, NULL), wanted, "mslip_contact_init", "both");
-    check_refused(mslip_contact_init_elliptic(NULL, made()), wanted, "mslip_contact_init_elliptic", "p");
-    check_refused(mslip_contact_init_elliptic(e, NULL), wanted, "mslip_contact_init_elliptic", "contact");
-    check_refused(mslip_contact_init_like(NULL, other, made()), wanted, "mslip_contact_init_like", "p");
-    check_refused(mslip_contact_init_like(p, NULL, made()), wanted, "mslip_contact_init_like", "like");
-    check_refused(mslip_contact_init_like(p, other, NULL), wanted, "mslip_contact_init_like", "contact");
+    check_rejected(mslip_contact_init(NULL, contact()), expected, "mslip_contact_init", "p");
+    check_rejected(mslip_contact_init(p, NULL), expected, "mslip_contact_init", "contact");
+    check_rejected(mslip_contact_init(NULL, NULL), expected, "mslip_contact_init", "both");
+    check_rejected(mslip_contact_init_elliptic(NULL, contact()), expected, "mslip_contact_init_elliptic", "p");
+    check_rejected(mslip_contact_init_elliptic(e, NULL), expected, "mslip_contact_init_elliptic", "contact");
     mslip_parameters_default(NULL);
     mslip_elliptic_parameters_default(NULL);
     CHECK(raised() == 0 && nothing_changed());
-    for (int i = 0; i < UNPREPARED; ++i) {
-        *other = unprepared_contact(i);
-        remember_regions();
-        check_refused(init_like(), MSLIP_BAD_CONTACT, "mslip_contact_init_like", "like");
-    }
-    *other = good;
 }
 
-/* Numbers that nobody has set are refused by name, the first of them first. */
+/* Unset values are rejected, the first one determining the status. */
 static void test_unset(void)
 {
     mslip_parameters *p = last(parameters[FLAT], sizeof *p);
@@ -260,13 +239,13 @@ static void test_unset(void)
         mslip_parameters_default(p);
         memcpy(p, &flat, (size_t)i * sizeof(double));
         remember_regions();
-        check_refused(init(FLAT), kinds[FLAT].field[i].status, "mslip_contact_init", "unset");
+        check_rejected(init(FLAT), kinds[FLAT].field[i].status, "mslip_contact_init", "unset");
     }
     for (int i = 0; i < kinds[ELLIPTIC].fields; ++i) {
         mslip_elliptic_parameters_default(e);
         memcpy(e, &ellipse, (size_t)i * sizeof(double));
         remember_regions();
-        check_refused(init(ELLIPTIC), kinds[ELLIPTIC].field[i].status, "mslip_contact_init_elliptic", "unset");
+        check_rejected(init(ELLIPTIC), kinds[ELLIPTIC].field[i].status, "mslip_contact_init_elliptic", "unset");
     }
     *p = flat;
     *e = ellipse;
@@ -278,13 +257,11 @@ int main(int argc, char **argv)
     for (int kind = 0; kind < KINDS; ++kind) {
         parameters[kind] = make_region(kinds[kind].bytes);
     }
-    like = make_region(sizeof(mslip_contact));
     output = make_region(sizeof(mslip_contact));
     *(mslip_parameters *)last(parameters[FLAT], sizeof(mslip_parameters)) = flat_parameters();
     *(mslip_elliptic_parameters *)last(parameters[ELLIPTIC], sizeof(mslip_elliptic_parameters)) = elliptic_parameters();
-    *(mslip_contact *)last(like, sizeof(mslip_contact)) = flat_contact();
 
-    test_every_number();
+    test_every_value();
     test_pairs();
     test_order();
     test_reference();

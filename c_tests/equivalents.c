@@ -20,14 +20,14 @@ static void test_jenkins_equivalent(void)
     CHECK_RELATIVE(4.0 * slip_force * (amplitude - slip_force / k) / (PI * amplitude * amplitude),
                    1.813168961661543728829526e8, 1e-12);
 
-    REFUSED(mslip_jenkins_equivalent(&contact, -amplitude, out[0], out[1]), MSLIP_BAD_AMPLITUDE);
+    REJECTED(mslip_jenkins_equivalent(&contact, -amplitude, out[0], out[1]), MSLIP_BAD_AMPLITUDE);
     for (int i = 0; i < 3; ++i) {
-        REFUSED(mslip_jenkins_equivalent(&contact, not_finite[i], out[0], out[1]), MSLIP_BAD_AMPLITUDE);
+        REJECTED(mslip_jenkins_equivalent(&contact, not_finite[i], out[0], out[1]), MSLIP_BAD_AMPLITUDE);
     }
-    REFUSED(mslip_jenkins_equivalent(NULL, amplitude, out[0], out[1]), MSLIP_NULL_POINTER);
-    for (int i = 0; i < UNPREPARED; ++i) {
-        const mslip_contact unprepared = unprepared_contact(i);
-        REFUSED(mslip_jenkins_equivalent(&unprepared, amplitude, out[0], out[1]), MSLIP_BAD_CONTACT);
+    REJECTED(mslip_jenkins_equivalent(NULL, amplitude, out[0], out[1]), MSLIP_NULL_POINTER);
+    for (int i = 0; i < UNINITIALISED; ++i) {
+        const mslip_contact uninitialised = uninitialised_contact(i);
+        REJECTED(mslip_jenkins_equivalent(&uninitialised, amplitude, out[0], out[1]), MSLIP_BAD_CONTACT);
     }
     (void)open;
 }
@@ -67,11 +67,11 @@ static void test_iwan_equivalent(void)
     CHECK(found >= 0.9 * reference[2][0]);
     CHECK(reference[2][0] < 0.1);
 
-    REFUSED(mslip_iwan_equivalent(&contact, 0, out[0], out[1], out[2]), MSLIP_BAD_COUNT);
-    REFUSED(mslip_iwan_equivalent(NULL, 2, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    for (int i = 0; i < UNPREPARED; ++i) {
-        const mslip_contact unprepared = unprepared_contact(i);
-        REFUSED(mslip_iwan_equivalent(&unprepared, 2, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
+    REJECTED(mslip_iwan_equivalent(&contact, 0, out[0], out[1], out[2]), MSLIP_BAD_COUNT);
+    REJECTED(mslip_iwan_equivalent(NULL, 2, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    for (int i = 0; i < UNINITIALISED; ++i) {
+        const mslip_contact uninitialised = uninitialised_contact(i);
+        REJECTED(mslip_iwan_equivalent(&uninitialised, 2, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
     }
     (void)open;
 }

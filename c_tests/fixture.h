@@ -1,4 +1,4 @@
-/* fixture.h: contacts to test with, and outputs that tell whether they were written. */
+/* fixture.h: contacts, and outputs filled with a pattern that shows what a call wrote. */
 #ifndef FIXTURE_H
 #define FIXTURE_H
 
@@ -71,16 +71,16 @@ static inline mslip_contact elliptic_contact(void)
     return contact;
 }
 
-/* Contacts that were never prepared. */
-enum { UNPREPARED = 2 };
-static inline mslip_contact unprepared_contact(int which)
+/* Contacts that were never initialised. */
+enum { UNINITIALISED = 2 };
+static inline mslip_contact uninitialised_contact(int which)
 {
     mslip_contact contact;
     memset(&contact, which == 0 ? 0 : 0xff, sizeof contact);
     return contact;
 }
 
-/* The outputs of a call. Before it they hold a pattern; afterwards they tell what was written. */
+/* The outputs of a call, filled with a pattern before it. */
 enum { OUTPUTS = 4, CAPACITY = 256 };
 static double out[OUTPUTS][CAPACITY];
 static double reference[OUTPUTS][CAPACITY];
@@ -111,20 +111,20 @@ static inline int same_bits(const double *p, const double *q, size_t n)
     return memcmp(p, q, n * sizeof *p) == 0;
 }
 
-/* The call is refused with this status, and writes nothing to the outputs. */
-#define REFUSED(call, status) \
+/* The call is rejected with this status and writes no output. */
+#define REJECTED(call, status) \
     do { \
-        int32_t refused_as_; \
+        int32_t status_; \
         poison(); \
-        refused_as_ = (call); \
-        if (!check_that(refused_as_ == (status), __FILE__, __LINE__, #call " is refused as " #status)) { \
-            printf("    status %d: %s\n", (int)refused_as_, mslip_status_text(refused_as_)); \
+        status_ = (call); \
+        if (!check_that(status_ == (status), __FILE__, __LINE__, #call " returns " #status)) { \
+            printf("    status %d: %s\n", (int)status_, mslip_status_text(status_)); \
         } \
         check_that(untouched(), __FILE__, __LINE__, #call " writes nothing"); \
     } while (0)
 
 /* Every subset of the outputs gives what all outputs gave. Within the call, OUT(i) is output i or NULL; output i holds
-   lengths[i] numbers. The outputs of the full call stay in `reference`. */
+   lengths[i] doubles. The outputs of the full call stay in `reference`. */
 #define OUT(i) (subset_ >> (i) & 1 ? out[i] : NULL)
 #define EVERY_SUBSET(outputs, lengths, call) \
     do { \
@@ -150,7 +150,7 @@ static inline int subset_holds(int subset, int outputs, const size_t *lengths)
     return 1;
 }
 
-/* Numbers that no input may be. */
+/* Values that every input rejects. */
 static const double not_finite[3] = { NAN, INFINITY, -INFINITY };
 
 #endif

@@ -82,7 +82,7 @@ static int next_row(table *t)
             t->value[column] = (double)(end - rest);
         }
         if (end == rest || *end != (column + 1 < t->columns ? ',' : '\n')) {
-            fprintf(stderr, "%s: line %d is not a row of %d numbers\n", t->name, t->line, t->columns);
+            fprintf(stderr, "%s: line %d is not a row of %d values\n", t->name, t->line, t->columns);
             exit(2);
         }
         rest = end + 1;
@@ -236,7 +236,7 @@ static void check_history(const table *t, const reference_contact *r, size_t n, 
     double largest = 0.0;
 
     if (length > sizeof state / sizeof *state) {
-        fprintf(stderr, "a state of %d reversals has %lu numbers\n", REVERSALS, (unsigned long)length);
+        fprintf(stderr, "a state of %d reversals has %lu doubles\n", REVERSALS, (unsigned long)length);
         exit(2);
     }
     accepted(t, mslip_state_init(length, state));
@@ -283,11 +283,11 @@ static void check_harmonic_force(void)
     while (next_row(&t)) {
         const reference_contact *r = contact_of(&t, 1);
         size_t samples = (size_t)t.value[2];
-        size_t length = mslip_harmonic_workspace_length(HARMONICS, samples);
+        size_t length = mslip_harmonic_workspace_length(HARMONICS, samples, MSLIP_UNIFORM_SAMPLING);
         double *workspace = malloc(length * sizeof *workspace);
         double force[COEFFICIENTS], largest = 0.0;
 
-        accepted(&t, mslip_harmonic_workspace_init(HARMONICS, samples, length, workspace));
+        accepted(&t, mslip_harmonic_workspace_init(HARMONICS, samples, MSLIP_UNIFORM_SAMPLING, length, workspace));
         accepted(&t, mslip_harmonic_force(&r->contact, workspace, &t.value[3], force, NULL, NULL));
         for (int i = 0; i < COEFFICIENTS; ++i) {
             largest = fmax(largest, fabs(t.value[10 + i]));

@@ -1,4 +1,4 @@
-/* Alternating frequency/time through the C interface: workspaces, forces, Jacobians, many contacts at once. */
+/* Alternating frequency/time through the C interface: workspaces, forces, Jacobians. */
 #include "fixture.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static const double force_of_table[N] = {
 static double *workspace(void)
 {
     double *w = malloc(length * sizeof *w);
-    CHECK(w != NULL && mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, w) == MSLIP_OK);
+    CHECK(w != NULL && mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_OK);
     return w;
 }
 
@@ -30,25 +30,25 @@ static void test_workspace(void)
 {
     double *w;
 
-    length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES);
+    length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
     CHECK(length > 0);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS + 1, SAMPLES) > length);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS, 2 * SAMPLES) > length);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS + 1, SAMPLES, MSLIP_UNIFORM_SAMPLING) > length);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS, 2 * SAMPLES, MSLIP_UNIFORM_SAMPLING) > length);
 
-    /* Nothing is written beyond the promised length. */
+    /* Nothing is written beyond the reported length. */
     w = malloc((length + 8) * sizeof *w);
     memset(w, 0x5a, (length + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, w) == MSLIP_OK);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_OK);
     CHECK(is_poison(w + length, 8));
 
     memset(w, 0x5a, (length + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, 0, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init(0, SAMPLES, length, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init(SIZE_MAX, SAMPLES, length, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 0, length, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, length, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, length, NULL) == MSLIP_NULL_POINTER);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init(0, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init(SIZE_MAX, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 0, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, NULL) == MSLIP_NULL_POINTER);
     CHECK(is_poison(w, length + 8));
     free(w);
 }
@@ -65,7 +65,7 @@ static void test_force(void)
         CHECK_NEAR(reference[0][i], force_of_table[i], 2e-13 * 76.4);
     }
 
-    /* Rest is rest: the force of a constant displacement is steady. */
+    /* A constant displacement has a constant force. */
     double constant[N] = { 0.0 };
     constant[0] = 0.3 * contact.slip_displacement;
     CHECK(mslip_harmonic_force(&contact, w, constant, out[0], NULL, out[2]) == MSLIP_OK);
@@ -96,9 +96,9 @@ static void test_force(void)
     /* One harmonic at fine sampling: the complex stiffness, and the energy of its loop. */
     const double amplitude = 0.8 * contact.slip_displacement;
     double k_real, k_imag, single[N] = { 0.0 };
-    size_t fine_length = mslip_harmonic_workspace_length(HARMONICS, 1024);
+    size_t fine_length = mslip_harmonic_workspace_length(HARMONICS, 1024, MSLIP_UNIFORM_SAMPLING);
     double *fine = malloc(fine_length * sizeof *fine);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 1024, fine_length, fine) == MSLIP_OK);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 1024, MSLIP_UNIFORM_SAMPLING, fine_length, fine) == MSLIP_OK);
     single[1] = amplitude;
     CHECK(mslip_harmonic_force(&contact, fine, single, out[0], NULL, out[2]) == MSLIP_OK);
     CHECK(mslip_complex_stiffness(&contact, 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
@@ -110,19 +110,19 @@ static void test_force(void)
     for (int i = 0; i < 3; ++i) {
         memcpy(bad, displacement, sizeof bad);
         bad[N - 1] = not_finite[i];
-        REFUSED(mslip_harmonic_force(&contact, w, bad, out[0], out[1], out[2]), MSLIP_BAD_DISPLACEMENT);
+        REJECTED(mslip_harmonic_force(&contact, w, bad, out[0], out[1], out[2]), MSLIP_BAD_DISPLACEMENT);
     }
-    REFUSED(mslip_harmonic_force(NULL, w, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    REFUSED(mslip_harmonic_force(&contact, NULL, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    REFUSED(mslip_harmonic_force(&contact, w, NULL, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    for (int i = 0; i < UNPREPARED; ++i) {
-        const mslip_contact unprepared = unprepared_contact(i);
-        REFUSED(mslip_harmonic_force(&unprepared, w, displacement, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
+    REJECTED(mslip_harmonic_force(NULL, w, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    REJECTED(mslip_harmonic_force(&contact, NULL, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    REJECTED(mslip_harmonic_force(&contact, w, NULL, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
+    for (int i = 0; i < UNINITIALISED; ++i) {
+        const mslip_contact uninitialised = uninitialised_contact(i);
+        REJECTED(mslip_harmonic_force(&uninitialised, w, displacement, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
         memset(junk, i == 0 ? 0 : 0xff, length * sizeof *junk);
-        REFUSED(mslip_harmonic_force(&contact, junk, displacement, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
+        REJECTED(mslip_harmonic_force(&contact, junk, displacement, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
     }
 
-    /* What came between leaves no trace: the same bits again. */
+    /* Earlier calls do not affect the result. */
     CHECK(mslip_harmonic_force(&contact, w, displacement, out[0], out[1], out[2]) == MSLIP_OK);
     CHECK(same_bits(out[0], reference[0], N) && same_bits(out[1], reference[1], N * N));
     CHECK(out[2][0] == reference[2][0]);
@@ -136,47 +136,46 @@ static void test_force(void)
     free(w);
 }
 
-/* Nodes between the instants at which the force has kinks. */
-static void test_between_reversals(void)
+/* Gauss-Legendre nodes between the events. */
+static void test_event_driven(void)
 {
     enum { NODES = 64 };
     static const size_t lengths[3] = { N, N * N, 1 };
     const mslip_contact contacts[] = { flat_contact(), cylinder_contact(), elliptic_contact(), open_contact() };
-    const int rule = MSLIP_BETWEEN_REVERSALS;
-    const size_t needed = mslip_harmonic_workspace_length_rule(HARMONICS, NODES, rule);
+    const int32_t rule = MSLIP_EVENT_DRIVEN;
+    const size_t needed = mslip_harmonic_workspace_length(HARMONICS, NODES, rule);
     double *w = malloc((needed + 8) * sizeof *w);
 
-    CHECK(needed > 0 && mslip_harmonic_workspace_length_rule(HARMONICS, SAMPLES, MSLIP_EQUIDISTANT) == length);
-    CHECK(mslip_harmonic_workspace_length_rule(HARMONICS, NODES, 2) == 0);
-    CHECK(mslip_harmonic_workspace_length_rule(HARMONICS, NODES, -1) == 0);
-    CHECK(mslip_harmonic_workspace_length_rule(0, NODES, rule) == 0);
-    CHECK(mslip_harmonic_workspace_length_rule(SIZE_MAX, SIZE_MAX, rule) == 0);
+    CHECK(needed > 0 && mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING) == length);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS, NODES, 2) == 0);
+    CHECK(mslip_harmonic_workspace_length(HARMONICS, NODES, -1) == 0);
+    CHECK(mslip_harmonic_workspace_length(0, NODES, rule) == 0);
+    CHECK(mslip_harmonic_workspace_length(SIZE_MAX, SIZE_MAX, rule) == 0);
     memset(w, 0x5a, (needed + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, 2, needed, w) == MSLIP_BAD_RULE);
-    CHECK(mslip_harmonic_workspace_init_rule(0, NODES, rule, needed, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, 2 * HARMONICS, rule, needed, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed, NULL) == MSLIP_NULL_POINTER);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, 2, needed, w) == MSLIP_BAD_RULE);
+    CHECK(mslip_harmonic_workspace_init(0, NODES, rule, needed, w) == MSLIP_BAD_HARMONICS);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, rule, needed, w) == MSLIP_BAD_SAMPLES);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed, NULL) == MSLIP_NULL_POINTER);
     CHECK(is_poison(w, needed + 8));
-    CHECK(mslip_harmonic_workspace_init_rule(HARMONICS, NODES, rule, needed, w) == MSLIP_OK);
+    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed, w) == MSLIP_OK);
     CHECK(is_poison(w + needed, 8));
 
     EVERY_SUBSET(3, lengths, mslip_harmonic_force(&contacts[0], w, displacement, OUT(0), OUT(1), OUT(2)));
     for (int i = 0; i < N; ++i) {
-        /* The table is of 128 equidistant samples, and errs by these. */
+        /* The table is for 128 uniformly spaced samples and has their error. */
         CHECK_NEAR(reference[0][i], force_of_table[i], 1e-2 * 76.4);
     }
-    EVERY_SUBSET(3, lengths, mslip_interface_harmonic_force(1, contacts, NULL, w, displacement, OUT(0), OUT(1), OUT(2)));
 
     for (int i = 0; i < 4; ++i) {
-        /* Motions of every kind and size: none has turning points that are not found, or divides by what is not there. */
+        /* Motions of every kind and size have finite results. */
         static const double shapes[][N] = {
             { 0.0 },
             { 1.0 },
             { 0.0, 1.0 },
             { 0.5, 0.0, 1.0 },
-            { 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 / 3.0 }, /* sin t - sin(3t)/3: flat where it turns */
-            { 0.0, 1.0, 0.0, -0.25 },                     /* cos t - cos(2t)/4: flat where it turns */
+            { 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 / 3.0 }, /* sin t - sin(3t)/3: flat at its reversals */
+            { 0.0, 1.0, 0.0, -0.25 },                     /* cos t - cos(2t)/4: flat at a reversal */
             { 0.1, 0.3, -0.2, 0.2, 0.3, -0.4, 0.5 },
             { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0 },
         };
@@ -214,100 +213,11 @@ static void test_between_reversals(void)
     free(w);
 }
 
-/* Many contacts at once are as many single calls, to the last bit. */
-enum { ITEMS = 3 };
-static const int32_t active[ITEMS] = { 1, 0, -1 };
-
-static void test_interface_force(void)
-{
-    static const size_t lengths[3] = { ITEMS * N, ITEMS * N * N, ITEMS };
-    const mslip_contact contacts[ITEMS] = { flat_contact(), elliptic_contact(), cylinder_contact() };
-    mslip_contact unprepared[ITEMS];
-    double u[ITEMS * N];
-    double *w = workspace();
-
-    for (int i = 0; i < ITEMS * N; ++i) {
-        u[i] = displacement[i % N] * (1.0 + 0.3 * (i / N));
-    }
-    EVERY_SUBSET(3, lengths, mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, u, OUT(0), OUT(1), OUT(2)));
-    for (int i = 0; i < ITEMS; ++i) {
-        CHECK(mslip_harmonic_force(&contacts[i], w, u + i * N, out[0], out[1], out[2]) == MSLIP_OK);
-        CHECK(same_bits(out[0], reference[0] + i * N, N) && same_bits(out[1], reference[1] + i * N * N, N * N));
-        CHECK(out[2][0] == reference[2][i]);
-    }
-
-    /* Item 1 rests: its outputs are untouched, and nothing of it is looked at. */
-    memcpy(unprepared, contacts, sizeof unprepared);
-    unprepared[1] = unprepared_contact(0);
-    u[N] = NAN;
-    poison();
-    CHECK(mslip_interface_harmonic_force(ITEMS, unprepared, active, w, u, out[0], out[1], out[2]) == MSLIP_OK);
-    CHECK(is_poison(out[0] + N, N) && is_poison(out[1] + N * N, N * N) && is_poison(out[2] + 1, 1));
-    CHECK(same_bits(out[0], reference[0], N) && same_bits(out[0] + 2 * N, reference[0] + 2 * N, N));
-    CHECK(same_bits(out[1] + 2 * N * N, reference[1] + 2 * N * N, N * N));
-
-    /* At work it is refused, and nothing is written for the others either. */
-    REFUSED(mslip_interface_harmonic_force(ITEMS, unprepared, NULL, w, u, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
-    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, u, out[0], out[1], out[2]),
-            MSLIP_BAD_DISPLACEMENT);
-    REFUSED(mslip_interface_harmonic_force(ITEMS, NULL, NULL, w, u, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, NULL, u, out[0], out[1], out[2]),
-            MSLIP_NULL_POINTER);
-    REFUSED(mslip_interface_harmonic_force(ITEMS, contacts, NULL, w, NULL, out[0], out[1], out[2]),
-            MSLIP_NULL_POINTER);
-    poison();
-    CHECK(mslip_interface_harmonic_force(0, contacts, NULL, w, u, out[0], out[1], out[2]) == MSLIP_OK && untouched());
-
-    memset(w, 0, length * sizeof *w);
-    REFUSED(mslip_interface_harmonic_force(1, contacts, NULL, w, u, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
-    free(w);
-}
-
-static void test_interface_stiffness(void)
-{
-    static const size_t lengths[4] = { ITEMS, ITEMS, ITEMS, ITEMS };
-    const mslip_contact contacts[ITEMS] = { flat_contact(), elliptic_contact(), cylinder_contact() };
-    mslip_contact unprepared[ITEMS];
-    double amplitude[ITEMS] = { 3e-8, 5e-7, 0.0 };
-
-    EVERY_SUBSET(4, lengths, mslip_interface_complex_stiffness(ITEMS, contacts, NULL, amplitude, OUT(0), OUT(1), OUT(2),
-                                                               OUT(3)));
-    for (int i = 0; i < ITEMS; ++i) {
-        CHECK(mslip_complex_stiffness(&contacts[i], 1, &amplitude[i], out[0], out[1], out[2], out[3]) == MSLIP_OK);
-        for (int k = 0; k < 4; ++k) {
-            CHECK(same_bits(out[k], reference[k] + i, 1));
-        }
-    }
-
-    memcpy(unprepared, contacts, sizeof unprepared);
-    unprepared[1] = unprepared_contact(1);
-    amplitude[1] = -1.0;
-    poison();
-    CHECK(mslip_interface_complex_stiffness(ITEMS, unprepared, active, amplitude, out[0], out[1], out[2], out[3])
-          == MSLIP_OK);
-    for (int k = 0; k < 4; ++k) {
-        CHECK(is_poison(out[k] + 1, 1) && out[k][0] == reference[k][0] && out[k][2] == reference[k][2]);
-    }
-    REFUSED(mslip_interface_complex_stiffness(ITEMS, unprepared, NULL, amplitude, out[0], out[1], out[2], out[3]),
-            MSLIP_BAD_CONTACT);
-    REFUSED(mslip_interface_complex_stiffness(ITEMS, contacts, NULL, amplitude, out[0], out[1], out[2], out[3]),
-            MSLIP_BAD_AMPLITUDE);
-    REFUSED(mslip_interface_complex_stiffness(ITEMS, NULL, NULL, amplitude, out[0], out[1], out[2], out[3]),
-            MSLIP_NULL_POINTER);
-    REFUSED(mslip_interface_complex_stiffness(ITEMS, contacts, NULL, NULL, out[0], out[1], out[2], out[3]),
-            MSLIP_NULL_POINTER);
-    poison();
-    CHECK(mslip_interface_complex_stiffness(0, contacts, NULL, amplitude, out[0], out[1], out[2], out[3]) == MSLIP_OK
-          && untouched());
-}
-
 int main(int argc, char **argv)
 {
     check_arguments(argc, argv);
     test_workspace();
     test_force();
-    test_between_reversals();
-    test_interface_force();
-    test_interface_stiffness();
+    test_event_driven();
     return check_report();
 }

@@ -1,4 +1,4 @@
-// The header in C++17: memory by vectors, and threads that share contacts and give the bits of one thread.
+// The header in C++17: vectors as buffers, and threads that share contacts and have the bits of one thread.
 #include "check.h"
 
 #include <microslip.h>
@@ -12,7 +12,7 @@
 
 static_assert(std::is_trivially_copyable<mslip_contact>::value, "contacts may be stored and sent");
 static_assert(std::is_standard_layout<mslip_contact>::value, "contacts are plain data");
-static_assert(sizeof(mslip_contact) == 1992 && sizeof(mslip_parameters) == 80, "the layout is fixed");
+static_assert(sizeof(mslip_contact) == 1976 && sizeof(mslip_parameters) == 80, "the layout is fixed");
 
 namespace {
 
@@ -31,17 +31,17 @@ void accept(std::int32_t status)
 
 class Workspace {
 public:
-    Workspace() : numbers_(mslip_harmonic_workspace_length(harmonics, samples))
+    Workspace() : values_(mslip_harmonic_workspace_length(harmonics, samples, MSLIP_UNIFORM_SAMPLING))
     {
-        accept(mslip_harmonic_workspace_init(harmonics, samples, numbers_.size(), numbers_.data()));
+        accept(mslip_harmonic_workspace_init(harmonics, samples, MSLIP_UNIFORM_SAMPLING, values_.size(), values_.data()));
     }
-    double *data() { return numbers_.data(); }
+    double *data() { return values_.data(); }
 
 private:
-    std::vector<double> numbers_;
+    std::vector<double> values_;
 };
 
-mslip_contact prepare(std::size_t index)
+mslip_contact initialised(std::size_t index)
 {
     mslip_parameters p;
     mslip_parameters_default(&p);
@@ -58,12 +58,12 @@ mslip_contact prepare(std::size_t index)
     return contact;
 }
 
-// What one contact answers, by every function that has memory of its own.
-struct Answer {
+// The results of one contact, from every function with a state or a workspace.
+struct Results {
     std::vector<double> harmonic, jacobian, force, state, stiffness;
     double dissipated = 0.0;
 
-    bool operator==(const Answer &other) const
+    bool operator==(const Results &other) const
     {
         auto same = [](const std::vector<double> &x, const std::vector<double> &y) {
             return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
@@ -73,51 +73,51 @@ struct Answer {
     }
 };
 
-Answer ask(const mslip_contact &contact, double *workspace)
+Results results_of(const mslip_contact &contact, double *workspace)
 {
-    Answer answer;
+    Results results;
     std::vector<double> displacement(coefficients, 0.1 * contact.slip_displacement);
     displacement[1] = 1.1 * contact.slip_displacement;
-    answer.harmonic.resize(coefficients);
-    answer.jacobian.resize(coefficients * coefficients);
-    accept(mslip_harmonic_force(&contact, workspace, displacement.data(), answer.harmonic.data(),
-                                answer.jacobian.data(), &answer.dissipated));
+    results.harmonic.resize(coefficients);
+    results.jacobian.resize(coefficients * coefficients);
+    accept(mslip_harmonic_force(&contact, workspace, displacement.data(), results.harmonic.data(),
+                                results.jacobian.data(), &results.dissipated));
 
     std::vector<double> path(steps);
     for (std::size_t i = 0; i < steps; ++i) {
         const double t = static_cast<double>(i);
         path[i] = contact.slip_displacement * std::sin(0.3 * t) * std::cos(0.011 * t * t);
     }
-    answer.state.resize(mslip_state_length(steps));
-    answer.force.resize(steps);
-    accept(mslip_state_init(answer.state.size(), answer.state.data()));
-    accept(mslip_masing_path(&contact, answer.state.size(), answer.state.data(), steps, path.data(),
-                             answer.state.data(), answer.force.data(), nullptr, nullptr));
+    results.state.resize(mslip_state_length(steps));
+    results.force.resize(steps);
+    accept(mslip_state_init(results.state.size(), results.state.data()));
+    accept(mslip_masing_path(&contact, results.state.size(), results.state.data(), steps, path.data(),
+                             results.state.data(), results.force.data(), nullptr, nullptr));
 
-    answer.stiffness.resize(2);
+    results.stiffness.resize(2);
     const double amplitude = 0.7 * contact.slip_displacement;
-    accept(mslip_complex_stiffness(&contact, 1, &amplitude, &answer.stiffness[0], &answer.stiffness[1], nullptr,
+    accept(mslip_complex_stiffness(&contact, 1, &amplitude, &results.stiffness[0], &results.stiffness[1], nullptr,
                                    nullptr));
-    return answer;
+    return results;
 }
 
 void test_threads()
 {
     constexpr std::size_t threads = 4;
     std::vector<mslip_contact> shared;
-    std::vector<Answer> alone, together(contacts);
+    std::vector<Results> alone, together(contacts);
     Workspace workspace;
 
     for (std::size_t i = 0; i < contacts; ++i) {
-        shared.push_back(prepare(i));
-        alone.push_back(ask(shared.back(), workspace.data()));
+        shared.push_back(initialised(i));
+        alone.push_back(results_of(shared.back(), workspace.data()));
     }
     std::vector<std::thread> pool;
     for (std::size_t first = 0; first < threads; ++first) {
         pool.emplace_back([&shared, &together, first] {
             Workspace own;
             for (std::size_t i = first; i < contacts; i += threads) {
-                together[i] = ask(shared[i], own.data());
+                together[i] = results_of(shared[i], own.data());
             }
         });
     }
@@ -130,19 +130,19 @@ void test_threads()
     }
 }
 
-// A copy of the bytes is the contact.
+// A copy of the bytes of a contact is that contact.
 void test_copy()
 {
-    const mslip_contact contact = prepare(3);
+    const mslip_contact contact = initialised(3);
     std::vector<unsigned char> bytes(sizeof contact);
     mslip_contact copy;
     Workspace workspace;
     std::memcpy(bytes.data(), &contact, sizeof contact);
     std::memcpy(&copy, bytes.data(), sizeof copy);
-    CHECK(ask(contact, workspace.data()) == ask(copy, workspace.data()));
+    CHECK(results_of(contact, workspace.data()) == results_of(copy, workspace.data()));
 }
 
-void test_refusal()
+void test_rejection()
 {
     mslip_parameters p;
     mslip_parameters_default(&p);
@@ -158,6 +158,6 @@ int main(int argc, char **argv)
     check_arguments(argc, argv);
     test_threads();
     test_copy();
-    test_refusal();
+    test_rejection();
     return check_report();
 }

@@ -1,10 +1,10 @@
-/* The sizes and offsets of the structures: fixed, because a Fortran module and stored contacts rely on them. */
+/* Sizes and offsets of the structures, on which the Fortran module and stored contacts depend. */
 #include "check.h"
 
 #include <microslip.h>
 #include <stddef.h>
 
-/* An array of negative length is refused when this is compiled, in C99 and in C++. */
+/* An array of negative length does not compile, in C99 and in C++. */
 #define AT_COMPILE_TIME(name, condition) typedef char name[(condition) ? 1 : -1]
 #define OFFSET(type, field, bytes) AT_COMPILE_TIME(type##_##field, offsetof(type, field) == (bytes))
 #define SIZE(type, bytes) AT_COMPILE_TIME(type##_size, sizeof(type) == (bytes))
@@ -36,9 +36,10 @@ OFFSET(mslip_contact, slip_force, 16);
 OFFSET(mslip_contact, slip_displacement, 24);
 OFFSET(mslip_contact, initial_stiffness, 32);
 OFFSET(mslip_contact, slip_energy, 40);
-SIZE(mslip_contact, 1992);
+OFFSET(mslip_contact, reserved, 48);
+SIZE(mslip_contact, 1976);
 
-/* What the library writes lies where the header says, and nowhere else. */
+/* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)
 {
     struct {

@@ -1,7 +1,7 @@
-/* refusal.h: bad input, one at a time. Everything that a call is given lies before a page that must not be touched, and all of it
-   is compared with what it was. */
-#ifndef REFUSAL_H
-#define REFUSAL_H
+/* rejection.h: invalid inputs, one at a time. All memory of a call ends at a protected page and is compared with a copy from before
+   the call. */
+#ifndef REJECTION_H
+#define REJECTION_H
 
 #include "fixture.h"
 
@@ -19,69 +19,69 @@ static inline double from_bits(uint64_t bits)
     return value;
 }
 
-/* Quiet and signalling, of either sign, and infinities: moved about, never computed with. */
-enum { NOT_NUMBERS = 6 };
-static const uint64_t not_numbers[NOT_NUMBERS] = {
+/* NaN, quiet and signalling, of either sign, and infinities, as bits: an assignment of a double could trap. */
+enum { NON_FINITE = 6 };
+static const uint64_t non_finite[NON_FINITE] = {
     0x7ff8000000000000, 0xfff8000000000000, 0x7ff0000000000001, 0xfff4000000000000, 0x7ff0000000000000, 0xfff0000000000000,
 };
 
-/* Every status that there is, what its sentence names, what it says is allowed, and which driver has rows for it. */
+/* Every status: an excerpt of its message, and the driver that tests it. */
 enum { PARAMETERS, ARGUMENTS };
 typedef struct {
     int32_t code;
-    const char *names, *allows;
+    const char *excerpt;
     int driver;
-} refusal;
+} rejection;
 
-static const refusal refusals[] = {
-    { MSLIP_NULL_POINTER, "pointer is NULL", "must be given", ARGUMENTS },
-    { MSLIP_BAD_FLAT_HALF_WIDTH, "flat_half_width", "finite number >= 0", PARAMETERS },
-    { MSLIP_BAD_EDGE_RADIUS, "edge_radius", "finite number > 0", PARAMETERS },
-    { MSLIP_BAD_LENGTH, "length", "finite number > 0", PARAMETERS },
-    { MSLIP_BAD_NORMAL_FORCE, "normal_force", "finite number >= 0", PARAMETERS },
-    { MSLIP_BAD_FRICTION_COEFFICIENT, "friction_coefficient", "finite number >= 0", PARAMETERS },
-    { MSLIP_BAD_YOUNG_MODULUS, "young_modulus", "finite number > 0", PARAMETERS },
-    { MSLIP_BAD_POISSON_RATIO, "poisson_ratio", "0 <= nu <= 0.5", PARAMETERS },
-    { MSLIP_BAD_DISPLACEMENT_REFERENCE, "displacement_reference", "MSLIP_CENTRE_POINT (0) or MSLIP_RIGID_STRIP (1)", PARAMETERS },
-    { MSLIP_BAD_SEMI_AXIS_X, "semi_axis_x", "finite number > 0", PARAMETERS },
-    { MSLIP_BAD_SEMI_AXIS_Y, "semi_axis_y", "finite number > 0", PARAMETERS },
-    { MSLIP_LENGTH_TOO_SHORT, "length is too short", "2 length > b", PARAMETERS },
-    { MSLIP_OUT_OF_RANGE, "together", "1e-150 to 1e150", PARAMETERS },
-    { MSLIP_BAD_CONTACT, "contact", "mslip_contact_init", ARGUMENTS },
-    { MSLIP_BAD_STATE, "state", "mslip_state_init", ARGUMENTS },
-    { MSLIP_BAD_WORKSPACE, "workspace", "mslip_harmonic_workspace_init", ARGUMENTS },
-    { MSLIP_STATE_TOO_SHORT, "state_length", "mslip_state_length", ARGUMENTS },
-    { MSLIP_STATE_FULL, "reversal", "mslip_state_length", ARGUMENTS },
-    { MSLIP_WORKSPACE_TOO_SHORT, "workspace_length", "mslip_harmonic_workspace_length", ARGUMENTS },
-    { MSLIP_BAD_FORCE, "force", "finite number", ARGUMENTS },
-    { MSLIP_FORCE_EXCEEDS_SLIP, "|force|", "slip_force", ARGUMENTS },
-    { MSLIP_BAD_DISPLACEMENT, "displacement", "1e150", ARGUMENTS },
-    { MSLIP_BAD_POSITION, "position x", "finite number", ARGUMENTS },
-    { MSLIP_BAD_AMPLITUDE, "amplitude", "finite number >= 0, at most 1e150", ARGUMENTS },
-    { MSLIP_BAD_FORCE_AMPLITUDE, "force_amplitude", "finite number >= 0", ARGUMENTS },
-    { MSLIP_BAD_HARMONICS, "number of harmonics", "1 to 16777216", ARGUMENTS },
-    { MSLIP_BAD_SAMPLES, "number of samples", "16777216", ARGUMENTS },
-    { MSLIP_BAD_COUNT, "number of sliders", "1 to 65536", ARGUMENTS },
-    { MSLIP_BAD_RULE, "rule", "MSLIP_EQUIDISTANT (0) or MSLIP_BETWEEN_REVERSALS (1)", ARGUMENTS },
-    { MSLIP_NOT_AVAILABLE, "slip", "elliptical contact", ARGUMENTS },
-    { MSLIP_BAD_ARRAY_SIZE, "array", "longer than memory", ARGUMENTS },
-    { MSLIP_BAD_ALIGNMENT, "pointer", "multiple of", ARGUMENTS },
+static const rejection rejections[] = {
+    { MSLIP_NULL_POINTER, "required pointer is NULL", ARGUMENTS },
+    { MSLIP_BAD_FLAT_HALF_WIDTH, "flat_half_width must be finite and >= 0", PARAMETERS },
+    { MSLIP_BAD_EDGE_RADIUS, "edge_radius must be finite and > 0", PARAMETERS },
+    { MSLIP_BAD_LENGTH, "length must be finite and > 0", PARAMETERS },
+    { MSLIP_BAD_NORMAL_FORCE, "normal_force must be finite and >= 0", PARAMETERS },
+    { MSLIP_BAD_FRICTION_COEFFICIENT, "friction_coefficient must be finite and >= 0", PARAMETERS },
+    { MSLIP_BAD_YOUNG_MODULUS, "young_modulus must be finite and > 0", PARAMETERS },
+    { MSLIP_BAD_POISSON_RATIO, "poisson_ratio must be between 0 and 0.5", PARAMETERS },
+    { MSLIP_BAD_DISPLACEMENT_REFERENCE, "displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP", PARAMETERS },
+    { MSLIP_BAD_SEMI_AXIS_X, "semi_axis_x must be finite and > 0", PARAMETERS },
+    { MSLIP_BAD_SEMI_AXIS_Y, "semi_axis_y must be finite and > 0", PARAMETERS },
+    { MSLIP_LENGTH_TOO_SHORT, "requires 2*length > b", PARAMETERS },
+    { MSLIP_OUT_OF_RANGE, "1e-150 .. 1e150", PARAMETERS },
+    { MSLIP_BAD_CONTACT, "invalid contact", ARGUMENTS },
+    { MSLIP_BAD_STATE, "invalid state", ARGUMENTS },
+    { MSLIP_BAD_WORKSPACE, "invalid workspace", ARGUMENTS },
+    { MSLIP_STATE_TOO_SHORT, "at least mslip_state_length(0)", ARGUMENTS },
+    { MSLIP_WORKSPACE_TOO_SHORT, "at least the value of mslip_harmonic_workspace_length", ARGUMENTS },
+    { MSLIP_BAD_FORCE, "a force must be finite", ARGUMENTS },
+    { MSLIP_FORCE_EXCEEDS_SLIP, "must not exceed mu N", ARGUMENTS },
+    { MSLIP_BAD_DISPLACEMENT, "a displacement must be finite and at most 1e150", ARGUMENTS },
+    { MSLIP_BAD_POSITION, "a position x must be finite", ARGUMENTS },
+    { MSLIP_BAD_AMPLITUDE, "a displacement amplitude must be between 0 and 1e150", ARGUMENTS },
+    { MSLIP_BAD_FORCE_AMPLITUDE, "a force amplitude must be finite and >= 0", ARGUMENTS },
+    { MSLIP_BAD_HARMONICS, "the number of harmonics must be between 1 and 2^24", ARGUMENTS },
+    { MSLIP_BAD_SAMPLES, "the number of samples must exceed twice the number of harmonics", ARGUMENTS },
+    { MSLIP_BAD_COUNT, "the number of sliders must be between 1 and 65536", ARGUMENTS },
+    { MSLIP_BAD_RULE, "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN", ARGUMENTS },
+    { MSLIP_NOT_AVAILABLE, "not available for this kind of contact", ARGUMENTS },
+    { MSLIP_BAD_INDEX, "an index must refer to one of the n_contacts contacts", ARGUMENTS },
+    { MSLIP_BAD_ARRAY_SIZE, "too long to be addressed", ARGUMENTS },
+    { MSLIP_BAD_ALIGNMENT, "misaligned pointer", ARGUMENTS },
 };
-enum { REFUSALS = sizeof refusals / sizeof *refusals };
+enum { REJECTIONS = sizeof rejections / sizeof *rejections };
 
-/* Codes that calls were refused with. */
+/* Codes of the rejections so far. */
 static unsigned char seen[128];
 
 static inline void check_every_code_was_seen(int driver)
 {
-    for (int i = 0; i < REFUSALS; ++i) {
-        if (refusals[i].driver == driver && !check_that(seen[refusals[i].code], __FILE__, __LINE__, "every code has a row")) {
-            printf("    none was refused with %d: %s\n", (int)refusals[i].code, mslip_status_text(refusals[i].code));
+    for (int i = 0; i < REJECTIONS; ++i) {
+        if (rejections[i].driver == driver && !check_that(seen[rejections[i].code], __FILE__, __LINE__, "every code was returned")) {
+            printf("    never returned: %d: %s\n", (int)rejections[i].code, mslip_status_text(rejections[i].code));
         }
     }
 }
 
-/* A piece of memory whose end is that of a page, with a page behind it that is not to be touched. */
+/* A buffer that ends at a protected page. */
 enum { REGIONS = 12 };
 typedef struct {
     unsigned char *start, *before;
@@ -107,14 +107,14 @@ static inline region *make_region(size_t bytes)
 #endif
     r->before = malloc(r->bytes);
     if (regions_made > REGIONS || r->start == NULL || r->before == NULL) {
-        fputs("no memory\n", stderr);
+        fputs("out of memory\n", stderr);
         exit(2);
     }
     memset(r->start, 0x5a, r->bytes);
     return r;
 }
 
-/* The last so many bytes of a region. */
+/* The last bytes of a region. */
 static inline void *last(const region *r, size_t bytes)
 {
     return r->start + r->bytes - bytes;
@@ -150,7 +150,7 @@ static inline int nothing_changed(void)
     return 1;
 }
 
-/* An operation that a host may trap was raised: tested after every call, whether or not it is trapped here. */
+/* Floating-point exceptions that an application may trap; cleared. */
 static inline int raised(void)
 {
     int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
@@ -158,14 +158,14 @@ static inline int raised(void)
     return flags;
 }
 
-/* One row: the call was refused with this status, and left everything as it was. */
-static inline int check_refused(int32_t status, int32_t wanted, const char *function, const char *what)
+/* The call was rejected with this status and modified nothing. */
+static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
 {
     int flags = raised(), untouched_ = nothing_changed();
-    int holds = check_that(status == wanted && flags == 0 && untouched_, __FILE__, __LINE__, "refused, and nothing written");
+    int holds = check_that(status == expected && flags == 0 && untouched_, __FILE__, __LINE__, "rejected, and nothing modified");
     if (!holds) {
-        printf("    %s, %s: status %d, not %d; flags %x; %s\n", function, what, (int)status, (int)wanted, flags,
-               untouched_ ? "untouched" : "memory was changed");
+        printf("    %s, %s: status %d, not %d; flags %x; %s\n", function, what, (int)status, (int)expected, flags,
+               untouched_ ? "memory unmodified" : "memory was modified");
         restore_regions();
     }
     if (status >= 0 && status < (int32_t)sizeof seen) {
