@@ -12,30 +12,30 @@ static double *shared;
 /* One displacement more than there are. */
 static int overrun(void)
 {
-    double *way = (double *)malloc(4 * sizeof *way), force[5];
-    memset(way, 0, 4 * sizeof *way);
-    return mslip_monotonic_force(&contact, 5, way, force, NULL, NULL);
+    double *motion = (double *)malloc(4 * sizeof *motion), force[5];
+    memset(motion, 0, 4 * sizeof *motion);
+    return mslip_monotonic_force(&contact, 5, motion, force, NULL, NULL);
 }
 
 /* One force more than there is room for. */
 static int overflow(void)
 {
-    double way[5] = { 0.0, 1e-7, 2e-7, 3e-7, 4e-7 }, *force = (double *)malloc(4 * sizeof *force);
-    return mslip_monotonic_force(&contact, 5, way, force, NULL, NULL);
+    double motion[5] = { 0.0, 1e-7, 2e-7, 3e-7, 4e-7 }, *force = (double *)malloc(4 * sizeof *force);
+    return mslip_monotonic_force(&contact, 5, motion, force, NULL, NULL);
 }
 
 static int uninitialised(void)
 {
-    double *way = (double *)malloc(4 * sizeof *way), force[4];
-    return mslip_monotonic_force(&contact, 4, way, force, NULL, NULL);
+    double *motion = (double *)malloc(4 * sizeof *motion), force[4];
+    return mslip_monotonic_force(&contact, 4, motion, force, NULL, NULL);
 }
 
 static void *harmonic_force(void *unused)
 {
-    const double way[3] = { 0.0, contact.slip_displacement, 0.0 };
+    const double motion[3] = { 0.0, contact.slip_displacement, 0.0 };
     double force[3];
     for (int i = 0; i < 1000; ++i) {
-        mslip_harmonic_force(&contact, shared, way, force, NULL, NULL);
+        mslip_harmonic_force(&contact, shared, motion, force, NULL, NULL);
     }
     return unused;
 }
@@ -43,9 +43,9 @@ static void *harmonic_force(void *unused)
 /* Two threads with one workspace. */
 static int race(void)
 {
-    const size_t n = mslip_harmonic_workspace_length(1, 64);
+    const size_t n = mslip_harmonic_workspace_length(1, 64, MSLIP_UNIFORM_SAMPLING);
     shared = (double *)malloc(n * sizeof *shared);
-    mslip_harmonic_workspace_init(1, 64, n, shared);
+    mslip_harmonic_workspace_init(1, 64, MSLIP_UNIFORM_SAMPLING, n, shared);
 #ifdef _OPENMP
 #pragma omp parallel num_threads(2)
     harmonic_force(NULL);
@@ -67,7 +67,7 @@ int main(int argc, char **argv)
         const char *name;
         int (*make)(void);
     } mistakes[] = { { "overrun", overrun }, { "overflow", overflow }, { "uninitialised", uninitialised }, { "race", race } };
-    prepare(0, &contact);
+    initialise(0, &contact);
     for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
         if (argc == 2 && strcmp(argv[1], mistakes[i].name) == 0) {
             return mistakes[i].make();

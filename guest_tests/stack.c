@@ -46,7 +46,7 @@ static size_t depth(struct task *task, unsigned char *stack)
 
 int main(void)
 {
-    struct task task = { NULL, { NULL, { workspace(MSLIP_EQUIDISTANT), workspace(MSLIP_BETWEEN_REVERSALS) }, 0 } };
+    struct task task = { NULL, { NULL, { workspace(MSLIP_UNIFORM_SAMPLING), workspace(MSLIP_EVENT_DRIVEN) }, 0 } };
     unsigned char *stack = (unsigned char *)mmap(NULL, SIZE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (stack == MAP_FAILED) {
         abort();
@@ -59,7 +59,7 @@ int main(void)
         size_t deepest = 0;
         for (int which = 0; which < CONTACTS; ++which) {
             mslip_contact contact;
-            prepare(which, &contact);
+            initialise(which, &contact);
             task.visit.contact = &contact;
             task.make = calls[i].make;
             const size_t taken = depth(&task, stack) - thread;

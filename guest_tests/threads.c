@@ -17,7 +17,7 @@ static int threads;
 /* Every so many contacts, from the first one on. */
 static void work(int first)
 {
-    double *own[RULES] = { workspace(MSLIP_EQUIDISTANT), workspace(MSLIP_BETWEEN_REVERSALS) };
+    double *own[RULES] = { workspace(MSLIP_UNIFORM_SAMPLING), workspace(MSLIP_EVENT_DRIVEN) };
     for (int i = first; i < CONTACTS; i += threads) {
         answers[i] = visit_one(&contacts[i], own);
     }
@@ -26,11 +26,11 @@ static void work(int first)
 }
 
 #ifdef _OPENMP
-static void prepare_all(void)
+static void initialise_all(void)
 {
 #pragma omp parallel for num_threads(MOST)
     for (int i = 0; i < CONTACTS; ++i) {
-        prepare(i, &contacts[i]);
+        initialise(i, &contacts[i]);
     }
 }
 
@@ -42,10 +42,10 @@ static void work_all(void)
     }
 }
 #else
-static void *prepare_some(void *first)
+static void *initialise_some(void *first)
 {
     for (mslip_contact *contact = (mslip_contact *)first; contact < contacts + CONTACTS; contact += MOST) {
-        prepare((int)(contact - contacts), contact);
+        initialise((int)(contact - contacts), contact);
     }
     return NULL;
 }
@@ -69,9 +69,9 @@ static void on_threads(int n, void *(*run)(void *))
     }
 }
 
-static void prepare_all(void)
+static void initialise_all(void)
 {
-    on_threads(MOST, prepare_some);
+    on_threads(MOST, initialise_some);
 }
 
 static void work_all(void)
@@ -86,12 +86,12 @@ int main(int argc, char **argv)
     int passed = 0, failed = 0;
 
     if (argc > 1 && strcmp(argv[1], "asked") == 0) {
-        prepare(0, contacts);
+        initialise(0, contacts);
     }
-    prepare_all();
+    initialise_all();
     for (int i = 0; i < CONTACTS; ++i) {
         mslip_contact contact;
-        prepare(i, &contact);
+        initialise(i, &contact);
         ++*(memcmp(&contact, &contacts[i], sizeof contact) == 0 ? &passed : &failed);
     }
     for (threads = 1; threads <= MOST; threads *= 2) {

@@ -16,7 +16,7 @@ uint64_t hashed(uint64_t hash, const void *bytes, size_t n)
     return hash;
 }
 
-static double *numbers(size_t n)
+static double *doubles(size_t n)
 {
     double *memory = (double *)malloc(n * sizeof *memory);
     if (memory == NULL) {
@@ -40,7 +40,7 @@ static void take(struct visit *visit, double *output, size_t n)
     free(output);
 }
 
-void prepare(int which, mslip_contact *contact)
+void initialise(int which, mslip_contact *contact)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, OPEN, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
@@ -67,20 +67,13 @@ void prepare(int which, mslip_contact *contact)
     p.material[0] = p.material[1] = steel;
     p.displacement_reference = kind == RIGID ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
     accept(mslip_contact_init(&p, contact));
-
-    mslip_contact like;
-    p.friction_coefficient = 0.3;
-    accept(mslip_contact_init_like(&p, contact, &like));
-    if (size == 1) {
-        *contact = like;
-    }
 }
 
 double *workspace(int32_t rule)
 {
-    const size_t n = mslip_harmonic_workspace_length_rule(HARMONICS, SAMPLES, rule);
-    double *memory = numbers(n);
-    accept(mslip_harmonic_workspace_init_rule(HARMONICS, SAMPLES, rule, n, memory));
+    const size_t n = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
+    double *memory = doubles(n);
+    accept(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, rule, n, memory));
     return memory;
 }
 
@@ -88,7 +81,7 @@ double *workspace(int32_t rule)
 static double *multiples(double unit, size_t n, double largest)
 {
     static const double all[POINTS] = { 0.0, 1e-9, 0.3, 0.9, 0.9995, 1.0, 1.0005, 1.03, 2.5 };
-    double *x = numbers(n);
+    double *x = doubles(n);
     for (size_t i = 0; i < n; ++i) {
         const double multiple = all[i % POINTS];
         x[i] = unit * (multiple < largest ? multiple : largest);
@@ -99,7 +92,7 @@ static double *multiples(double unit, size_t n, double largest)
 /* Swings that grow and shrink. */
 static double *path(const mslip_contact *contact, size_t n)
 {
-    double *x = numbers(n);
+    double *x = doubles(n);
     for (size_t i = 0; i < n; ++i) {
         const double t = (double)(i % 9) - 4.0, sign = i % 2 == 0 ? 1.0 : -1.0;
         x[i] = contact->slip_displacement * (i % 3 == 0 ? 0.3 * t : sign * (0.9 - 0.1 * t));
@@ -110,7 +103,7 @@ static double *path(const mslip_contact *contact, size_t n)
 static void tractions(struct visit *visit)
 {
     double *x = multiples(visit->contact->half_width, POINTS, 1.1);
-    double *pressure = numbers(POINTS), *shear = numbers(POINTS);
+    double *pressure = doubles(POINTS), *shear = doubles(POINTS);
     accept(mslip_tractions(visit->contact, 0.7 * visit->contact->slip_force, POINTS, x, pressure, shear));
     take(visit, pressure, POINTS);
     take(visit, shear, POINTS);
@@ -120,14 +113,14 @@ static void tractions(struct visit *visit)
 static void slip(struct visit *visit)
 {
     double *x = multiples(visit->contact->half_width, POINTS, 1.1);
-    double *way = numbers(POINTS), *damage = numbers(POINTS);
-    const int32_t status = mslip_slip(visit->contact, 0.7 * visit->contact->slip_force, POINTS, x, way, damage);
+    double *motion = doubles(POINTS), *damage = doubles(POINTS);
+    const int32_t status = mslip_slip(visit->contact, 0.7 * visit->contact->slip_force, POINTS, x, motion, damage);
     if (status == MSLIP_NOT_AVAILABLE) {
-        free(way);
+        free(motion);
         free(damage);
     } else {
         accept(status);
-        take(visit, way, POINTS);
+        take(visit, motion, POINTS);
         take(visit, damage, POINTS);
     }
     free(x);
@@ -136,9 +129,9 @@ static void slip(struct visit *visit)
 static void displacement(struct visit *visit)
 {
     double *force = multiples(visit->contact->slip_force, POINTS, 1.0);
-    double *way = numbers(POINTS), *compliance = numbers(POINTS), *stick = numbers(POINTS);
-    accept(mslip_monotonic_displacement(visit->contact, POINTS, force, way, compliance, stick));
-    take(visit, way, POINTS);
+    double *motion = doubles(POINTS), *compliance = doubles(POINTS), *stick = doubles(POINTS);
+    accept(mslip_monotonic_displacement(visit->contact, POINTS, force, motion, compliance, stick));
+    take(visit, motion, POINTS);
     take(visit, compliance, POINTS);
     take(visit, stick, POINTS);
     free(force);
@@ -146,73 +139,76 @@ static void displacement(struct visit *visit)
 
 static void force(struct visit *visit)
 {
-    double *way = multiples(visit->contact->slip_displacement, POINTS, 3.0);
-    double *response = numbers(POINTS), *stiffness = numbers(POINTS), *stick = numbers(POINTS);
-    accept(mslip_monotonic_force(visit->contact, POINTS, way, response, stiffness, stick));
+    double *motion = multiples(visit->contact->slip_displacement, POINTS, 3.0);
+    double *response = doubles(POINTS), *stiffness = doubles(POINTS), *stick = doubles(POINTS);
+    accept(mslip_monotonic_force(visit->contact, POINTS, motion, response, stiffness, stick));
     take(visit, response, POINTS);
     take(visit, stiffness, POINTS);
     take(visit, stick, POINTS);
-    free(way);
+    free(motion);
 }
 
 static void update(struct visit *visit)
 {
     const size_t n = mslip_state_length(REVERSALS);
-    double *before = numbers(n), *after = numbers(n), *response = numbers(3), *way = path(visit->contact, STEPS);
+    double *before = doubles(n), *after = doubles(n), *response = doubles(3), *motion = path(visit->contact, STEPS);
     accept(mslip_state_init(n, before));
     for (size_t i = 0; i < STEPS; ++i) {
-        accept(mslip_masing_update(visit->contact, n, before, way[i], after, response, response + 1, response + 2));
+        accept(mslip_masing_update(visit->contact, n, before, motion[i], after, response, response + 1, response + 2));
         memcpy(before, after, n * sizeof *before);
         visit->hash = hashed(visit->hash, response, 3 * sizeof *response);
     }
     take(visit, after, n);
     free(before);
     free(response);
-    free(way);
+    free(motion);
 }
 
-/* The path turns more often than the state has room for: it is walked twice. */
+/* The path has more nested reversals than the state: reversals are merged. */
 static void whole_path(struct visit *visit)
 {
     const size_t n = mslip_state_length(REVERSALS);
-    double *state = numbers(n), *way = path(visit->contact, STEPS);
-    double *response = numbers(STEPS), *stiffness = numbers(STEPS), *energy = numbers(STEPS);
+    double *state = doubles(n), *motion = path(visit->contact, STEPS);
+    double *response = doubles(STEPS), *stiffness = doubles(STEPS), *energy = doubles(STEPS), error;
     accept(mslip_state_init(n, state));
-    accept(mslip_masing_path(visit->contact, n, state, STEPS, way, state, response, stiffness, energy));
+    accept(mslip_masing_path(visit->contact, n, state, STEPS, motion, state, response, stiffness, energy));
+    accept(mslip_state_check(n, state));
+    accept(mslip_state_error(n, state, &error));
+    visit->hash = hashed(visit->hash, &error, sizeof error);
     take(visit, state, n);
     take(visit, response, STEPS);
     take(visit, stiffness, STEPS);
     take(visit, energy, STEPS);
-    free(way);
+    free(motion);
 }
 
 static void tractions_after(struct visit *visit)
 {
     const size_t n = mslip_state_length(REVERSALS);
-    double *state = numbers(n), *way = path(visit->contact, STEPS);
+    double *state = doubles(n), *motion = path(visit->contact, STEPS);
     double *x = multiples(visit->contact->half_width, POINTS, 1.1);
-    double *pressure = numbers(POINTS), *shear = numbers(POINTS);
+    double *pressure = doubles(POINTS), *shear = doubles(POINTS);
     accept(mslip_state_init(n, state));
-    accept(mslip_masing_path(visit->contact, n, state, STEPS, way, state, NULL, NULL, NULL));
+    accept(mslip_masing_path(visit->contact, n, state, STEPS, motion, state, NULL, NULL, NULL));
     accept(mslip_masing_tractions(visit->contact, n, state, POINTS, x, pressure, shear));
     take(visit, pressure, POINTS);
     take(visit, shear, POINTS);
     free(state);
-    free(way);
+    free(motion);
     free(x);
 }
 
 static void loop(struct visit *visit)
 {
-    double *way = numbers(STEPS), *response = numbers(STEPS);
-    accept(mslip_hysteresis_loop(visit->contact, 0.9 * visit->contact->slip_displacement, STEPS, way, response));
-    take(visit, way, STEPS);
+    double *motion = doubles(STEPS), *response = doubles(STEPS);
+    accept(mslip_hysteresis_loop(visit->contact, 0.9 * visit->contact->slip_displacement, STEPS, motion, response));
+    take(visit, motion, STEPS);
     take(visit, response, STEPS);
 }
 
 static void energy(struct visit *visit)
 {
-    double *amplitude = multiples(visit->contact->slip_force, POINTS, 1.0), *dissipated = numbers(POINTS);
+    double *amplitude = multiples(visit->contact->slip_force, POINTS, 1.0), *dissipated = doubles(POINTS);
     accept(mslip_dissipated_energy(visit->contact, POINTS, amplitude, dissipated));
     take(visit, dissipated, POINTS);
     free(amplitude);
@@ -223,7 +219,7 @@ static void stiffness(struct visit *visit)
     double *amplitude = multiples(visit->contact->slip_displacement, POINTS, 3.0);
     double *k[4];
     for (int i = 0; i < 4; ++i) {
-        k[i] = numbers(POINTS);
+        k[i] = doubles(POINTS);
     }
     accept(mslip_complex_stiffness(visit->contact, POINTS, amplitude, k[0], k[1], k[2], k[3]));
     for (int i = 0; i < 4; ++i) {
@@ -232,11 +228,11 @@ static void stiffness(struct visit *visit)
     free(amplitude);
 }
 
-/* Coefficients of a displacement with a mean, and with more turning points than two a period. */
+/* Coefficients of a displacement with a mean, and with more than two reversals a period. */
 static double *coefficients(const mslip_contact *contact, size_t items)
 {
     const size_t n = 2 * HARMONICS + 1;
-    double *c = numbers(items * n);
+    double *c = doubles(items * n);
     for (size_t i = 0; i < items * n; ++i) {
         c[i] = contact->slip_displacement * (i % n == 1 ? 1.1 : i % n == 0 ? 0.1 : 0.9 / (double)(i % n));
     }
@@ -246,119 +242,109 @@ static double *coefficients(const mslip_contact *contact, size_t items)
 static void harmonic_force(struct visit *visit, int32_t rule)
 {
     const size_t n = 2 * HARMONICS + 1;
-    double *way = coefficients(visit->contact, 1), *response = numbers(n), *jacobian = numbers(n * n);
-    double *dissipated = numbers(1);
-    accept(mslip_harmonic_force(visit->contact, visit->workspace[rule], way, response, jacobian, dissipated));
+    double *motion = coefficients(visit->contact, 1), *response = doubles(n), *jacobian = doubles(n * n);
+    double *dissipated = doubles(1);
+    accept(mslip_harmonic_force(visit->contact, visit->workspace[rule], motion, response, jacobian, dissipated));
     take(visit, response, n);
     take(visit, jacobian, n * n);
     take(visit, dissipated, 1);
-    free(way);
+    free(motion);
 }
 
-static void equidistant(struct visit *visit)
+static void uniform_sampling(struct visit *visit)
 {
-    harmonic_force(visit, MSLIP_EQUIDISTANT);
+    harmonic_force(visit, MSLIP_UNIFORM_SAMPLING);
 }
 
-static void between_reversals(struct visit *visit)
+static void event_driven(struct visit *visit)
 {
-    harmonic_force(visit, MSLIP_BETWEEN_REVERSALS);
+    harmonic_force(visit, MSLIP_EVENT_DRIVEN);
 }
 
 static void workspaces(struct visit *visit)
 {
-    const size_t n = mslip_harmonic_workspace_length(HARMONICS, SAMPLES);
-    double *memory = numbers(n);
-    accept(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, n, memory));
+    const size_t n = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
+    double *memory = doubles(n);
+    size_t size[2];
+    int32_t rule;
+    accept(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, n, memory));
+    accept(mslip_harmonic_workspace_size(memory, &size[0], &size[1], &rule));
+    visit->hash = hashed(visit->hash, size, sizeof size);
     take(visit, memory, n);
-    free(workspace(MSLIP_BETWEEN_REVERSALS));
+    free(workspace(MSLIP_EVENT_DRIVEN));
 }
 
 static void jenkins(struct visit *visit)
 {
-    double *slider = numbers(2);
+    double *slider = doubles(2);
     accept(mslip_jenkins_equivalent(visit->contact, 0.8 * visit->contact->slip_displacement, slider, slider + 1));
     take(visit, slider, 2);
 }
 
 static void iwan(struct visit *visit)
 {
-    double *spring = numbers(SLIDERS), *slider = numbers(SLIDERS), *error = numbers(1);
+    double *spring = doubles(SLIDERS), *slider = doubles(SLIDERS), *error = doubles(1);
     accept(mslip_iwan_equivalent(visit->contact, SLIDERS, spring, slider, error));
     take(visit, spring, SLIDERS);
     take(visit, slider, SLIDERS);
     take(visit, error, 1);
 }
 
-/* The same contact twice. */
-static mslip_contact *items(const mslip_contact *contact)
-{
-    mslip_contact *copies = (mslip_contact *)malloc(ITEMS * sizeof *copies);
-    if (copies == NULL) {
-        abort();
-    }
-    for (size_t i = 0; i < ITEMS; ++i) {
-        copies[i] = *contact;
-    }
-    return copies;
-}
+/* All items of a batch share one contact. */
+static const int32_t shared[ITEMS] = { 0 };
 
-static void interface_stiffness(struct visit *visit)
+static void batch_stiffness(struct visit *visit)
 {
-    mslip_contact *contacts = items(visit->contact);
     double *amplitude = multiples(visit->contact->slip_displacement, ITEMS, 3.0);
     double *k[4];
     for (int i = 0; i < 4; ++i) {
-        k[i] = numbers(ITEMS);
+        k[i] = doubles(ITEMS);
     }
-    accept(mslip_interface_complex_stiffness(ITEMS, contacts, NULL, amplitude, k[0], k[1], k[2], k[3]));
+    accept(mslip_batch_complex_stiffness(ITEMS, 1, visit->contact, shared, NULL, amplitude, k[0], k[1], k[2], k[3]));
     for (int i = 0; i < 4; ++i) {
         take(visit, k[i], ITEMS);
     }
     free(amplitude);
-    free(contacts);
 }
 
-static void interface_update(struct visit *visit)
+static void batch_update(struct visit *visit)
 {
     const size_t n = mslip_state_length(REVERSALS);
-    mslip_contact *contacts = items(visit->contact);
-    double *states = numbers(ITEMS * n), *way = path(visit->contact, ITEMS);
-    double *response = numbers(ITEMS), *tangent = numbers(ITEMS), *dissipated = numbers(ITEMS);
+    double *states = doubles(ITEMS * n), *motion = path(visit->contact, ITEMS);
+    double *response = doubles(ITEMS), *tangent = doubles(ITEMS), *dissipated = doubles(ITEMS);
     for (size_t i = 0; i < ITEMS; ++i) {
         accept(mslip_state_init(n, states + i * n));
     }
-    accept(mslip_interface_masing_update(ITEMS, contacts, NULL, n, states, way, states, response, tangent, dissipated));
+    accept(mslip_batch_masing_update(ITEMS, 1, visit->contact, shared, NULL, n, states, motion, states, response, tangent,
+                                     dissipated));
     take(visit, states, ITEMS * n);
     take(visit, response, ITEMS);
     take(visit, tangent, ITEMS);
     take(visit, dissipated, ITEMS);
-    free(way);
-    free(contacts);
+    free(motion);
 }
 
-static void interface_force(struct visit *visit)
+static void batch_force(struct visit *visit)
 {
     const size_t n = 2 * HARMONICS + 1;
-    mslip_contact *contacts = items(visit->contact);
     for (int rule = 0; rule < RULES; ++rule) {
-        double *way = coefficients(visit->contact, ITEMS), *response = numbers(ITEMS * n);
-        double *jacobian = numbers(ITEMS * n * n), *dissipated = numbers(ITEMS);
-        accept(mslip_interface_harmonic_force(ITEMS, contacts, NULL, visit->workspace[rule], way, response, jacobian,
-                                              dissipated));
+        double *motion = coefficients(visit->contact, ITEMS), *response = doubles(ITEMS * n);
+        double *jacobian = doubles(ITEMS * n * n), *dissipated = doubles(ITEMS);
+        accept(mslip_batch_harmonic_force(ITEMS, 1, visit->contact, shared, NULL, visit->workspace[rule], motion, response,
+                                          jacobian, dissipated));
         take(visit, response, ITEMS * n);
         take(visit, jacobian, ITEMS * n * n);
         take(visit, dissipated, ITEMS);
-        free(way);
+        free(motion);
     }
-    free(contacts);
 }
 
-static void preparation(struct visit *visit)
+static void initialisation(struct visit *visit)
 {
     mslip_contact contact;
     for (int which = 0; which < CONTACTS; ++which) {
-        prepare(which, &contact);
+        initialise(which, &contact);
+        accept(mslip_contact_check(&contact));
         visit->hash = hashed(visit->hash, &contact, sizeof contact);
     }
 }
@@ -374,8 +360,8 @@ static void version(struct visit *visit)
 
 const struct call calls[] = {
     { "version", version, 16 },
-    { "preparation of a contact", preparation, 16 },
-    { "preparation of a workspace", workspaces, 16 },
+    { "initialisation of a contact", initialisation, 16 },
+    { "initialisation of a workspace", workspaces, 16 },
     { "mslip_tractions", tractions, 16 },
     { "mslip_slip", slip, 16 },
     { "mslip_monotonic_displacement", displacement, 16 },
@@ -386,13 +372,13 @@ const struct call calls[] = {
     { "mslip_hysteresis_loop", loop, 16 },
     { "mslip_dissipated_energy", energy, 16 },
     { "mslip_complex_stiffness", stiffness, 16 },
-    { "mslip_harmonic_force, equidistant", equidistant, 16 },
-    { "mslip_harmonic_force, between reversals", between_reversals, 16 },
+    { "mslip_harmonic_force, uniform sampling", uniform_sampling, 16 },
+    { "mslip_harmonic_force, event-driven", event_driven, 16 },
     { "mslip_jenkins_equivalent", jenkins, 16 },
     { "mslip_iwan_equivalent", iwan, 16 },
-    { "mslip_interface_complex_stiffness", interface_stiffness, 16 },
-    { "mslip_interface_masing_update", interface_update, 16 },
-    { "mslip_interface_harmonic_force", interface_force, 16 },
+    { "mslip_batch_complex_stiffness", batch_stiffness, 16 },
+    { "mslip_batch_masing_update", batch_update, 16 },
+    { "mslip_batch_harmonic_force", batch_force, 16 },
 };
 const size_t number_of_calls = sizeof calls / sizeof *calls;
 
@@ -407,11 +393,11 @@ uint64_t visit_one(const mslip_contact *contact, double *const workspaces_of_thr
 
 uint64_t visit_all(void)
 {
-    double *own[RULES] = { workspace(MSLIP_EQUIDISTANT), workspace(MSLIP_BETWEEN_REVERSALS) };
+    double *own[RULES] = { workspace(MSLIP_UNIFORM_SAMPLING), workspace(MSLIP_EVENT_DRIVEN) };
     uint64_t hash = 0;
     for (int which = 0; which < CONTACTS; ++which) {
         mslip_contact contact;
-        prepare(which, &contact);
+        initialise(which, &contact);
         const uint64_t one = visit_one(&contact, own);
         hash = hashed(hash, &one, sizeof one);
     }

@@ -28,7 +28,7 @@ struct call {
 extern const struct call calls[];
 extern const size_t number_of_calls;
 
-void prepare(int which, mslip_contact *contact);
+void initialise(int which, mslip_contact *contact);
 double *workspace(int32_t rule);
 
 /* The hash of all calls on one contact, and of those on all contacts. */
