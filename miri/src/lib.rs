@@ -1,12 +1,12 @@
-//! Every function of the C interface, called as C calls it, with memory that ends where it is said to end: each array is an
-//! allocation of its own, of exactly so many numbers, and outputs have never been written before.
+//! Calls of every function of the C interface with memory of exact length: each array is an allocation of its own, and outputs are
+//! uninitialised.
 //!
-//! Without Miri these are plain tests. With it (`scripts/miri.sh`) each access beyond an array, each read of what nobody wrote,
-//! each misaligned access, each reference that another one invalidates and each race between threads is an error.
+//! Without Miri these are plain tests. With it (`scripts/miri.sh`) each access beyond an array, each read of uninitialised memory,
+//! each misaligned access, each use of an invalidated reference and each race between threads is an error.
 
 #![cfg(test)]
 
-use microslip::c_api::*;
+use microslip::ffi::*;
 use microslip::{EllipticParameters, Material, Parameters};
 use std::alloc::{Layout, alloc, dealloc};
 use std::ffi::CStr;
@@ -14,7 +14,7 @@ use std::mem::MaybeUninit;
 use std::ptr::{self, null, null_mut};
 use std::sync::OnceLock;
 
-/// Memory as C's malloc gives it: nothing written, nothing beyond its end.
+/// Uninitialised memory, as from C's malloc.
 struct Memory<T> {
     start: *mut T,
     length: usize,
@@ -44,17 +44,10 @@ impl<T> Memory<T> {
         memory
     }
 
-    /// What was written: all of it, or Miri objects.
+    /// The values, which must have been written.
     fn values(&self) -> &[T] {
-        // SAFETY: of that length, and the test says that it was written.
+        // SAFETY: valid for the length; the test has written it.
         unsafe { std::slice::from_raw_parts(self.start, self.length) }
-    }
-
-    fn bytes(&self) -> Memory<u8> {
-        let copy = Memory::new(self.length * size_of::<T>());
-        // SAFETY: both have that many bytes.
-        unsafe { ptr::copy_nonoverlapping(self.start.cast(), copy.start, copy.length) };
-        copy
     }
 }
 
@@ -80,10 +73,10 @@ fn flat(flat_half_width: f64, length: f64) -> Parameters {
     }
 }
 
-/// Slightly flattened, elliptical, and without friction: prepared once, because that takes Miri seconds.
+/// Slightly flattened, elliptical, and without friction: initialised once, because that takes Miri seconds.
 fn contacts() -> [Memory<mslip_contact>; 3] {
-    static PREPARED: OnceLock<[mslip_contact; 3]> = OnceLock::new();
-    let prepared = PREPARED.get_or_init(|| {
+    static INITIALISED: OnceLock<[mslip_contact; 3]> = OnceLock::new();
+    let initialised = INITIALISED.get_or_init(|| {
         let rounded = |p: Parameters| {
             let mut contact = MaybeUninit::uninit();
             // SAFETY: parameters, and memory of a contact, which is one after MSLIP_OK.
@@ -108,7 +101,7 @@ fn contacts() -> [Memory<mslip_contact>; 3] {
         let smooth = Parameters { friction_coefficient: 0.0, ..flat(1e-4, 0.02) };
         [rounded(flat(1e-6, 0.02)), ellipse, rounded(smooth)]
     });
-    prepared.each_ref().map(copy)
+    initialised.each_ref().map(copy)
 }
 
 /// Contacts may be copied as bytes.
@@ -119,21 +112,18 @@ fn copy(contact: &mslip_contact) -> Memory<mslip_contact> {
     memory
 }
 
-/// Contacts that were never prepared, or were damaged since.
-fn bad_contacts() -> [Memory<mslip_contact>; 4] {
+/// Uninitialised contacts, and one with another tag.
+fn bad_contacts() -> [Memory<mslip_contact>; 3] {
     let filled = |byte: u8| {
         let contact = Memory::<mslip_contact>::new(1);
         // SAFETY: one contact.
         unsafe { contact.start.write_bytes(byte, 1) };
         contact
     };
-    let damaged = |place: usize| {
-        let [contact, ..] = contacts();
-        // SAFETY: a number of the contact.
-        unsafe { (*contact.start).reserved[place] = 0.0 };
-        contact
-    };
-    [filled(0), filled(0xff), damaged(0), damaged(242)]
+    let [other, ..] = contacts();
+    // SAFETY: the tag of the contact.
+    unsafe { (*other.start).reserved[0] = 0.0 };
+    [filled(0), filled(0xff), other]
 }
 
 fn slip(contact: &Memory<mslip_contact>) -> (f64, f64) {
@@ -141,10 +131,10 @@ fn slip(contact: &Memory<mslip_contact>) -> (f64, f64) {
     (contact.slip_force, contact.slip_displacement)
 }
 
-/// Accepts the call with all of its outputs, each alone, and none; output k has `lengths[k]` numbers. What was asked for has
-/// been written, and is no NaN. An output that is askew is refused.
+/// Accepts the call with all of its outputs, each alone, and none; output k has `lengths[k]` doubles. Requested outputs are
+/// written and not NaN. A misaligned output is rejected.
 fn accepted(lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
-    // The C drivers have every subset; here one is enough for what takes Miri long.
+    // The C drivers have every subset; Miri takes too long.
     let alone = if cfg!(miri) { 1 } else { lengths.len() };
     let each = (0..alone).map(|k| 1 << k);
     for subset in each.chain([0, u32::MAX]) {
@@ -156,16 +146,16 @@ fn accepted(lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
         assert!(outputs.iter().flatten().all(|output| output.values().iter().all(|value| !value.is_nan())));
     }
     for k in 0..lengths.len() {
-        refused(MSLIP_BAD_ALIGNMENT, lengths, |pointers| {
+        rejected(MSLIP_BAD_ALIGNMENT, lengths, |pointers| {
             let mut pointers = pointers.to_vec();
-            pointers[k] = askew(pointers[k]);
+            pointers[k] = misaligned(pointers[k]);
             call(&pointers)
         });
     }
 }
 
-/// Refuses the call by that name, and finds the outputs as they were.
-fn refused(status: i32, lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
+/// The call is rejected with this status and modifies no output.
+fn rejected(status: i32, lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
     const BEFORE: f64 = 77.0;
     let outputs: Vec<Memory<f64>> = lengths.iter().map(|&length| Memory::of(vec![BEFORE; length])).collect();
     let pointers: Vec<*mut f64> = outputs.iter().map(|output| output.start).collect();
@@ -173,29 +163,29 @@ fn refused(status: i32, lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
     assert!(outputs.iter().all(|output| output.values().iter().all(|&value| value == BEFORE)));
 }
 
-/// The same address, and half a double or half a flag.
-fn askew<T>(pointer: *const T) -> *mut T {
+/// The address half an item further.
+fn misaligned<T>(pointer: *const T) -> *mut T {
     pointer.cast_mut().wrapping_byte_add(align_of::<T>() / 2)
 }
 
-/// Refuses NULL, memory of any bytes and damaged memory for a contact.
+/// NULL, misaligned and invalid contacts are rejected.
 fn needs_contact(lengths: &[usize], call: impl Fn(*const mslip_contact, &[*mut f64]) -> i32) {
-    refused(MSLIP_NULL_POINTER, lengths, |out| call(null(), out));
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), out));
     let [contact, ..] = contacts();
-    refused(MSLIP_BAD_ALIGNMENT, lengths, |out| call(askew(contact.start), out));
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(misaligned(contact.start), out));
     for contact in bad_contacts() {
-        refused(MSLIP_BAD_CONTACT, lengths, |out| call(contact.start, out));
+        rejected(MSLIP_BAD_CONTACT, lengths, |out| call(contact.start, out));
     }
 }
 
 #[test]
 fn names_and_versions() {
-    // SAFETY: static sentences, ended by 0.
+    // SAFETY: static messages that end with 0.
     let text = |pointer: *const _| unsafe { CStr::from_ptr(pointer) }.to_str().unwrap().to_owned();
     assert_eq!(text(mslip_version()), env!("CARGO_PKG_VERSION"));
     assert_eq!(mslip_abi_version(), MSLIP_ABI_VERSION);
     for status in [MSLIP_OK, MSLIP_NULL_POINTER, MSLIP_BAD_ARRAY_SIZE, -1, i32::MAX] {
-        assert!(text(mslip_status_text(status)).len() > 10);
+        assert!(text(mslip_status_text(status)).len() >= "success".len());
     }
 }
 
@@ -210,13 +200,13 @@ fn parameters() {
         let contact = Memory::<mslip_contact>::new(1);
         assert_eq!(mslip_contact_init(p.start, contact.start), MSLIP_BAD_FLAT_HALF_WIDTH);
         assert_eq!(mslip_contact_init_elliptic(e.start, contact.start), MSLIP_BAD_SEMI_AXIS_X);
-        assert_eq!(mslip_contact_init(askew(p.start), contact.start), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_contact_init_elliptic(askew(e.start), contact.start), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_contact_init(p.start, askew(contact.start)), MSLIP_BAD_ALIGNMENT);
-        // These have no status, and write wherever it is.
+        assert_eq!(mslip_contact_init(misaligned(p.start), contact.start), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(mslip_contact_init_elliptic(misaligned(e.start), contact.start), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(mslip_contact_init(p.start, misaligned(contact.start)), MSLIP_BAD_ALIGNMENT);
+        // These have no status and write to any address.
         let room = Memory::<[Parameters; 2]>::new(1);
-        mslip_parameters_default(askew(room.start.cast()));
-        mslip_elliptic_parameters_default(askew(room.start.cast()));
+        mslip_parameters_default(misaligned(room.start.cast()));
+        mslip_elliptic_parameters_default(misaligned(room.start.cast()));
         assert_eq!(mslip_contact_init(null(), contact.start), MSLIP_NULL_POINTER);
         assert_eq!(mslip_contact_init(p.start, null_mut()), MSLIP_NULL_POINTER);
         assert_eq!(mslip_contact_init_elliptic(null(), contact.start), MSLIP_NULL_POINTER);
@@ -225,21 +215,23 @@ fn parameters() {
 }
 
 #[test]
-fn contacts_like_others() {
+fn checks_of_contacts() {
+    for contact in contacts() {
+        // SAFETY: a contact.
+        assert_eq!(unsafe { mslip_contact_check(contact.start) }, MSLIP_OK);
+    }
     let [contact, ..] = contacts();
-    let p = Parameters { friction_coefficient: 0.2, ..flat(1e-6, 0.02) };
     unsafe {
-        let other = Memory::new(1);
-        assert_eq!(mslip_contact_init_like(&p, contact.start, other.start), MSLIP_OK);
-        // The contact may be the one it is to be like.
-        assert_eq!(mslip_contact_init_like(&p, contact.start, contact.start), MSLIP_OK);
-        assert_eq!(contact.bytes().values(), other.bytes().values());
-        assert_eq!(mslip_contact_init_like(null(), contact.start, other.start), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_init_like(&p, null(), other.start), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_init_like(&p, contact.start, null_mut()), MSLIP_NULL_POINTER);
+        assert_eq!(mslip_contact_check(null()), MSLIP_NULL_POINTER);
+        assert_eq!(mslip_contact_check(misaligned(contact.start)), MSLIP_BAD_ALIGNMENT);
+        for place in [0, 1, 100, 239, 240] {
+            let [contact, ..] = contacts();
+            let value = &mut (*contact.start).reserved[place];
+            *value = f64::from_bits(value.to_bits() ^ 1 << 20);
+            assert_eq!(mslip_contact_check(contact.start), MSLIP_BAD_CONTACT);
+        }
         for bad in bad_contacts() {
-            assert_eq!(mslip_contact_init_like(&p, bad.start, other.start), MSLIP_BAD_CONTACT);
-            assert_eq!(mslip_contact_init_like(&p, bad.start, bad.start), MSLIP_BAD_CONTACT);
+            assert_eq!(mslip_contact_check(bad.start), MSLIP_BAD_CONTACT);
         }
     }
 }
@@ -253,17 +245,19 @@ fn tractions_and_slip() {
         accepted(&[5, 5], |out| of(contact.start, x.start, force, out));
         let slip_of = |contact, x, force, out: &[*mut f64]| unsafe { mslip_slip(contact, force, 5, x, out[0], out[1]) };
         match slip_of(contact.start, x.start, force, &[null_mut(); 2]) {
-            MSLIP_NOT_AVAILABLE => refused(MSLIP_NOT_AVAILABLE, &[5, 5], |o| slip_of(contact.start, x.start, force, o)),
+            MSLIP_NOT_AVAILABLE => {
+                rejected(MSLIP_NOT_AVAILABLE, &[5, 5], |o| slip_of(contact.start, x.start, force, o))
+            }
             _ => accepted(&[5, 5], |out| slip_of(contact.start, x.start, force, out)),
         }
         for of in [of, slip_of] {
             needs_contact(&[5, 5], |contact, out| of(contact, x.start, force, out));
-            refused(MSLIP_NULL_POINTER, &[5, 5], |out| of(contact.start, null_mut(), force, out));
-            refused(MSLIP_BAD_ALIGNMENT, &[5, 5], |out| of(contact.start, askew(x.start), force, out));
-            refused(MSLIP_BAD_FORCE, &[5, 5], |out| of(contact.start, x.start, f64::NAN, out));
-            refused(MSLIP_FORCE_EXCEEDS_SLIP, &[5, 5], |out| of(contact.start, x.start, force + 1e9, out));
+            rejected(MSLIP_NULL_POINTER, &[5, 5], |out| of(contact.start, null_mut(), force, out));
+            rejected(MSLIP_BAD_ALIGNMENT, &[5, 5], |out| of(contact.start, misaligned(x.start), force, out));
+            rejected(MSLIP_BAD_FORCE, &[5, 5], |out| of(contact.start, x.start, f64::NAN, out));
+            rejected(MSLIP_FORCE_EXCEEDS_SLIP, &[5, 5], |out| of(contact.start, x.start, force + 1e9, out));
             let bad = Memory::of([0.0, 0.0, 0.0, 0.0, f64::INFINITY]);
-            refused(MSLIP_BAD_POSITION, &[5, 5], |out| of(contact.start, bad.start, force, out));
+            rejected(MSLIP_BAD_POSITION, &[5, 5], |out| of(contact.start, bad.start, force, out));
         }
         assert_eq!(unsafe { mslip_tractions(contact.start, force, 0, null(), null_mut(), null_mut()) }, MSLIP_OK);
     }
@@ -290,45 +284,31 @@ fn the_monotonic_curve() {
             accepted(&[n; 3], |out| of(contact.start, n, x.start, out));
             accepted(&[0; 3], |out| of(contact.start, 0, null(), out));
             needs_contact(&[n; 3], |contact, out| of(contact, n, x.start, out));
-            refused(MSLIP_NULL_POINTER, &[n; 3], |out| of(contact.start, n, null(), out));
-            refused(MSLIP_BAD_ALIGNMENT, &[n; 3], |out| of(contact.start, n, askew(x.start), out));
-            refused(MSLIP_BAD_ARRAY_SIZE, &[n; 3], |out| of(contact.start, usize::MAX / 8, x.start, out));
+            rejected(MSLIP_NULL_POINTER, &[n; 3], |out| of(contact.start, n, null(), out));
+            rejected(MSLIP_BAD_ALIGNMENT, &[n; 3], |out| of(contact.start, n, misaligned(x.start), out));
+            rejected(MSLIP_BAD_ARRAY_SIZE, &[n; 3], |out| of(contact.start, usize::MAX / 8, x.start, out));
             let x = Memory::of([0.0, bad]);
-            refused(status, &[2; 3], |out| of(contact.start, 2, x.start, out));
+            rejected(status, &[2; 3], |out| of(contact.start, 2, x.start, out));
         }
     }
 }
 
-fn virgin(reversals: usize) -> Memory<f64> {
+fn unloaded(reversals: usize) -> Memory<f64> {
     let state = Memory::new(mslip_state_length(reversals));
     assert_eq!(unsafe { mslip_state_init(state.length, state.start) }, MSLIP_OK);
     state
 }
 
-/// States that were never initialised, or were damaged since.
+/// Uninitialised states, and one with more reversals than fit.
 fn bad_states() -> Vec<Memory<f64>> {
-    let damaged = |place: usize, value: f64| {
-        let mut numbers = virgin(3).values().to_vec();
-        numbers[place] = value;
-        Memory::of(numbers)
-    };
-    let filled = |byte: u8| Memory::of([f64::from_bits(u64::from_ne_bytes([byte; 8])); 12]);
-    vec![
-        filled(0),
-        filled(0x5a),
-        filled(0xff),
-        damaged(0, 0.0),
-        damaged(1, -1.0),
-        damaged(1, 0.5),
-        damaged(1, 4.0),
-        damaged(1, 1e300),
-        damaged(1, f64::NAN),
-        damaged(2, f64::INFINITY),
-        damaged(3, 2.0),
-        damaged(4, f64::NAN),
-        damaged(5, f64::NAN),
-    ]
+    let filled = |byte: u8| Memory::of([f64::from_bits(u64::from_ne_bytes([byte; 8])); LEAST]);
+    let mut long = unloaded(2).values().to_vec();
+    long[0] = f64::from_bits(long[0].to_bits() + 3);
+    vec![filled(0), filled(0x5a), filled(0xff), Memory::of(long)]
 }
+
+/// Doubles of a state of two reversals, the shortest.
+const LEAST: usize = 11;
 
 /// Displacements over that of gross slip that nest four reversals, close loops, and slip.
 const PATH: [f64; 8] = [0.9, -0.5, 0.4, 0.1, 0.2, -0.6, 1.5, 0.0];
@@ -336,16 +316,16 @@ const PATH: [f64; 8] = [0.9, -0.5, 0.4, 0.1, 0.2, -0.6, 1.5, 0.0];
 #[test]
 fn a_history_step_by_step() {
     unsafe {
-        assert_eq!(mslip_state_init(6, null_mut()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_state_init(6, askew(Memory::new(7).start)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(mslip_state_init(LEAST, null_mut()), MSLIP_NULL_POINTER);
+        assert_eq!(mslip_state_init(LEAST, misaligned(Memory::new(LEAST + 1).start)), MSLIP_BAD_ALIGNMENT);
         assert_eq!(mslip_state_init(0, Memory::new(0).start), MSLIP_STATE_TOO_SHORT);
-        assert_eq!(mslip_state_init(5, Memory::new(5).start), MSLIP_STATE_TOO_SHORT);
+        assert_eq!(mslip_state_init(LEAST - 1, Memory::new(LEAST - 1).start), MSLIP_STATE_TOO_SHORT);
         assert_eq!(mslip_state_init(usize::MAX, Memory::new(5).start), MSLIP_BAD_ARRAY_SIZE);
     }
     let [rounded, _, smooth] = contacts();
     for contact in [rounded, smooth] {
         let unit = slip(&contact).1;
-        let state = virgin(4);
+        let state = unloaded(4);
         let n = state.length;
         for part in PATH {
             let next = Memory::<f64>::new(n);
@@ -353,40 +333,73 @@ fn a_history_step_by_step() {
                 mslip_masing_update(contact, n, state, x, out[0], out[1], out[2], out[3])
             };
             let lengths = [n, 1, 1, 1];
-            // With another state for the new one, then into the same.
+            // With a new state, then in place.
             accepted(&lengths, |out| of(contact.start, n, state.start, part * unit, out));
             assert_eq!(
                 of(contact.start, n, state.start, part * unit, &[next.start, null_mut(), null_mut(), null_mut()]),
                 MSLIP_OK
             );
-            assert_eq!(next.values()[2], part * unit);
+            assert_eq!(next.values()[1], part * unit);
+            check_state(&next);
             let force = Memory::new(1);
             assert_eq!(
                 of(contact.start, n, state.start, part * unit, &[state.start, force.start, null_mut(), null_mut()]),
                 MSLIP_OK
             );
             assert!(force.values()[0].is_finite());
-            refused(MSLIP_BAD_DISPLACEMENT, &lengths, |out| of(contact.start, n, state.start, f64::NAN, out));
+            rejected(MSLIP_BAD_DISPLACEMENT, &lengths, |out| of(contact.start, n, state.start, f64::NAN, out));
         }
         let of = |contact, n, state: *const f64, x, out: &[*mut f64]| unsafe {
             mslip_masing_update(contact, n, state, x, out[0], out[1], out[2], out[3])
         };
         needs_contact(&[n, 1, 1, 1], |contact, out| of(contact, n, state.start, 0.0, out));
-        refused(MSLIP_NULL_POINTER, &[n, 1, 1, 1], |out| of(contact.start, n, null(), 0.0, out));
-        refused(MSLIP_BAD_ALIGNMENT, &[n, 1, 1, 1], |out| of(contact.start, n, askew(state.start), 0.0, out));
-        refused(MSLIP_STATE_TOO_SHORT, &[5, 1, 1, 1], |out| of(contact.start, 5, state.start, 0.0, out));
-        refused(MSLIP_STATE_TOO_SHORT, &[0, 1, 1, 1], |out| of(contact.start, 0, null(), 0.0, out));
+        rejected(MSLIP_NULL_POINTER, &[n, 1, 1, 1], |out| of(contact.start, n, null(), 0.0, out));
+        rejected(MSLIP_BAD_ALIGNMENT, &[n, 1, 1, 1], |out| of(contact.start, n, misaligned(state.start), 0.0, out));
+        rejected(MSLIP_STATE_TOO_SHORT, &[5, 1, 1, 1], |out| of(contact.start, 5, state.start, 0.0, out));
+        rejected(MSLIP_NULL_POINTER, &[0, 1, 1, 1], |out| of(contact.start, 0, null(), 0.0, out));
         for bad in bad_states() {
-            refused(MSLIP_BAD_STATE, &[12, 1, 1, 1], |out| of(contact.start, 12, bad.start, 0.0, out));
+            rejected(MSLIP_BAD_STATE, &[LEAST, 1, 1, 1], |out| of(contact.start, LEAST, bad.start, 0.0, out));
         }
-        if unit > 0.0 {
-            // A state of no reversals is full at the first turn.
-            let short = virgin(0);
-            assert_eq!(
-                of(contact.start, 6, short.start, 0.5 * unit, &[short.start, null_mut(), null_mut(), null_mut()]),
-                0
-            );
-            refused(MSLIP_STATE_FULL, &[6, 1, 1, 1], |out| of(contact.start, 6, short.start, 0.1 * unit, out));
+        // With two reversals a third is merged.
+        let short = unloaded(0);
+        for part in [0.9, -0.8, 0.7, -0.6, 0.5] {
+            let out = [short.start, null_mut(), null_mut(), null_mut()];
+            assert_eq!(of(contact.start, LEAST, short.start, part * unit, &out), MSLIP_OK);
+        }
+        assert_eq!(check_state(&short) > 0.0, unit > 0.0);
+    }
+}
+
+/// Validates a state; its error.
+fn check_state(state: &Memory<f64>) -> f64 {
+    let error = Memory::new(1);
+    unsafe {
+        assert_eq!(mslip_state_check(state.length, state.start), MSLIP_OK);
+        assert_eq!(mslip_state_error(state.length, state.start, null_mut()), MSLIP_OK);
+        assert_eq!(mslip_state_error(state.length, state.start, error.start), MSLIP_OK);
+    }
+    error.values()[0]
+}
+
+#[test]
+fn checks_of_states() {
+    let state = unloaded(3);
+    let (n, error) = (state.length, Memory::<f64>::new(1));
+    unsafe {
+        assert_eq!(mslip_state_check(n, null()), MSLIP_NULL_POINTER);
+        assert_eq!(mslip_state_check(n, misaligned(state.start)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(mslip_state_check(LEAST - 1, state.start), MSLIP_STATE_TOO_SHORT);
+        assert_eq!(mslip_state_error(n, null(), error.start), MSLIP_NULL_POINTER);
+        assert_eq!(mslip_state_error(n, state.start, misaligned(error.start)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(mslip_state_error(LEAST - 1, state.start, error.start), MSLIP_STATE_TOO_SHORT);
+        for bad in bad_states() {
+            assert_eq!(mslip_state_check(LEAST, bad.start), MSLIP_BAD_STATE);
+            assert_eq!(mslip_state_error(LEAST, bad.start, error.start), MSLIP_BAD_STATE);
+        }
+        for (place, value) in [(1, f64::NAN), (2, 0.5), (3, f64::INFINITY), (4, f64::NAN)] {
+            let mut values = state.values().to_vec();
+            values[place] = value;
+            assert_eq!(mslip_state_check(n, Memory::of(values).start), MSLIP_BAD_STATE);
         }
     }
 }
@@ -400,34 +413,30 @@ fn a_history_as_one_path() {
         let of = |contact, n, state: *const f64, count, path: *const f64, out: &[*mut f64]| unsafe {
             mslip_masing_path(contact, n, state, count, path, out[0], out[1], out[2], out[3])
         };
-        // With more room than turns, and with so little that the path is walked first.
-        for reversals in [16, 4] {
-            let state = virgin(reversals);
+        // With room for all reversals, and with so little that some are merged.
+        for reversals in [16, 2] {
+            let state = unloaded(reversals);
             let (n, lengths) = (state.length, [state.length, points, points, points]);
             accepted(&lengths, |out| of(contact.start, n, state.start, points, path.start, out));
             accepted(&[n, 0, 0, 0], |out| of(contact.start, n, state.start, 0, null(), out));
             needs_contact(&lengths, |contact, out| of(contact, n, state.start, points, path.start, out));
-            refused(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, null(), points, path.start, out));
-            refused(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, state.start, points, null(), out));
+            rejected(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, null(), points, path.start, out));
+            rejected(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, state.start, points, null(), out));
             let bad = Memory::of([0.0, 1.0, f64::NAN]);
-            refused(MSLIP_BAD_DISPLACEMENT, &[n, 3, 3, 3], |out| of(contact.start, n, state.start, 3, bad.start, out));
-            // Into the same state.
+            rejected(MSLIP_BAD_DISPLACEMENT, &[n, 3, 3, 3], |out| of(contact.start, n, state.start, 3, bad.start, out));
+            // In place.
             let force = Memory::new(points);
             let status = unsafe {
                 let (s, f) = (state.start, force.start);
                 mslip_masing_path(contact.start, n, s, points, path.start, s, f, null_mut(), null_mut())
             };
             assert_eq!((status, force.values().len()), (MSLIP_OK, points));
-            assert_eq!(state.values()[2], path.values()[points - 1]);
+            assert_eq!(state.values()[1], path.values()[points - 1]);
+            check_state(&state);
         }
         for bad in bad_states() {
-            let lengths = [12, points, points, points];
-            refused(MSLIP_BAD_STATE, &lengths, |out| of(contact.start, 12, bad.start, points, path.start, out));
-        }
-        if unit > 0.0 {
-            let short = virgin(1);
-            let lengths = [8, points, points, points];
-            refused(MSLIP_STATE_FULL, &lengths, |out| of(contact.start, 8, short.start, points, path.start, out));
+            let lengths = [LEAST, points, points, points];
+            rejected(MSLIP_BAD_STATE, &lengths, |out| of(contact.start, LEAST, bad.start, points, path.start, out));
         }
     }
 }
@@ -436,7 +445,7 @@ fn a_history_as_one_path() {
 fn tractions_after_a_history() {
     for contact in contacts() {
         let unit = slip(&contact).1;
-        let (state, path) = (virgin(4), Memory::of([0.9 * unit, -0.4 * unit, 0.2 * unit]));
+        let (state, path) = (unloaded(4), Memory::of([0.9 * unit, -0.4 * unit, 0.2 * unit]));
         let (n, s) = (state.length, state.start);
         let status =
             unsafe { mslip_masing_path(contact.start, n, s, 3, path.start, s, null_mut(), null_mut(), null_mut()) };
@@ -447,11 +456,11 @@ fn tractions_after_a_history() {
         };
         accepted(&[3, 3], |out| of(contact.start, n, s, x.start, out));
         needs_contact(&[3, 3], |contact, out| of(contact, n, s, x.start, out));
-        refused(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, null(), x.start, out));
-        refused(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, s, null(), out));
-        refused(MSLIP_STATE_TOO_SHORT, &[3, 3], |out| of(contact.start, 3, s, x.start, out));
+        rejected(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, null(), x.start, out));
+        rejected(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, s, null(), out));
+        rejected(MSLIP_STATE_TOO_SHORT, &[3, 3], |out| of(contact.start, 3, s, x.start, out));
         for bad in bad_states() {
-            refused(MSLIP_BAD_STATE, &[3, 3], |out| of(contact.start, 12, bad.start, x.start, out));
+            rejected(MSLIP_BAD_STATE, &[3, 3], |out| of(contact.start, LEAST, bad.start, x.start, out));
         }
     }
 }
@@ -467,9 +476,9 @@ fn cycles() {
         };
         accepted(&[n; 4], |out| stiffness(contact.start, n, amplitudes.start, out));
         needs_contact(&[n; 4], |contact, out| stiffness(contact, n, amplitudes.start, out));
-        refused(MSLIP_NULL_POINTER, &[n; 4], |out| stiffness(contact.start, n, null(), out));
+        rejected(MSLIP_NULL_POINTER, &[n; 4], |out| stiffness(contact.start, n, null(), out));
         let bad = Memory::of([0.0, -1.0]);
-        refused(MSLIP_BAD_AMPLITUDE, &[2; 4], |out| stiffness(contact.start, 2, bad.start, out));
+        rejected(MSLIP_BAD_AMPLITUDE, &[2; 4], |out| stiffness(contact.start, 2, bad.start, out));
 
         let hysteresis = |contact, amplitude, n, out: &[*mut f64]| unsafe {
             mslip_hysteresis_loop(contact, amplitude, n, out[0], out[1])
@@ -477,16 +486,16 @@ fn cycles() {
         accepted(&[3, 3], |out| hysteresis(contact.start, 0.7 * unit, 3, out));
         accepted(&[0, 0], |out| hysteresis(contact.start, 0.7 * unit, 0, out));
         needs_contact(&[7, 7], |contact, out| hysteresis(contact, 0.7 * unit, 7, out));
-        refused(MSLIP_BAD_AMPLITUDE, &[7, 7], |out| hysteresis(contact.start, f64::NAN, 7, out));
+        rejected(MSLIP_BAD_AMPLITUDE, &[7, 7], |out| hysteresis(contact.start, f64::NAN, 7, out));
 
         let energy =
             |contact, n, x: *const f64, out: &[*mut f64]| unsafe { mslip_dissipated_energy(contact, n, x, out[0]) };
         let forces = Memory::of([0.0, 0.3, 1.0].map(|part| part * force));
         accepted(&[3], |out| energy(contact.start, 3, forces.start, out));
         needs_contact(&[3], |contact, out| energy(contact, 3, forces.start, out));
-        refused(MSLIP_NULL_POINTER, &[3], |out| energy(contact.start, 3, null(), out));
+        rejected(MSLIP_NULL_POINTER, &[3], |out| energy(contact.start, 3, null(), out));
         let bad = Memory::of([0.0, -1.0]);
-        refused(MSLIP_BAD_FORCE_AMPLITUDE, &[2], |out| energy(contact.start, 2, bad.start, out));
+        rejected(MSLIP_BAD_FORCE_AMPLITUDE, &[2], |out| energy(contact.start, 2, bad.start, out));
     }
 }
 
@@ -499,49 +508,65 @@ fn equivalents() {
         };
         accepted(&[1, 1], |out| jenkins(contact.start, 0.7 * unit, out));
         needs_contact(&[1, 1], |contact, out| jenkins(contact, 0.7 * unit, out));
-        refused(MSLIP_BAD_AMPLITUDE, &[1, 1], |out| jenkins(contact.start, -1.0, out));
+        rejected(MSLIP_BAD_AMPLITUDE, &[1, 1], |out| jenkins(contact.start, -1.0, out));
         let iwan = |contact, n, out: &[*mut f64]| unsafe { mslip_iwan_equivalent(contact, n, out[0], out[1], out[2]) };
-        // The sliders of a contact with friction are found by bisection, which takes Miri minutes.
+        // The bisection for the sliders of a contact with friction takes Miri minutes.
         if !cfg!(miri) || unit == 0.0 {
             accepted(&[2, 2, 1], |out| iwan(contact.start, 2, out));
         }
         needs_contact(&[2, 2, 1], |contact, out| iwan(contact, 2, out));
-        refused(MSLIP_BAD_COUNT, &[0, 0, 1], |out| iwan(contact.start, 0, out));
-        refused(MSLIP_BAD_COUNT, &[1], |out| iwan(contact.start, 1 << 20, &[null_mut(), null_mut(), out[0]]));
+        rejected(MSLIP_BAD_COUNT, &[0, 0, 1], |out| iwan(contact.start, 0, out));
+        rejected(MSLIP_BAD_COUNT, &[1], |out| iwan(contact.start, 1 << 20, &[null_mut(), null_mut(), out[0]]));
     }
 }
 
-const RULES: [i32; 2] = [MSLIP_EQUIDISTANT, MSLIP_BETWEEN_REVERSALS];
+const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
 
 fn workspace(harmonics: usize, samples: usize, rule: i32) -> Memory<f64> {
-    let workspace = Memory::new(mslip_harmonic_workspace_length_rule(harmonics, samples, rule));
-    let status =
-        unsafe { mslip_harmonic_workspace_init_rule(harmonics, samples, rule, workspace.length, workspace.start) };
+    let workspace = Memory::new(mslip_harmonic_workspace_length(harmonics, samples, rule));
+    let status = unsafe { mslip_harmonic_workspace_init(harmonics, samples, rule, workspace.length, workspace.start) };
     assert_eq!(status, MSLIP_OK);
     workspace
 }
 
 #[test]
 fn workspaces() {
-    let length = mslip_harmonic_workspace_length(2, 9);
-    assert_eq!(length, mslip_harmonic_workspace_length_rule(2, 9, MSLIP_EQUIDISTANT));
-    assert_eq!([mslip_harmonic_workspace_length(0, 9), mslip_harmonic_workspace_length_rule(2, 9, 2)], [0, 0]);
-    let memory = Memory::<f64>::new(length);
-    unsafe {
-        assert_eq!(mslip_harmonic_workspace_init(2, 9, length, memory.start), MSLIP_OK);
-        assert_eq!(mslip_harmonic_workspace_init(2, 9, length - 1, memory.start), MSLIP_WORKSPACE_TOO_SHORT);
-        assert_eq!(mslip_harmonic_workspace_init(2, 9, length, null_mut()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_harmonic_workspace_init(2, 4, length, memory.start), MSLIP_BAD_SAMPLES);
-        assert_eq!(mslip_harmonic_workspace_init(0, 9, length, memory.start), MSLIP_BAD_HARMONICS);
-        assert_eq!(mslip_harmonic_workspace_init(2, 9, 0, memory.start), MSLIP_WORKSPACE_TOO_SHORT);
-        assert_eq!(mslip_harmonic_workspace_init_rule(2, 9, 7, length, memory.start), MSLIP_BAD_RULE);
-        for rule in RULES {
-            assert_eq!(mslip_harmonic_workspace_init_rule(2, 9, rule, length, null_mut()), MSLIP_NULL_POINTER);
-            let off_by_four = mslip_harmonic_workspace_init_rule(2, 9, rule, length - 1, askew(memory.start));
-            assert_eq!(off_by_four, MSLIP_BAD_ALIGNMENT);
-            assert_eq!(mslip_harmonic_workspace_init_rule(2, 9, rule, 2, memory.start), MSLIP_WORKSPACE_TOO_SHORT);
-            let too_long = mslip_harmonic_workspace_init_rule(2, 9, rule, usize::MAX, memory.start);
-            assert_eq!(too_long, MSLIP_BAD_ARRAY_SIZE);
+    let of_size = mslip_harmonic_workspace_length;
+    assert_eq!([of_size(0, 9, 0), of_size(2, 4, 0), of_size(2, 9, 2), of_size(2, 9, -1)], [0; 4]);
+    for rule in RULES {
+        let length = of_size(2, 9, rule);
+        let memory = Memory::<f64>::new(length);
+        let init = |harmonics, samples, rule, length, workspace| unsafe {
+            mslip_harmonic_workspace_init(harmonics, samples, rule, length, workspace)
+        };
+        assert_eq!(init(2, 9, rule, length, memory.start), MSLIP_OK);
+        for (status, harmonics, samples, rule, length, workspace) in [
+            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, length - 1, memory.start),
+            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, 0, memory.start),
+            (MSLIP_NULL_POINTER, 2, 9, rule, length, null_mut()),
+            (MSLIP_BAD_ALIGNMENT, 2, 9, rule, length - 1, misaligned(memory.start)),
+            (MSLIP_BAD_ARRAY_SIZE, 2, 9, rule, usize::MAX, memory.start),
+            (MSLIP_BAD_SAMPLES, 2, 4, rule, length, memory.start),
+            (MSLIP_BAD_HARMONICS, 0, 9, rule, length, memory.start),
+            (MSLIP_BAD_RULE, 2, 9, 7, length, memory.start),
+        ] {
+            assert_eq!(init(harmonics, samples, rule, length, workspace), status);
+        }
+        let (harmonics, samples, found) = (Memory::<usize>::new(1), Memory::<usize>::new(1), Memory::<i32>::new(1));
+        let (h, s, r) = (harmonics.start, samples.start, found.start);
+        // The header is all that is read.
+        let header = Memory::of(memory.values()[..2].to_vec());
+        unsafe {
+            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, r), MSLIP_OK);
+            assert_eq!((harmonics.values()[0], samples.values()[0], found.values()[0]), (2, 9, rule));
+            assert_eq!(mslip_harmonic_workspace_size(header.start, null_mut(), null_mut(), null_mut()), MSLIP_OK);
+            assert_eq!(mslip_harmonic_workspace_size(null(), h, s, r), MSLIP_NULL_POINTER);
+            assert_eq!(mslip_harmonic_workspace_size(misaligned(header.start), h, s, r), MSLIP_BAD_ALIGNMENT);
+            assert_eq!(mslip_harmonic_workspace_size(header.start, misaligned(h), s, r), MSLIP_BAD_ALIGNMENT);
+            assert_eq!(mslip_harmonic_workspace_size(header.start, h, misaligned(s), r), MSLIP_BAD_ALIGNMENT);
+            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, misaligned(r)), MSLIP_BAD_ALIGNMENT);
+            *header.start = 0.0;
+            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, r), MSLIP_BAD_WORKSPACE);
         }
     }
 }
@@ -551,7 +576,7 @@ fn the_harmonic_force() {
     let of = |contact, workspace, x: *const f64, out: &[*mut f64]| unsafe {
         mslip_harmonic_force(contact, workspace, x, out[0], out[1], out[2])
     };
-    let beginning = |memory: &Memory<f64>| Memory::of(memory.values()[..4].to_vec());
+    let beginning = |memory: &Memory<f64>| Memory::of(memory.values()[..2].to_vec());
     for rule in RULES {
         // An even and an odd number of samples.
         for (harmonics, samples) in [(1, 8), (2, 9)] {
@@ -560,7 +585,7 @@ fn the_harmonic_force() {
             let [rounded, _, smooth] = contacts();
             for contact in [rounded, smooth] {
                 let unit = slip(&contact).1;
-                // At rest, in microslip with all harmonics, with odd ones only, and in gross slip.
+                // Constant, in microslip with all harmonics, with odd ones only, and in gross slip.
                 for motion in
                     [[0.0; 5], [0.1, 0.5, 0.2, 0.3, -0.2], [0.0, 0.6, 0.3, 0.0, 0.0], [0.2, 9.0, 1.0, 3.0, 1.0]]
                 {
@@ -569,27 +594,27 @@ fn the_harmonic_force() {
                 }
                 let x = Memory::of(vec![unit; n]);
                 needs_contact(&[n, n * n, 1], |contact, out| of(contact, workspace.start, x.start, out));
-                refused(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, null_mut(), x.start, out));
-                let off_by_four = askew(workspace.start);
-                refused(MSLIP_BAD_ALIGNMENT, &[n, n * n, 1], |out| of(contact.start, off_by_four, x.start, out));
-                refused(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, workspace.start, null(), out));
+                rejected(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, null_mut(), x.start, out));
+                let off_by_four = misaligned(workspace.start);
+                rejected(MSLIP_BAD_ALIGNMENT, &[n, n * n, 1], |out| of(contact.start, off_by_four, x.start, out));
+                rejected(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, workspace.start, null(), out));
                 let bad = Memory::of(vec![f64::NAN; n]);
-                refused(MSLIP_BAD_DISPLACEMENT, &[n, n * n, 1], |o| of(contact.start, workspace.start, bad.start, o));
+                rejected(MSLIP_BAD_DISPLACEMENT, &[n, n * n, 1], |o| of(contact.start, workspace.start, bad.start, o));
             }
             let [contact, ..] = contacts();
             let x = Memory::of(vec![0.0; n]);
-            // Four numbers that do not begin a workspace are all that is looked at.
-            for (place, value) in [(0, 0.0), (1, 0.5), (1, f64::NAN), (2, 1e300), (2, -1.0)] {
+            // Of an invalid header nothing beyond is read.
+            for (place, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0)] {
                 let header = beginning(&workspace);
                 unsafe { *header.start.add(place) = value };
-                refused(MSLIP_BAD_WORKSPACE, &[n, n * n, 1], |out| of(contact.start, header.start, x.start, out));
+                rejected(MSLIP_BAD_WORKSPACE, &[n, n * n, 1], |out| of(contact.start, header.start, x.start, out));
             }
         }
     }
 }
 
 #[test]
-fn many_contacts_at_once() {
+fn batches() {
     let n = 4;
     let memory: Memory<mslip_contact> = Memory::new(n);
     let contacts = memory.start;
@@ -598,75 +623,82 @@ fn many_contacts_at_once() {
         unsafe { ptr::copy_nonoverlapping(contact.start, contacts.add(i), 1) };
     }
     let unit = unsafe { (*contacts).slip_displacement };
-    // The last contact was never prepared, and takes no part: nothing of it is looked at.
-    let active = Memory::of([1, -1, 255, 0]);
-    let all: *const i32 = null();
+    // The last contact is uninitialised and its item inactive, and the last index invalid: neither is read.
+    let (active, index) = (Memory::of([1, -1, 255, 0]), Memory::of([2, 0, 2, -1]));
+    let (all, own): (*const i32, *const i32) = (null(), null());
     let [bad, ..] = bad_contacts();
-    let refused_for_a_contact =
-        |lengths: &[usize], call: &dyn Fn(*const mslip_contact, *const i32, &[*mut f64]) -> i32| {
-            refused(MSLIP_NULL_POINTER, lengths, |out| call(null(), active.start, out));
-            refused(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contacts, askew(active.start), out));
-            unsafe { ptr::copy(bad.start, contacts.add(3), 1) };
-            refused(MSLIP_BAD_CONTACT, lengths, |out| call(contacts, all, out));
-        };
-    // What was asked for is written for the three that take part, and the rest is as it was.
-    let partly = |widths: &[usize], call: &dyn Fn(&[*mut f64]) -> i32| {
-        let outputs: Vec<Memory<f64>> = widths.iter().map(|width| Memory::new(n * width)).collect();
-        assert_eq!(call(&outputs.iter().map(|output| output.start).collect::<Vec<_>>()), MSLIP_OK);
-        for (output, width) in outputs.iter().zip(widths) {
-            // SAFETY: three items of four.
-            let written = unsafe { std::slice::from_raw_parts(output.start, 3 * width) };
-            assert!(written.iter().all(|value| value.is_finite()));
+    type Batch<'a> = &'a dyn Fn(*const mslip_contact, *const i32, *const i32, &[*mut f64]) -> i32;
+    let check_items = |lengths: &[usize], call: Batch| {
+        rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), own, active.start, out));
+        rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contacts, own, misaligned(active.start), out));
+        rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contacts, misaligned(index.start), active.start, out));
+        rejected(MSLIP_BAD_INDEX, lengths, |out| call(contacts, index.start, all, out));
+        rejected(MSLIP_BAD_INDEX, lengths, |out| call(contacts, Memory::of([0, 0, 4, 0]).start, all, out));
+        unsafe { ptr::copy(bad.start, contacts.add(3), 1) };
+        rejected(MSLIP_BAD_CONTACT, lengths, |out| call(contacts, own, all, out));
+    };
+    // The three active items are written.
+    let partly = |widths: &[usize], call: Batch| {
+        for index in [own, index.start] {
+            let outputs: Vec<Memory<f64>> = widths.iter().map(|width| Memory::new(n * width)).collect();
+            let pointers: Vec<*mut f64> = outputs.iter().map(|output| output.start).collect();
+            assert_eq!(call(contacts, index, active.start, &pointers), MSLIP_OK);
+            for (output, width) in outputs.iter().zip(widths) {
+                // SAFETY: three items of four.
+                let written = unsafe { std::slice::from_raw_parts(output.start, 3 * width) };
+                assert!(written.iter().all(|value| value.is_finite()));
+            }
+            assert_eq!(call(contacts, index, active.start, &vec![null_mut(); widths.len()]), MSLIP_OK);
         }
-        assert_eq!(call(&vec![null_mut(); widths.len()]), MSLIP_OK);
     };
 
     let amplitude = Memory::of([0.5, 0.9, 1.5, f64::NAN].map(|part| part * unit));
-    let stiffness = |contacts, active, x: *const f64, o: &[*mut f64]| unsafe {
-        mslip_interface_complex_stiffness(n, contacts, active, x, o[0], o[1], o[2], o[3])
+    let stiffness = |contacts, index, active, x: *const f64, o: &[*mut f64]| unsafe {
+        mslip_batch_complex_stiffness(n, n, contacts, index, active, x, o[0], o[1], o[2], o[3])
     };
-    partly(&[1; 4], &|out| stiffness(contacts, active.start, amplitude.start, out));
-    refused_for_a_contact(&[4; 4], &|contacts, active, out| stiffness(contacts, active, amplitude.start, out));
-    refused(MSLIP_NULL_POINTER, &[4; 4], |out| stiffness(contacts, active.start, null(), out));
+    partly(&[1; 4], &|contacts, index, active, out| stiffness(contacts, index, active, amplitude.start, out));
+    check_items(&[4; 4], &|contacts, index, active, out| stiffness(contacts, index, active, amplitude.start, out));
+    rejected(MSLIP_NULL_POINTER, &[4; 4], |out| stiffness(contacts, own, active.start, null(), out));
 
-    let states: Memory<f64> = Memory::new(n * 12);
+    let states: Memory<f64> = Memory::new(n * LEAST);
     for i in 0..3 {
-        assert_eq!(unsafe { mslip_state_init(12, states.start.add(12 * i)) }, MSLIP_OK);
+        assert_eq!(unsafe { mslip_state_init(LEAST, states.start.add(LEAST * i)) }, MSLIP_OK);
     }
-    let update = |contacts, active, length, states: *const f64, x: *const f64, o: &[*mut f64]| unsafe {
-        mslip_interface_masing_update(n, contacts, active, length, states, x, o[0], o[1], o[2], o[3])
+    let update = |contacts, index, active, length, states: *const f64, x: *const f64, o: &[*mut f64]| unsafe {
+        mslip_batch_masing_update(n, n, contacts, index, active, length, states, x, o[0], o[1], o[2], o[3])
     };
-    partly(&[12, 1, 1, 1], &|out| update(contacts, active.start, 12, states.start, amplitude.start, out));
-    let into_the_same = [states.start, null_mut(), null_mut(), null_mut()];
-    assert_eq!(update(contacts, active.start, 12, states.start, amplitude.start, &into_the_same), MSLIP_OK);
-    let lengths = [48, 4, 4, 4];
-    refused_for_a_contact(&lengths, &|contacts, active, out| {
-        update(contacts, active, 12, states.start, amplitude.start, out)
-    });
-    refused(MSLIP_NULL_POINTER, &lengths, |out| update(contacts, active.start, 12, null(), amplitude.start, out));
-    refused(MSLIP_NULL_POINTER, &lengths, |out| update(contacts, active.start, 12, states.start, null(), out));
-    refused(MSLIP_STATE_TOO_SHORT, &lengths, |out| {
-        update(contacts, active.start, 0, states.start, amplitude.start, out)
-    });
-    refused(MSLIP_BAD_ARRAY_SIZE, &lengths, |out| {
-        update(contacts, active.start, usize::MAX / 2, states.start, amplitude.start, out)
-    });
+    let valid = |contacts, index, active, out: &[*mut f64]| {
+        update(contacts, index, active, LEAST, states.start, amplitude.start, out)
+    };
+    partly(&[LEAST, 1, 1, 1], &valid);
+    assert_eq!(valid(contacts, own, active.start, &[states.start, null_mut(), null_mut(), null_mut()]), MSLIP_OK);
+    let lengths = [4 * LEAST, 4, 4, 4];
+    check_items(&lengths, &valid);
     let far = Memory::of([0.0, 0.0, f64::NAN, 0.0]);
-    refused(MSLIP_BAD_DISPLACEMENT, &lengths, |out| update(contacts, active.start, 12, states.start, far.start, out));
+    for (status, length, states, x) in [
+        (MSLIP_NULL_POINTER, LEAST, null_mut(), amplitude.start),
+        (MSLIP_NULL_POINTER, LEAST, states.start, null_mut()),
+        (MSLIP_STATE_TOO_SHORT, 0, states.start, amplitude.start),
+        (MSLIP_BAD_ARRAY_SIZE, usize::MAX / 2, states.start, amplitude.start),
+        (MSLIP_BAD_DISPLACEMENT, LEAST, states.start, far.start),
+    ] {
+        rejected(status, &lengths, |out| update(contacts, own, active.start, length, states, x, out));
+    }
 
     for rule in RULES {
         let workspace = workspace(1, 8, rule);
         let motion = Memory::of([0.1, 0.5, 0.2, 0.0, 1.5, 0.0, 0.0, 0.3, 0.1, f64::NAN, 0.0, 0.0].map(|x| x * unit));
-        let force = |contacts, active, workspace, x: *const f64, o: &[*mut f64]| unsafe {
-            mslip_interface_harmonic_force(n, contacts, active, workspace, x, o[0], o[1], o[2])
+        let force = |contacts, index, active, workspace, x: *const f64, o: &[*mut f64]| unsafe {
+            mslip_batch_harmonic_force(n, n, contacts, index, active, workspace, x, o[0], o[1], o[2])
         };
-        partly(&[3, 9, 1], &|out| force(contacts, active.start, workspace.start, motion.start, out));
+        let valid = |contacts, index, active, out: &[*mut f64]| {
+            force(contacts, index, active, workspace.start, motion.start, out)
+        };
+        partly(&[3, 9, 1], &valid);
         let lengths = [12, 36, 4];
-        refused_for_a_contact(&lengths, &|contacts, active, out| {
-            force(contacts, active, workspace.start, motion.start, out)
-        });
-        refused(MSLIP_NULL_POINTER, &lengths, |out| force(contacts, active.start, null_mut(), motion.start, out));
-        refused(MSLIP_NULL_POINTER, &lengths, |out| force(contacts, active.start, workspace.start, null(), out));
+        check_items(&lengths, &valid);
+        rejected(MSLIP_NULL_POINTER, &lengths, |o| force(contacts, own, active.start, null_mut(), motion.start, o));
+        rejected(MSLIP_NULL_POINTER, &lengths, |o| force(contacts, own, active.start, workspace.start, null(), o));
     }
 }
 
@@ -682,7 +714,7 @@ fn threads_share_a_contact() {
             let (workspace, x, force) = (workspace(1, 8, 0), Memory::of([0.0, part * unit, 0.0]), Memory::new(3));
             let status =
                 unsafe { mslip_harmonic_force(shared, workspace.start, x.start, force.start, null_mut(), null_mut()) };
-            let state = virgin(3);
+            let state = unloaded(3);
             let s = state.start;
             let update = unsafe {
                 mslip_masing_update(shared, state.length, s, part * unit, s, null_mut(), null_mut(), null_mut())
