@@ -151,8 +151,8 @@ void summary_write(FILE *file)
         }
     }
 
-    static const char *const functions[] = { "interface_complex_stiffness", "interface_masing_update",
-                                             "interface_harmonic_force" };
+    static const char *const functions[] = { "batch_complex_stiffness", "batch_masing_update",
+                                             "batch_harmonic_force" };
     for (int k = 0; k < 3; ++k) {
         double least = INFINITY, most = 0.0;
         for (const entry *e = entries; e < entries + entry_count; ++e) {

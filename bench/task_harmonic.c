@@ -78,20 +78,12 @@ static aft *tables(int harmonics, int samples, size_t n)
     return a;
 }
 
-static double *workspace_of(int harmonics, int samples, int between_reversals)
+static double *workspace_of(int harmonics, int samples, int32_t rule)
 {
     const size_t h = (size_t)harmonics, n = (size_t)samples;
-#ifdef MSLIP_BETWEEN_REVERSALS
-    const int32_t rule = between_reversals ? MSLIP_BETWEEN_REVERSALS : MSLIP_EQUIDISTANT;
-    const size_t length = mslip_harmonic_workspace_length_rule(h, n, rule);
+    const size_t length = mslip_harmonic_workspace_length(h, n, rule);
     double *workspace = context_of(length * sizeof *workspace);
-    succeed(mslip_harmonic_workspace_init_rule(h, n, rule, length, workspace));
-#else
-    (void)between_reversals;
-    const size_t length = mslip_harmonic_workspace_length(h, n);
-    double *workspace = context_of(length * sizeof *workspace);
-    succeed(mslip_harmonic_workspace_init(h, n, length, workspace));
-#endif
+    succeed(mslip_harmonic_workspace_init(h, n, rule, length, workspace));
     return workspace;
 }
 
@@ -117,12 +109,10 @@ void task_harmonic(const subject *s, const extent *x, int harmonics)
             }
             for (int jacobian = 0; jacobian <= 1; ++jacobian) {
                 const call c = { displacement, limit, known ? sums : NULL, harmonics, samples, jacobian };
-                job j = { .contact = &s->contact, .workspace = workspace_of(harmonics, samples, 0) };
+                job j = { .contact = &s->contact, .workspace = workspace_of(harmonics, samples, MSLIP_UNIFORM_SAMPLING) };
                 add(&c, "microslip", j, 0);
-#ifdef MSLIP_BETWEEN_REVERSALS
-                j.workspace = workspace_of(harmonics, samples, 1);
-                add(&c, "microslip between reversals", j, 0)->sample_error = -1.0;
-#endif
+                j.workspace = workspace_of(harmonics, samples, MSLIP_EVENT_DRIVEN);
+                add(&c, "microslip event-driven", j, 0)->sample_error = -1.0;
                 if (!jacobian) {
                     j = (job) { .law = &s->law, .aft = tables(harmonics, samples, 1) };
                     add(&c, "closed form by Newton", j, 0);

@@ -1,4 +1,4 @@
-/* task_many.c: an interface of 1 to 100,000 contacts: what one of them costs. No two are alike in load. */
+/* task_many.c: the cost of one item in a batch of 1 to 100,000, whose contacts differ in load. */
 #include "measure.h"
 #include "tasks.h"
 
@@ -17,24 +17,24 @@ typedef struct { size_t n; int back; } job;
 static double complex_stiffness(void *context)
 {
     const job *j = context;
-    mslip_interface_complex_stiffness(j->n, contacts, NULL, amplitude, out[0], out[1], out[2], out[3]);
+    mslip_batch_complex_stiffness(j->n, j->n, contacts, NULL, NULL, amplitude, out[0], out[1], out[2], out[3]);
     return out[0][j->n - 1];
 }
 
-/* Back and forth, so that every run turns every contact round. */
+/* Back and forth: every run reverses every contact. */
 static double masing_update(void *context)
 {
     job *j = context;
     j->back = !j->back;
-    mslip_interface_masing_update(j->n, contacts, NULL, state_length, states, displacement[j->back], states, out[0], out[1],
-                                  NULL);
+    mslip_batch_masing_update(j->n, j->n, contacts, NULL, NULL, state_length, states, displacement[j->back], states, out[0],
+                              out[1], NULL);
     return out[0][j->n - 1];
 }
 
 static double harmonic_force(void *context)
 {
     const job *j = context;
-    mslip_interface_harmonic_force(j->n, contacts, NULL, workspace, coefficients, forces, jacobians, NULL);
+    mslip_batch_harmonic_force(j->n, j->n, contacts, NULL, NULL, workspace, coefficients, forces, jacobians, NULL);
     return forces[COEFFICIENTS * j->n - 1];
 }
 
@@ -51,7 +51,7 @@ static double jenkins(void *context)
 
 static void allocate(const subject *s)
 {
-    const size_t workspace_length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES);
+    const size_t workspace_length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
     mslip_contact kind[KINDS];
     for (int i = 0; i < KINDS; ++i) {
         mslip_parameters p = s->parameters;
@@ -67,7 +67,7 @@ static void allocate(const subject *s)
     forces = malloc(most * COEFFICIENTS * sizeof(double));
     jacobians = malloc(most * COEFFICIENTS * COEFFICIENTS * sizeof(double));
     workspace = malloc(workspace_length * sizeof(double));
-    succeed(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, workspace_length, workspace));
+    succeed(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, workspace_length, workspace));
     for (int i = 0; i < 4; ++i) {
         out[i] = calloc(most, sizeof(double));
     }
@@ -117,9 +117,9 @@ void task_many(const subject *s, const extent *x)
     allocate(s);
     for (size_t n = 1; n <= most; n *= 10) {
         for (size_t part = 1; part <= 3 && part * n <= most; part += 2) {
-            add("interface_complex_stiffness", complex_stiffness, part * n);
-            add("interface_masing_update", masing_update, part * n);
-            add("interface_harmonic_force", harmonic_force, part * n);
+            add("batch_complex_stiffness", complex_stiffness, part * n);
+            add("batch_masing_update", masing_update, part * n);
+            add("batch_harmonic_force", harmonic_force, part * n);
             add("Jenkins step", jenkins, part * n);
         }
     }

@@ -12,7 +12,6 @@ set xrange [1e-17:1]
 set xtics 1e-16, 1e4, 1
 set yrange [30:1e8]
 
-has_rule = int(system(sprintf("grep -c 'between reversals' %s/bench.csv || true", results))) > 0
 of(method) = rows('harmonic', shape, amplitude, harmonics, 1, method)
 
 do for [extension in 'svg png'] {
@@ -25,8 +24,7 @@ do for [extension in 'svg png'] {
     if (panel == 1) { set key at screen 0.53, screen 0.13 center top maxrows 2 Left reverse samplen 2 font ',12.5' } \
     else { unset key }
     plot of('microslip') using 1:2 with linespoints ls 1 title 'microslip', \
-         (has_rule ? of('microslip between reversals') : '< echo 1e-99,1') using 1:2 with linespoints ls 2 \
-           title (has_rule ? 'microslip, nodes between reversals' : ''), \
+         of('microslip event-driven') using 1:2 with linespoints ls 2 title 'microslip, event-driven', \
          of('sliders') using 1:2 with linespoints ls 6 title 'sliders, 4 to 4096', \
          of('sliders by reversals') using 1:2 with linespoints ls 7 title 'sliders by reversals', \
          of('Jenkins') using 1:2 with linespoints ls 8 title 'spring-slider', \
