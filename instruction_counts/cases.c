@@ -10,7 +10,7 @@
 #endif
 
 enum { POINTS = 100, CONTACTS = 100, AMPLITUDES = 20, SLIDERS = 10 };
-enum { REVERSALS = 16, LENGTH = 6 + 2 * REVERSALS }; /* of a state */
+enum { REVERSALS = 16, LENGTH = 5 + 3 * REVERSALS }; /* of a state */
 enum { HARMONICS = 9, SAMPLES = 256, N = 2 * HARMONICS + 1 }; /* at most */
 
 static const double PI = 3.14159265358979323846;
@@ -95,15 +95,6 @@ static void count_preparation(void)
     p.flat_half_width = 0.0;
     COUNT("contact_init.cylinder", mslip_contact_init(&p, &contact));
     COUNT("contact_init.ellipse", mslip_contact_init_elliptic(&ellipse_parameters, &contact));
-#ifdef HAVE_CONTACT_INIT_LIKE
-    /* The same shape under the same load: another coefficient, or all of it twice as large. */
-    p = flat_parameters;
-    p.friction_coefficient *= 1.5;
-    COUNT("contact_init_like.friction", mslip_contact_init_like(&p, &flat, &contact));
-    p = flat_parameters;
-    p.flat_half_width *= 2.0, p.edge_radius *= 2.0, p.length *= 2.0, p.normal_force *= 4.0;
-    COUNT("contact_init_like.scale", mslip_contact_init_like(&p, &flat, &contact));
-#endif
 }
 
 /* From a hundredth of an end to the end. */
@@ -151,23 +142,23 @@ static void count_curve(void)
 
 static void count_memory(void)
 {
-    static double virgin[LENGTH], nested[LENGTH], sliding[LENGTH], end[LENGTH];
-    const double slip = flat.slip_displacement, turns[4] = { 0.8 * slip, -0.6 * slip, 0.4 * slip, -0.2 * slip };
+    static double initial[LENGTH], nested[LENGTH], sliding[LENGTH], end[LENGTH];
+    const double slip = flat.slip_displacement, reversals[4] = { 0.8 * slip, -0.6 * slip, 0.4 * slip, -0.2 * slip };
     double path[POINTS], rising[POINTS], away[POINTS], x[POINTS];
     const size_t length = LENGTH;
 
-    check("state", mslip_state_length(REVERSALS) == LENGTH ? mslip_state_init(length, virgin) : MSLIP_STATE_TOO_SHORT);
-    check("nested", mslip_masing_path(&flat, length, virgin, 4, turns, nested, NULL, NULL, NULL));
-    check("sliding", mslip_masing_update(&flat, length, virgin, 3.0 * slip, sliding, NULL, NULL, NULL));
+    check("state", mslip_state_length(REVERSALS) == LENGTH ? mslip_state_init(length, initial) : MSLIP_STATE_TOO_SHORT);
+    check("nested", mslip_masing_path(&flat, length, initial, 4, reversals, nested, NULL, NULL, NULL));
+    check("sliding", mslip_masing_update(&flat, length, initial, 3.0 * slip, sliding, NULL, NULL, NULL));
     COUNT("masing_update.nothing", mslip_masing_update(&flat, length, nested, 0.1 * slip, NULL, NULL, NULL, NULL));
-    COUNT("masing_update.virgin", mslip_masing_update(&flat, length, virgin, 0.5 * slip, end, out[0], out[1], NULL));
-    COUNT("masing_update.virgin_energy",
-          mslip_masing_update(&flat, length, virgin, 0.5 * slip, end, out[0], out[1], out[2]));
+    COUNT("masing_update.initial", mslip_masing_update(&flat, length, initial, 0.5 * slip, end, out[0], out[1], NULL));
+    COUNT("masing_update.initial_energy",
+          mslip_masing_update(&flat, length, initial, 0.5 * slip, end, out[0], out[1], out[2]));
     COUNT("masing_update.nested", mslip_masing_update(&flat, length, nested, 0.1 * slip, end, out[0], out[1], NULL));
     COUNT("masing_update.nested_energy",
           mslip_masing_update(&flat, length, nested, 0.1 * slip, end, out[0], out[1], out[2]));
     COUNT("masing_update.slip", mslip_masing_update(&flat, length, sliding, 4.0 * slip, end, out[0], out[1], out[2]));
-    COUNT("masing_update.into_slip", mslip_masing_update(&flat, length, virgin, 2.0 * slip, end, out[0], out[1], out[2]));
+    COUNT("masing_update.into_slip", mslip_masing_update(&flat, length, initial, 2.0 * slip, end, out[0], out[1], out[2]));
 
     /* Two periods; one rise; gross slip from the first step on. */
     for (int i = 0; i < POINTS; ++i) {
@@ -175,14 +166,14 @@ static void count_memory(void)
         rising[i] = 0.9 * slip * (i + 1) / POINTS;
         away[i] = slip * (2 + i);
     }
-    COUNT("masing_path.state", mslip_masing_path(&flat, length, virgin, POINTS, path, end, NULL, NULL, NULL));
-    COUNT("masing_path.force", mslip_masing_path(&flat, length, virgin, POINTS, path, end, out[0], NULL, NULL));
-    COUNT("masing_path.stiffness", mslip_masing_path(&flat, length, virgin, POINTS, path, end, out[0], out[1], NULL));
-    COUNT("masing_path.energy", mslip_masing_path(&flat, length, virgin, POINTS, path, end, NULL, NULL, out[2]));
-    COUNT("masing_path.all", mslip_masing_path(&flat, length, virgin, POINTS, path, end, out[0], out[1], out[2]));
-    COUNT("masing_path.rising", mslip_masing_path(&flat, length, virgin, POINTS, rising, end, out[0], out[1], out[2]));
-    COUNT("masing_path.slip", mslip_masing_path(&flat, length, virgin, POINTS, away, end, out[0], out[1], out[2]));
-    COUNT("masing_path.first_slips", mslip_masing_path(&flat, length, virgin, 1, away, end, out[0], out[1], out[2]));
+    COUNT("masing_path.state", mslip_masing_path(&flat, length, initial, POINTS, path, end, NULL, NULL, NULL));
+    COUNT("masing_path.force", mslip_masing_path(&flat, length, initial, POINTS, path, end, out[0], NULL, NULL));
+    COUNT("masing_path.stiffness", mslip_masing_path(&flat, length, initial, POINTS, path, end, out[0], out[1], NULL));
+    COUNT("masing_path.energy", mslip_masing_path(&flat, length, initial, POINTS, path, end, NULL, NULL, out[2]));
+    COUNT("masing_path.all", mslip_masing_path(&flat, length, initial, POINTS, path, end, out[0], out[1], out[2]));
+    COUNT("masing_path.rising", mslip_masing_path(&flat, length, initial, POINTS, rising, end, out[0], out[1], out[2]));
+    COUNT("masing_path.slip", mslip_masing_path(&flat, length, initial, POINTS, away, end, out[0], out[1], out[2]));
+    COUNT("masing_path.first_slips", mslip_masing_path(&flat, length, initial, 1, away, end, out[0], out[1], out[2]));
     COUNT("masing_path.next_slips", mslip_masing_path(&flat, length, sliding, 1, away + 2, end, out[0], out[1], out[2]));
 
     spread(flat.half_width, x);
@@ -212,12 +203,12 @@ static void count_cycles(void)
     COUNT("hysteresis_loop.all", mslip_hysteresis_loop(&flat, amplitude[15], POINTS, out[0], out[1]));
 }
 
-static double *workspace(size_t harmonics, size_t samples)
+static double *workspace(size_t harmonics, size_t samples, int32_t rule)
 {
-    size_t length = mslip_harmonic_workspace_length(harmonics, samples);
+    size_t length = mslip_harmonic_workspace_length(harmonics, samples, rule);
     double *w = malloc(length * sizeof *w);
 
-    check("workspace", w == NULL ? MSLIP_NULL_POINTER : mslip_harmonic_workspace_init(harmonics, samples, length, w));
+    check("workspace", w == NULL ? MSLIP_NULL_POINTER : mslip_harmonic_workspace_init(harmonics, samples, rule, length, w));
     return w;
 }
 
@@ -238,7 +229,8 @@ static void count_harmonic_force(void)
     const double one[3] = { 0.05 * slip, 0.7 * slip, 0.2 * slip };
     const double odd[N] = { 0.0, 0.7 * slip, 0.2 * slip, 0.0, 0.0, 0.05 * slip, 0.03 * slip };
     double even[N], far[N], half_way[SAMPLES];
-    double *w1 = workspace(1, 64), *w5 = workspace(5, 128), *w9 = workspace(9, 256);
+    double *w1 = workspace(1, 64, MSLIP_UNIFORM_SAMPLING), *w5 = workspace(5, 128, MSLIP_UNIFORM_SAMPLING);
+    double *w9 = workspace(9, 256, MSLIP_UNIFORM_SAMPLING), *event_driven = workspace(5, 128, MSLIP_EVENT_DRIVEN);
 
     for (int i = 0; i < N; ++i) {
         even[i] = odd[i];
@@ -254,30 +246,26 @@ static void count_harmonic_force(void)
     COUNT("harmonic_force.5x128.slip", mslip_harmonic_force(&flat, w5, far, out[0], out[1], out[2]));
     COUNT("harmonic_force.5x128.open", mslip_harmonic_force(&open_contact, w5, even, out[0], out[1], out[2]));
 
-    const size_t length = mslip_harmonic_workspace_length_rule(5, 128, MSLIP_BETWEEN_REVERSALS);
-    double *between = malloc(length * sizeof *between);
-    check("workspace", mslip_harmonic_workspace_init_rule(5, 128, MSLIP_BETWEEN_REVERSALS, length, between));
-    COUNT_HARMONIC("harmonic_force.5x128.between", between, even);
-    COUNT("harmonic_workspace_init.5x128",
-          mslip_harmonic_workspace_init(5, 128, mslip_harmonic_workspace_length(5, 128), w5));
+    COUNT_HARMONIC("harmonic_force.5x128.event_driven", event_driven, even);
+    const size_t length = mslip_harmonic_workspace_length(5, 128, MSLIP_UNIFORM_SAMPLING);
+    COUNT("harmonic_workspace_init.5x128", mslip_harmonic_workspace_init(5, 128, MSLIP_UNIFORM_SAMPLING, length, w5));
 
-    /* What a harmonic force cannot do without: a point of the curve for each sample, half of its way from the last
-       reversal. */
+    /* What a harmonic force needs at least: a point of the curve for each sample, at half the distance from the last reversal. */
     for (int i = 0; i < SAMPLES; ++i) {
         half_way[i] = 0.35 * slip * (1.0 - cos(2.0 * PI * (i + 0.5) / 64.0));
     }
     COUNT("samples.1x64.points", mslip_monotonic_force(&flat, 64, half_way, out[0], NULL, NULL));
     COUNT("samples.5x128.points", mslip_monotonic_force(&flat, 128, half_way, out[0], NULL, NULL));
     COUNT("samples.9x256.points", mslip_monotonic_force(&flat, 256, half_way, out[0], NULL, NULL));
-    free(w1), free(w5), free(w9), free(between);
+    free(w1), free(w5), free(w9), free(event_driven);
 }
 
-static void count_interfaces(void)
+static void count_batches(void)
 {
     static mslip_contact contacts[CONTACTS], open_ones[CONTACTS];
     static double u[CONTACTS], coefficients[3 * CONTACTS], states[CONTACTS * LENGTH], ends[CONTACTS * LENGTH];
-    static const int32_t resting[CONTACTS];
-    double *w = workspace(1, 64);
+    static const int32_t inactive[CONTACTS], shared[CONTACTS];
+    double *w = workspace(1, 64, MSLIP_UNIFORM_SAMPLING);
 
     for (int i = 0; i < CONTACTS; ++i) {
         contacts[i] = flat;
@@ -286,19 +274,21 @@ static void count_interfaces(void)
         coefficients[3 * i] = 0.05 * u[i];
         check("state", mslip_state_init(LENGTH, states + i * LENGTH));
     }
-#define COUNT_INTERFACES(name, c, active) \
+#define COUNT_BATCHES(name, n_contacts, c, index, active) \
     do { \
-        COUNT("interface_complex_stiffness." name, \
-              mslip_interface_complex_stiffness(CONTACTS, c, active, u, out[0], out[1], out[2], out[3])); \
-        COUNT("interface_masing_update." name, \
-              mslip_interface_masing_update(CONTACTS, c, active, LENGTH, states, u, ends, out[0], out[1], out[2])); \
-        COUNT("interface_harmonic_force." name, \
-              mslip_interface_harmonic_force(CONTACTS, c, active, w, coefficients, out[0], out[1], out[2])); \
+        COUNT("batch_complex_stiffness." name, \
+              mslip_batch_complex_stiffness(CONTACTS, n_contacts, c, index, active, u, out[0], out[1], out[2], out[3])); \
+        COUNT("batch_masing_update." name, \
+              mslip_batch_masing_update(CONTACTS, n_contacts, c, index, active, LENGTH, states, u, ends, out[0], out[1], \
+                                        out[2])); \
+        COUNT("batch_harmonic_force." name, \
+              mslip_batch_harmonic_force(CONTACTS, n_contacts, c, index, active, w, coefficients, out[0], out[1], out[2])); \
     } while (0)
-    COUNT_INTERFACES("all", contacts, NULL);
-    COUNT_INTERFACES("resting", contacts, resting);
-    COUNT_INTERFACES("open", open_ones, NULL);
-    COUNT("interface_complex_stiffness.singly", mslip_complex_stiffness(&flat, CONTACTS, u, out[0], out[1], out[2], out[3]));
+    COUNT_BATCHES("all", CONTACTS, contacts, NULL, NULL);
+    COUNT_BATCHES("shared", 1, &flat, shared, NULL);
+    COUNT_BATCHES("inactive", CONTACTS, contacts, NULL, inactive);
+    COUNT_BATCHES("open", CONTACTS, open_ones, NULL, NULL);
+    COUNT("batch_complex_stiffness.singly", mslip_complex_stiffness(&flat, CONTACTS, u, out[0], out[1], out[2], out[3]));
     free(w);
 }
 
@@ -311,6 +301,6 @@ int main(void)
     count_memory();
     count_cycles();
     count_harmonic_force();
-    count_interfaces();
+    count_batches();
     return 0;
 }
