@@ -77,6 +77,11 @@ fn masing() {
 }
 
 #[test]
+fn batch() {
+    drive("batch");
+}
+
+#[test]
 fn harmonic() {
     drive("harmonic");
 }
