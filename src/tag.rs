@@ -12,7 +12,7 @@ pub(crate) const LAYOUT: u64 = 3;
 pub(crate) enum Kind {
     State = 0x4d53,
     UniformSampling = 0x4d55,
-    EventDriven = 0x4d45,
+    EventDriven = 0x4d3a,
     Samples = 0x4d4e,
 }
 

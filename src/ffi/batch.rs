@@ -39,7 +39,7 @@ impl<'a> Items<'a> {
             let contacts = input(contacts.cast::<Contact>(), n_contacts)?;
             (contacts, optional_input(index, n)?, optional_input(active, n)?)
         };
-        check_length::<i32>(n)?;
+        check_length::<f64>(n)?;
         let items = Items { n, contacts, index, active };
         for i in items.active() {
             if !items.contact(i).ok_or(Error::BadIndex)?.is_initialised() {

@@ -21,7 +21,7 @@ use super::segments::{Integrals, PANEL, Segment};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use super::{HarmonicOutput, Requested, jacobian};
 use crate::error::Error;
-use crate::law::{Law, Point, Response, Reversal};
+use crate::law::{BranchRange, Law, Point, Response, Reversal};
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
@@ -264,8 +264,8 @@ impl<L: Law> Period<'_, L> {
         }
         let mut at = from;
         loop {
-            let end = self.law.branch().end;
-            if direction * (to.displacement - end) < 0.0 {
+            let BranchRange { end, gross_slip, .. } = self.law.branch();
+            if gross_slip || direction * (to.displacement - end) < 0.0 {
                 self.integrate_segment(buffers, at, to, false, jacobian);
                 break;
             }
