@@ -150,9 +150,11 @@ pub(crate) trait StickZones {
     }
 }
 
-/// `∫ f dσ` between two size parameters, for f with at worst a square root at each end.
+/// `∫ f dσ` between two size parameters, for f with at worst a square root at each end. No node lies beyond `to`, even with rounding
+/// upward: the compliance of a size above b could vanish.
 pub(crate) fn integrate(zones: &dyn StickZones, from: f64, to: f64, mut f: impl FnMut(&QuadraturePoint) -> f64) -> f64 {
     let length = to - from;
-    let values = TANH_SINH.iter().map(|node| node.weight * f(&zones.quadrature_point(from + length * node.from_0)));
+    let values =
+        TANH_SINH.iter().map(|node| node.weight * f(&zones.quadrature_point((from + length * node.from_0).min(to))));
     length * values.sum::<f64>()
 }
