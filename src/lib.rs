@@ -19,8 +19,9 @@ pub mod hbm;
 
 pub mod ffi;
 
-pub use constant_load::complex_stiffness::{ComplexStiffness, HysteresisLoop};
+pub use constant_load::complex_stiffness::ComplexStiffness;
 pub use constant_load::contact::Contact;
 pub use constant_load::curve::CurvePoint;
+pub use constant_load::hysteresis_loop::HysteresisLoop;
 pub use error::Error;
 pub use parameters::{EllipticParameters, Material, Parameters};

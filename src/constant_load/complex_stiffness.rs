@@ -45,15 +45,6 @@ pub struct ComplexStiffness<'a> {
     gross_slip: bool,
 }
 
-/// The closed loop of one displacement amplitude (Eq. 11, 12).
-#[derive(Debug, Clone, Copy)]
-pub struct HysteresisLoop<'a> {
-    contact: &'a Contact,
-    amplitude: f64,
-    /// Force at the reversal \[N\].
-    top: f64,
-}
-
 /// Nodes of K' in gross slip, the same for all amplitudes: x, and dτ with the weight.
 pub(crate) type GrossSlipQuadrature = [[f64; GAUSS.len()]; 2];
 
@@ -89,70 +80,6 @@ impl Contact {
         let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
         Ok(ComplexStiffness { contact: self, amplitude, gross_slip })
     }
-
-    /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
-    ///
-    /// # Errors
-    /// `BadForceAmplitude` for an amplitude that is not finite or negative, `ForceExceedsSlip` for one beyond mu N.
-    pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
-        self.check_force_amplitude(force_amplitude)?;
-        let point = self.curve_at_force(force_amplitude)?;
-        Ok(point.stick().map_or(0.0, |stick| self.energy_of(&stick)))
-    }
-
-    pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
-        if in_0_to(f64::MAX, force_amplitude) {
-            self.check_force(force_amplitude)
-        } else {
-            Err(Error::BadForceAmplitude)
-        }
-    }
-
-    /// The closed loop between ± a displacement amplitude \[m\].
-    ///
-    /// # Errors
-    /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
-    pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
-        check_amplitude(amplitude)?;
-        let free = self.is_frictionless();
-        let top = if free { 0.0 } else { self.response(amplitude).force };
-        Ok(HysteresisLoop { contact: self, amplitude, top })
-    }
-}
-
-impl HysteresisLoop<'_> {
-    /// Displacement \[m\] at instant `i` of `n` equidistant ones in a period of `amplitude cos t`, from t = 0.
-    #[must_use]
-    pub fn displacement(&self, i: usize, n: usize) -> f64 {
-        let (back, turn) = half_turn(i, n);
-        back * self.amplitude * (2.0 * PI * turn).cos()
-    }
-
-    /// Force \[N\] at that instant.
-    #[must_use]
-    pub fn force(&self, i: usize, n: usize) -> f64 {
-        self.force_after(half_turn(i, n))
-    }
-
-    /// Force on the branch of that sign, after so many turns.
-    fn force_after(&self, (back, turn): (f64, f64)) -> f64 {
-        let contact = self.contact;
-        if contact.is_frictionless() {
-            return 0.0;
-        }
-        // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
-        let sine = (PI * turn).sin();
-        // In gross slip the branch reaches -mu N before its end.
-        let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
-        back * force.max(-contact.slip_force)
-    }
-}
-
-/// Instant `i` of `n` in turns since the last reversal, and the sign of the branch that began there: +1 for the first.
-fn half_turn(i: usize, n: usize) -> (f64, f64) {
-    let n = n.max(1);
-    let turn = (i % n) as f64 / n as f64;
-    if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) }
 }
 
 /// A sum in four sums.
@@ -521,7 +448,7 @@ mod tests {
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
                     for node in &TANH_SINH {
                         let turn: f64 = from + (to - from) * node.from_0;
-                        let force = contact.hysteresis_loop(amplitude).unwrap().force_after((1.0, 0.5 * turn));
+                        let force = contact.hysteresis_loop(amplitude).unwrap().force_at((1.0, 0.5 * turn));
                         let share = 2.0 / amplitude * (to - from) * node.weight * force;
                         real += share * (PI * turn).cos();
                         imaginary -= share * (PI * turn).sin();

@@ -3,8 +3,8 @@
 //! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
 
 use crate::constant_load::contact::{Contact, check_displacement};
-use crate::constant_load::curve::CurveEvaluator;
 use crate::constant_load::energy::Dissipation;
+use crate::constant_load::evaluator::CurveEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Transition, push};
 use crate::constant_load::state;
 use crate::error::Error;
