@@ -325,14 +325,14 @@ mod tests {
     #[test]
     fn both_formulas_give_the_energy() {
         for family in families() {
-            let kappa = family.small_load().sums(0.0).curvature;
+            let kappa = family.small_load().evaluate(0.0).curvature;
             for tau in [0.5, 0.4, 0.25] {
                 let member = at(&family, tau);
                 let series = family.dissipation(&member);
                 let beyond = family.dissipation_beyond_half(&family.at_load_remaining(1.0 - tau));
                 // The closed form is a difference of terms of size ψ², λ and h, which go with the curvature.
                 assert!((series - beyond).abs() < 1e-14 * kappa.max(1e-2), "{tau} {series} {beyond}");
-                let panels = |t: f64| 4.0 * t * (tau - t) * family.small_load().sums(t).curvature;
+                let panels = |t: f64| 4.0 * t * (tau - t) * family.small_load().evaluate(t).curvature;
                 let sum = crate::numerics::quadrature::gauss(tau, panels);
                 assert!((series / sum - 1.0).abs() < 1e-13, "{tau} {series} {sum}");
             }

@@ -140,7 +140,7 @@ impl SmallLoadSeries {
     }
 
     #[inline(always)]
-    pub fn sums(&self, tau: f64) -> SeriesValues {
+    pub fn evaluate(&self, tau: f64) -> SeriesValues {
         // λ/τ and its derivative give λ and h''.
         let (compliance, slope) = polynomial::value_and_slope(&self.terms(&COMPLIANCE), tau);
         let (shift, _) = polynomial::value_and_slope(&self.terms(&APPROACH), tau);
@@ -196,7 +196,7 @@ impl SmallLoadSeries {
         let mut tau = 2.0 * shift.consumed / (linear + (linear * linear + second_derivative).sqrt());
         let mut compliance_increase = 0.0;
         for _ in 0..5 {
-            let now = self.sums(tau);
+            let now = self.evaluate(tau);
             let slope = linear + now.compliance;
             let newton = (linear * tau + now.shift - shift.consumed) / slope;
             let step = newton / (1.0 - 0.5 * newton * now.curvature / slope);
