@@ -171,14 +171,14 @@ impl ComplexStiffness<'_> {
             let initial = contact.initial_stiffness;
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
-        let share = amplitude * contact.per_slip_displacement();
+        let fraction = amplitude * contact.per_slip_displacement();
         // Otherwise the curve has a singularity close to zero displacement, too.
         if !contact.has_singularity_within(0.75) {
             let mut rules = RULES.iter().skip(usize::from(contact.has_singularity_within(1.5)));
-            if let Some(rule) = rules.find(|rule| share <= rule.largest) {
+            if let Some(rule) = rules.find(|rule| fraction <= rule.largest) {
                 return self.real_by_rule(rule);
             }
-            if share >= GROSS_SLIP_RULE_FROM {
+            if fraction >= GROSS_SLIP_RULE_FROM {
                 return self.real_in_gross_slip();
             }
         }
@@ -454,9 +454,9 @@ mod tests {
                     for node in &TANH_SINH {
                         let phase: f64 = from + (to - from) * node.from_0;
                         let force = contact.hysteresis_loop(amplitude).unwrap().force_at((1.0, 0.5 * phase));
-                        let share = 2.0 / amplitude * (to - from) * node.weight * force;
-                        real += share * (PI * phase).cos();
-                        imaginary -= share * (PI * phase).sin();
+                        let part = 2.0 / amplitude * (to - from) * node.weight * force;
+                        real += part * (PI * phase).cos();
+                        imaginary -= part * (PI * phase).sin();
                     }
                 }
                 let complex = contact.complex_stiffness(amplitude).unwrap();
