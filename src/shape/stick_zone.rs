@@ -26,7 +26,7 @@ pub(crate) mod small_load;
 use crate::numerics::quadrature::TANH_SINH;
 use small_load::SmallLoadSeries;
 
-/// An amount in two parts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
+/// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Complement {
     pub consumed: f64,
@@ -58,8 +58,8 @@ pub(crate) struct QuadraturePoint {
     pub dcompliance_dsigma: f64,
 }
 
-/// A point along the width. The differences are formed from the lengths as given: x/b alone has lost the digits that tell flat
-/// and edge of a nearly flat contact apart.
+/// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
+/// x/b may exceed the distance from flat to edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SurfacePoint {
     /// |x|/b.
