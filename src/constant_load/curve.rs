@@ -168,9 +168,9 @@ mod tests {
     use crate::numerics::quadrature::gauss;
     use core::f64::consts::PI;
 
-    /// Eq. 10, from the stick half-width, which enters through ln c: its digits are absolute here.
+    /// Eq. 10 from the stick half-width c; its relative error is an absolute error of ln c.
     #[test]
-    fn the_compliance_is_that_of_the_stick_zone_and_adds_up_to_the_displacement() {
+    fn compliance_follows_from_the_stick_zone_and_integrates_to_the_displacement() {
         for flat in FLATS {
             let contact = contact(flat);
             let nu = TITANIUM.poisson_ratio;
@@ -182,10 +182,10 @@ mod tests {
                 let force = part * contact.slip_force;
                 let point = contact.curve_at_force(force).unwrap();
                 let expected = compliance(force);
-                // Each of a logarithm's few units.
+                // A few units of rounding of the logarithm.
                 assert!((point.compliance() / expected - 1.0).abs() < 3e-15, "{flat} {part}");
                 assert!((point.stiffness() * point.compliance() - 1.0).abs() < 3e-15, "{flat} {part}");
-                // Panels of 1/64 keep the logarithm at mu N, 0.01 away, a panel's length off.
+                // With panels of 1/64 the logarithmic singularity at mu N, at a distance of 0.01, is about a panel length away.
                 let panels: f64 = (0..64)
                     .map(|panel| gauss(force / 64.0, |step| compliance(force / 64.0 * panel as f64 + step)))
                     .sum();
@@ -195,13 +195,15 @@ mod tests {
     }
 
     #[test]
-    fn the_curve_ends_at_mu_n_and_a_flat_leaves_it_with_a_kink() {
+    fn curve_ends_at_mu_n_with_a_kink_for_a_flat() {
         for flat in FLATS.into_iter().chain([1e-80, 1e-250]) {
             let contact = contact(flat);
             let end = contact.curve_at_force(contact.slip_force).unwrap();
             assert_eq!(end.displacement(), contact.slip_displacement);
+            let same = contact.curve_at_displacement(contact.slip_displacement).unwrap();
+            assert_eq!(same.stick_half_width(), end.stick_half_width());
             assert_eq!(end.stick_half_width() == 0.0, flat == 0.0);
-            // A quotient, a root and a product.
+            // The rounding errors of a quotient, a square root and a product.
             assert!((end.stick_half_width() - flat).abs() <= 4e-16 * flat, "{flat} {}", end.stick_half_width());
             assert_eq!(end.compliance().is_infinite(), flat == 0.0);
             let half = 0.5 * contact.slip_displacement;
@@ -213,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn force_and_displacement_are_refused_by_name() {
+    fn invalid_forces_and_displacements_are_rejected() {
         let contact = contact(50e-6);
         let at_force = |force: f64| contact.curve_at_force(force).map(|point| point.force());
         let limit = contact.slip_force;

@@ -75,31 +75,31 @@ mod tests {
     use crate::constant_load::contact::tests::{FLATS, contact};
 
     #[test]
-    fn all_of_the_contact_is_at_mu_p_under_mu_n_and_none_at_rest() {
+    fn shear_is_mu_p_under_mu_n_and_zero_without_force() {
         for flat in FLATS {
             let contact = contact(flat);
-            let (end, remaining) =
+            let (end, unloaded) =
                 (contact.curve_at_force(-contact.slip_force).unwrap(), contact.curve_at_force(0.0).unwrap());
-            for place in [0.0, 0.3, -0.7, 0.999, 1.0, 1.5] {
-                let x = place * contact.half_width;
+            for ratio in [0.0, 0.3, -0.7, 0.999, 1.0, 1.5] {
+                let x = ratio * contact.half_width;
                 let limit = 0.4 * contact.pressure(x);
-                assert!((end.shear(x) + limit).abs() <= 4e-16 * limit, "{flat} {place}");
-                assert_eq!((remaining.shear(x), remaining.slip(x)), (0.0, Ok(0.0)));
+                assert!((end.shear(x) + limit).abs() <= 4e-16 * limit, "{flat} {ratio}");
+                assert_eq!((unloaded.shear(x), unloaded.slip(x)), (0.0, Ok(0.0)));
                 let slip = end.slip(x).unwrap();
                 assert!(slip <= 0.0);
-                // mu p |s|, to the rounding of two products.
+                // mu p |s|, with the rounding errors of two products.
                 assert!((end.damage(x).unwrap() + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
             }
         }
     }
 
-    /// Gross slip has the tractions and the slip with which it began, whichever way it is asked for.
+    /// Tractions and slip in gross slip are those at its onset, at a force as at a displacement.
     #[test]
-    fn tractions_stay_in_gross_slip() {
+    fn tractions_are_constant_in_gross_slip() {
         for contact in FLATS.map(contact) {
             let at_force = contact.curve_at_force(-contact.slip_force).unwrap();
             let beyond = contact.curve_at_displacement(-1.5 * contact.slip_displacement).unwrap();
-            for x in [0.0, 0.5, 0.95, 1.0, 1.1].map(|place| place * contact.half_width) {
+            for x in [0.0, 0.5, 0.95, 1.0, 1.1].map(|ratio| ratio * contact.half_width) {
                 assert_eq!(beyond.shear(x), at_force.shear(x));
                 assert_eq!(beyond.slip(x), at_force.slip(x));
             }
