@@ -1,5 +1,5 @@
-//! A contact under a constant normal force: initialised once, then only read. It holds the stick zones of its shape, and the scales
-//! that turn their nondimensional quantities into forces and displacements.
+//! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
+//! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::complex_stiffness::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};

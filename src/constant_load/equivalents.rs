@@ -91,7 +91,7 @@ fn minus_sine(s: f64) -> f64 {
 /// With this number of sliders the error is 4e-12 of mu N for a cylinder, and the computation takes seconds.
 pub const MAX_SLIDERS: usize = 1 << 16;
 
-/// n parallel spring-sliders with the contact's monotonic curve; `take` is called for each. Returns the maximum error of the
+/// n parallel spring-sliders with the contact's monotonic curve; `emit` is called for each. Returns the maximum error of the
 /// force over mu N.
 ///
 /// The monotonic curve of the sliders is a polygon from 0 to mu N. Its maximum error is smallest if every side is below the curve of the
@@ -101,12 +101,12 @@ pub const MAX_SLIDERS: usize = 1 << 16;
 ///
 /// # Errors
 /// `BadCount` if there are no sliders, or more than [`MAX_SLIDERS`].
-pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider)) -> Result<f64, Error> {
+pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider)) -> Result<f64, Error> {
     if !(1..=MAX_SLIDERS).contains(&sliders) {
         return Err(Error::BadCount);
     }
     if contact.is_frictionless() {
-        (0..sliders).for_each(|_| take(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
+        (0..sliders).for_each(|_| emit(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);
     }
     let curve = Curve::new(contact.stick_zones());
@@ -127,7 +127,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut take: impl FnMut(SpringSlider
         let corner = side.end;
         let next = if corner.force < 1.0 { curve.side(&corner, high) } else { Side { slope: 0.0, end: corner } };
         let stiffness = (side.slope - next.slope).max(0.0);
-        take(SpringSlider {
+        emit(SpringSlider {
             stiffness: stiffness * contact.stiffness_scale,
             slip_force: stiffness * corner.shift * contact.slip_force,
         });

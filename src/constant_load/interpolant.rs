@@ -138,12 +138,12 @@ fn interpolate<const N: usize>(
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let mut values = [0.0; N];
-    let mut places = values.iter_mut();
+    let mut slots = values.iter_mut();
     let mut first = None;
     let decrease = Interpolant::<N>::through(|z| {
         let zone = at(z);
-        if let Some(place) = places.next() {
-            *place = zone.load.remaining;
+        if let Some(slot) = slots.next() {
+            *slot = zone.load.remaining;
         }
         let increase = zone.compliance_increase;
         (3.0 + z) * ((increase - *first.get_or_insert(increase)) / (compliance + increase))

@@ -46,7 +46,7 @@ static LOAD: Table = {
 ///
 /// With respect to c, `df/d ln c = 1 - f d ln g^order / d ln c`, which in χ reads
 /// `χ (1 - χ²) P f' + order A f = 2 χ P` with `A = ψ/(2 √χ)` and `P = (ψ - sin ψ cos ψ)/(8 χ √χ)`.
-const fn mean_over_family(order: f64) -> Table {
+const fn mean_over_ln_c(order: f64) -> Table {
     let mut atan = [0.0; TERMS + 1];
     let mut load = [0.0; TERMS + 1];
     let mut sign = 1.0;
@@ -76,8 +76,8 @@ const fn mean_over_family(order: f64) -> Table {
     rows(&table)
 }
 
-static BETA: Table = mean_over_family(1.0);
-static GAMMA: Table = mean_over_family(2.0);
+static BETA: Table = mean_over_ln_c(1.0);
+static GAMMA: Table = mean_over_ln_c(2.0);
 
 fn sum(table: &Table, chi: f64) -> f64 {
     polynomial::sum(table.iter().copied().take(polynomial::rows_for(chi, TERMS / 4)), chi)
@@ -275,9 +275,9 @@ mod tests {
         let (w, psi, chi) = (3f64.sqrt(), PI / 3.0, 1.0 / 3.0);
         let load = 2.0 * (4.0 * psi - w);
         let beta = (6.0 * psi - 3.0 * w) / load;
-        let series = chi * sum(&mean_over_family(1.0), chi);
+        let series = chi * sum(&mean_over_ln_c(1.0), chi);
         // Both lose one or two bits to cancellation.
         assert!((series / beta - 1.0).abs() < 2e-15, "{series} {beta}");
-        assert_eq!(mean_over_family(2.0), GAMMA);
+        assert_eq!(mean_over_ln_c(2.0), GAMMA);
     }
 }

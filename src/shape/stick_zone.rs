@@ -1,14 +1,14 @@
 //! Stick zones: the sizes below the present contact size b, relative to it.
 //!
-//! Under the load of b, a monotonically increased tangential force leaves a stick zone of size c in the same family, and
+//! Under the load of b, a monotonically increased tangential force leaves a stick zone of a smaller size c of the same shape, and
 //!
 //! ```text
 //! Q = μ [P(b) - P(c)],        δ = μ [S(b) - S(c)],        dS = K(c) dP,
 //! ```
 //!
 //! with the load P(c) and the tangential shift S(c) of size c (Cattaneo; Jäger and Ciavarella, 1998). Every tangential state under
-//! that load is a signed sum of such differences. Nondimensionally, with loads in P(b), sizes in b and shifts in a unit of the
-//! family's choice, a stick zone is described by
+//! that load is a signed sum of such differences. Nondimensionally, with loads in P(b), sizes in b and shifts in a unit that
+//! depends on the shape, a stick zone is described by
 //!
 //! ```text
 //! τ = 1 - P(c)/P(b)         the tangential force over mu N

@@ -168,7 +168,7 @@ mod tests {
         assert!((high.compliance_increase - low.compliance_increase).abs() < 2e-12);
         let slope = zones.d_dissipation(&low);
         assert!((zones.dissipation(&high) - zones.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
-        // The whole cycle, and its integral over the family: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
+        // The energy at gross slip, and its integral over all stick zones: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
         let gross_slip = zones.dissipation(&zones.at_load_remaining(0.0));
         let sum = integrate(&zones, 0.0, 1.0, |point| {
             let size = (point.shift.remaining / SLIP_SHIFT).sqrt();

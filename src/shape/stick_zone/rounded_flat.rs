@@ -9,7 +9,7 @@
 //! energy           e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                          Eq. 13-16
 //! ```
 //!
-//! These formulas are evaluated for τ >= 1/2; below, where they cancel, by the expansion of `small_load`. The size parameter is
+//! These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation and are replaced by the expansion of `small_load`. The size parameter is
 //! `σ = w_c/w_b`.
 
 use crate::numerics::chebyshev::Interpolant;
