@@ -44,7 +44,7 @@ static LOAD: Table = {
 
 /// Coefficients of β (`order` 1) or γ (`order` 2) divided by χ.
 ///
-/// With respect to c, `df/d ln c = 1 - f d ln g^order / d ln c`, which in χ reads
+/// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of χ this is
 /// `χ (1 - χ²) P f' + order A f = 2 χ P` with `A = ψ/(2 √χ)` and `P = (ψ - sin ψ cos ψ)/(8 χ √χ)`.
 const fn mean_over_ln_c(order: f64) -> Table {
     let mut atan = [0.0; TERMS + 1];
