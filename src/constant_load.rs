@@ -1,10 +1,15 @@
-//! The contact law under a constant normal force: monotonic curve, return-point memory, Masing's rule, cycles.
+//! The friction law under a constant normal force: monotonic curve, hysteresis by Masing's rule with return-point memory, and cycles
+//! of prescribed amplitude.
 
 pub(crate) mod complex_stiffness;
 pub(crate) mod contact;
 pub(crate) mod curve;
+pub(crate) mod cycle;
 pub(crate) mod energy;
 pub mod equivalents;
+pub(crate) mod evaluator;
+pub(crate) mod fields;
+pub(crate) mod hysteresis_loop;
 pub(crate) mod interpolant;
 pub mod masing;
 pub(crate) mod memory;

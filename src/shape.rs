@@ -1,6 +1,6 @@
 //! Shapes: the nested family of sizes that a contact runs through under a growing normal load.
 //!
-//! A shape knows geometry and material, not the load. Each size s of the contact has a normal force N(s), and as the load grows,
+//! A shape is defined by geometry and material, independently of the load. Each size s of the contact has a normal force N(s), and as the load grows,
 //! every increment dN is carried like a flat punch of that size. It brings the bodies closer by `dU = K_n dN` and makes a fully
 //! stuck contact more compliant by `dS = K_t dN`:
 //!
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The monotonic curve, hysteresis and energies follow from N and S alone (Jäger 1998; Ciavarella 1998), without the geometry.
-//! Under a constant load only the sizes below the present one take part: its [`stick_zone`]s.
+//! Under a constant load only the sizes below the present one are involved: its [`stick_zone`]s.
 
 pub(crate) mod hertz_ellipse;
 pub(crate) mod rounded_flat;

@@ -1,33 +1,33 @@
-//! What a cycle of prescribed amplitude shows: the hysteresis loop (Eq. 11, 12), the energy dissipated (Eq. 13-16) and the
-//! complex stiffness (section 3.4).
+//! Complex stiffness `K = K' + iK''` of a cycle of prescribed displacement amplitude (section 3.4), and its derivatives.
 //!
-//! With M the monotonic curve and δ0 the amplitude, `K = K' + iK''` is force over displacement in rotating-vector form:
+//! With M the monotonic curve and δ0 the amplitude, K is the ratio of force to displacement in rotating-vector form:
 //!
 //! ```text
 //! K'  = (8/(π δ0)) ∫ sqrt(X (1-X)) dQ,      X = M(Q)/δ0, from Q = 0 to that at δ0, at most μN
 //! K'' = E/(π δ0²)
 //! ```
 //!
-//! K' is the one quantity without a closed form. With the tangent stiffness k it is
+//! with E the dissipated energy. K' has no closed form. With the tangent stiffness k it is
 //!
 //! ```text
 //! K' = (8/π) ∫ sqrt(t (1-t)) k(δ0 t) dt,     0 <= t <= 1, up to gross slip
 //! ```
 //!
-//! - Where the inverse of the curve is one polynomial in the approach, so is K': the powers' integrals are known.
-//! - Up to near gross slip few nodes do, in a variable that knows where k is singular (`cycle_rules`).
-//! - In gross slip the nodes are the same for all amplitudes, and kept with the contact.
-//! - Between, within a few per cent of gross slip, and for a curve that bends sharply at its origin, the stick zone's size is
-//!   the variable and the tanh-sinh rule takes the roots at both ends, and what else is singular near them; up to τ = 1/2 the
-//!   variable is τ.
+//! - Up to 2/5 of the displacement of gross slip T(δ) is one polynomial, and so is K': the integrals of the powers are known.
+//! - Up to 0.999 of it: a midpoint rule in a variable that removes the singularity of k at gross slip (`sn_midpoint`).
+//! - From 1.05 of it: a quadrature rule that is the same for all amplitudes and is stored in the contact.
+//! - Between these, and for Λ near 0, for which the curve is singular close to zero displacement: the tanh-sinh rule, in τ up to
+//!   τ = 1/2 and in the size parameter beyond. It converges despite the square roots at both ends and other singularities close to
+//!   them.
 //!
-//! For these in microslip k falls from stick zone to stick zone,
+//! For these amplitudes below gross slip
 //!
 //! ```text
 //! dK'/dδ0 = -(8/(π δ0)) ∫ k² X^(3/2) (1-X)^(1/2) dλ
 //! ```
 //!
-//! is a sum of one sign; in gross slip the upper limit is fixed and K' is differentiated as it stands.
+//! is an integral of one sign; in gross slip the upper limit is fixed, and the integral of K' is differentiated under the integral
+//! sign.
 
 use crate::constant_load::contact::{Contact, MAX_DISPLACEMENT};
 use crate::error::Error;
@@ -37,7 +37,7 @@ use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
 use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
 use core::f64::consts::PI;
 
-/// Complex stiffness at one displacement amplitude; what is asked for is computed.
+/// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]
 pub struct ComplexStiffness<'a> {
     contact: &'a Contact,
@@ -45,123 +45,50 @@ pub struct ComplexStiffness<'a> {
     gross_slip: bool,
 }
 
-/// The closed loop of one displacement amplitude (Eq. 11, 12).
-#[derive(Debug, Clone, Copy)]
-pub struct HysteresisLoop<'a> {
-    contact: &'a Contact,
-    amplitude: f64,
-    /// Force at the reversal \[N\].
-    top: f64,
-}
-
-/// Nodes of K' in gross slip, the same for all amplitudes: x, and dτ with the weight.
+/// Quadrature rule of K' in gross slip, the same for all amplitudes: x at the nodes, and the weights of an integral over τ.
 pub(crate) type GrossSlipQuadrature = [[f64; GAUSS.len()]; 2];
 
 pub(crate) const NO_QUADRATURE: GrossSlipQuadrature = [[0.0; GAUSS.len()]; 2];
 
-/// Nodes over all stick zones: size parameters whose spacing grows in proportion to the distance from the branch points, and shrinks
-/// towards b, where the integrands have square roots.
+/// The rule over all stick zones: the spacing of the size parameters is proportional to the distance from the branch points, and
+/// decreases towards b, at which the integrands have square roots.
 pub(crate) fn gross_slip_quadrature(zones: &dyn StickZones) -> GrossSlipQuadrature {
     let extent = zones.log_branch_distance();
     // σ = sinh(extent y)/sinh(extent), y = z (2-z).
     let scale = 0.5 / (0.5 * (extent.exp() - (-extent).exp()));
     let mut nodes = NO_QUADRATURE;
     let [shifts, weights] = &mut nodes;
-    for ((shift, slip_weight), (z, weight)) in shifts.iter_mut().zip(weights).zip(GAUSS) {
+    for ((shift, load_weight), (z, weight)) in shifts.iter_mut().zip(weights).zip(GAUSS) {
         let (up, down) = ((extent * z * (2.0 - z)).exp(), (-extent * z * (2.0 - z)).exp());
         let rate = extent * scale * (up + down) * 2.0 * (1.0 - z);
         let point = zones.quadrature_point((scale * (up - down)).min(1.0));
-        (*shift, *slip_weight) = (point.shift.consumed, weight * rate * point.dload_dsigma);
+        (*shift, *load_weight) = (point.shift.consumed, weight * rate * point.dload_dsigma);
     }
     nodes
 }
 
-/// Fraction of the displacement of gross slip from which the contact's own nodes are enough.
-const SLIP_NODES_FROM: f64 = 1.05;
+/// Fraction of the displacement of gross slip from which the rule stored in the contact is accurate.
+const GROSS_SLIP_RULE_FROM: f64 = 1.05;
 
 impl Contact {
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors
-    /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
+    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness<'_>, Error> {
         check_amplitude(amplitude)?;
         let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
         Ok(ComplexStiffness { contact: self, amplitude, gross_slip })
     }
-
-    /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
-    ///
-    /// # Errors
-    /// `BadForceAmplitude` for an amplitude that is not finite or negative, `ForceExceedsSlip` for one beyond mu N.
-    pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
-        self.check_force_amplitude(force_amplitude)?;
-        let point = self.curve_at_force(force_amplitude)?;
-        Ok(point.stick().map_or(0.0, |stick| self.energy_of(&stick)))
-    }
-
-    pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
-        if in_0_to(f64::MAX, force_amplitude) {
-            self.check_force(force_amplitude)
-        } else {
-            Err(Error::BadForceAmplitude)
-        }
-    }
-
-    /// The closed loop between ± a displacement amplitude \[m\].
-    ///
-    /// # Errors
-    /// `BadAmplitude` for an amplitude that is not finite, negative, or beyond 1e150.
-    pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
-        check_amplitude(amplitude)?;
-        let free = self.is_frictionless();
-        let top = if free { 0.0 } else { self.response(amplitude).force };
-        Ok(HysteresisLoop { contact: self, amplitude, top })
-    }
 }
 
-impl HysteresisLoop<'_> {
-    /// Displacement \[m\] at instant `i` of `n` equidistant ones in a period of `amplitude cos t`, from t = 0.
-    #[must_use]
-    pub fn displacement(&self, i: usize, n: usize) -> f64 {
-        let (back, turn) = half_turn(i, n);
-        back * self.amplitude * (2.0 * PI * turn).cos()
-    }
-
-    /// Force \[N\] at that instant.
-    #[must_use]
-    pub fn force(&self, i: usize, n: usize) -> f64 {
-        self.force_after(half_turn(i, n))
-    }
-
-    /// Force on the branch of that sign, after so many turns.
-    fn force_after(&self, (back, turn): (f64, f64)) -> f64 {
-        let contact = self.contact;
-        if contact.is_frictionless() {
-            return 0.0;
-        }
-        // From a reversal the path is amplitude (1 - cos t) = 2 amplitude sin²(t/2), half of it on the monotonic curve.
-        let sine = (PI * turn).sin();
-        // In gross slip the branch reaches -mu N before its end.
-        let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
-        back * force.max(-contact.slip_force)
-    }
-}
-
-/// Instant `i` of `n` in turns since the last reversal, and the sign of the branch that began there: +1 for the first.
-fn half_turn(i: usize, n: usize) -> (f64, f64) {
-    let n = n.max(1);
-    let turn = (i % n) as f64 / n as f64;
-    if turn < 0.5 { (1.0, turn) } else { (-1.0, turn - 0.5) }
-}
-
-/// A sum in four sums.
+/// The sum of all terms by four partial sums; their number is a multiple of four.
 #[inline(always)]
 fn sum4(terms: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
-    for four in terms.as_chunks::<4>().0 {
+    for row in terms.as_chunks::<4>().0 {
         for k in 0..4 {
-            sums[k] += four[k];
+            sums[k] += row[k];
         }
     }
     (sums[0] + sums[2]) + (sums[1] + sums[3])
@@ -172,18 +99,18 @@ pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
 }
 
 impl ComplexStiffness<'_> {
-    /// No friction, or an amplitude so small that the curve's first bend is all there is, to far beyond rounding: smaller
-    /// ones would only underflow.
+    /// No friction, or an amplitude so small that K' and K'' are linear in it to far below rounding. Smaller amplitudes would underflow
+    /// in the general formulas.
     fn is_linear(&self) -> bool {
         self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_scale
     }
 
-    /// The stick zone at the reversals; none in gross slip.
-    fn stick(&self) -> Option<StickZone> {
+    /// The stick zone at the reversals; `None` in gross slip.
+    fn stick_zone(&self) -> Option<StickZone> {
         if self.gross_slip { None } else { Some(self.contact.stick_zone_at_displacement(self.amplitude)) }
     }
 
-    /// δ0 in units of the approach.
+    /// δ0 in units of shift.
     fn shift(&self) -> f64 {
         self.amplitude * self.contact.per_displacement_scale
     }
@@ -244,22 +171,22 @@ impl ComplexStiffness<'_> {
             let initial = contact.initial_stiffness;
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
-        let share = amplitude * contact.per_slip_displacement();
-        // A curve that bends more sharply is singular near the origin too.
+        let fraction = amplitude * contact.per_slip_displacement();
+        // Otherwise the curve has a singularity close to zero displacement, too.
         if !contact.has_singularity_within(0.75) {
             let mut rules = RULES.iter().skip(usize::from(contact.has_singularity_within(1.5)));
-            if let Some(rule) = rules.find(|rule| share <= rule.largest) {
+            if let Some(rule) = rules.find(|rule| fraction <= rule.largest) {
                 return self.real_by_rule(rule);
             }
-            if share >= SLIP_NODES_FROM {
-                return self.real_in_slip();
+            if fraction >= GROSS_SLIP_RULE_FROM {
+                return self.real_in_gross_slip();
             }
         }
-        let slope = contact.stiffness_scale / contact.displacement_scale * self.real_part_slope();
-        (contact.stiffness_scale * self.real_part(), slope)
+        let slope = contact.stiffness_scale / contact.displacement_scale * self.integrated_d_real();
+        (contact.stiffness_scale * self.integrated_real(), slope)
     }
 
-    /// Both by a rule that knows where gross slip begins.
+    /// Both by a rule adapted to the singularity at gross slip.
     #[inline(always)]
     fn real_by_rule(&self, rule: &Rule) -> (f64, f64) {
         let (evaluator, amplitude) = (self.contact.evaluator(), self.amplitude_not_zero());
@@ -272,23 +199,23 @@ impl ComplexStiffness<'_> {
         (real, (slope / amplitude).min(0.0))
     }
 
-    /// Both in gross slip, from the nodes that the contact keeps.
+    /// Both in gross slip, by the rule stored in the contact.
     #[inline(always)]
-    fn real_in_slip(&self) -> (f64, f64) {
+    fn real_in_gross_slip(&self) -> (f64, f64) {
         let (contact, shift) = (self.contact, self.shift());
-        let per_approach = 1.0 / shift;
+        let per_shift = 1.0 / shift;
         let [consumed, weights] = contact.gross_slip_quadrature();
-        // Root and quotient of each node, in whole registers, then their sums.
+        // The terms of both integrals first, which the compiler vectorises, then their sums.
         let (mut roots, mut quotients) = ([0.0; GAUSS.len()], [0.0; GAUSS.len()]);
         for i in 0..GAUSS.len() {
-            let x = consumed[i] * per_approach;
+            let x = consumed[i] * per_shift;
             let remaining = (1.0 - x).max(f64::MIN_POSITIVE);
             roots[i] = weights[i] * (x * remaining).max(0.0).sqrt();
             quotients[i] = roots[i] / remaining;
         }
         let (real, slope) = (sum4(&roots), sum4(&quotients));
-        let real = 8.0 / PI * real * per_approach;
-        let slope = (4.0 / PI * slope * per_approach - 2.0 * real) * per_approach;
+        let real = 8.0 / PI * real * per_shift;
+        let slope = (4.0 / PI * slope * per_shift - 2.0 * real) * per_shift;
         (contact.stiffness_scale * real, (contact.stiffness_scale / contact.displacement_scale * slope).min(0.0))
     }
 
@@ -305,106 +232,109 @@ impl ComplexStiffness<'_> {
         (imaginary, (slope / amplitude / PI - 2.0 * imaginary) / amplitude)
     }
 
-    /// Energy dissipated per cycle, and its derivative by the amplitude.
+    /// Energy dissipated per cycle, and its derivative with respect to the amplitude.
     #[inline(always)]
     fn energy_with_derivative(&self) -> (f64, f64) {
         let contact = self.contact;
         if self.gross_slip {
-            let slid = 4.0 * contact.slip_force;
-            (contact.slip_energy + slid * (self.amplitude - contact.slip_displacement), slid)
+            let slope = 4.0 * contact.slip_force;
+            (contact.slip_energy + slope * (self.amplitude - contact.slip_displacement), slope)
         } else {
             contact.cycle_energy(self.amplitude)
         }
     }
 
-    fn real_part(&self) -> f64 {
+    /// K' by the tanh-sinh rule, in units of the stiffness scale.
+    fn integrated_real(&self) -> f64 {
         let shift = self.shift();
-        let sum = match &self.stick() {
-            Some(stick) if stick.load.consumed <= 0.5 => self.integrate_small_tau(stick, |x, y, _| (x * y).sqrt()),
-            stick => self.integrate_sigma(stick.as_ref(), |x, y, station| (x * y).sqrt() * station.dload_dsigma),
+        let sum = match &self.stick_zone() {
+            Some(zone) if zone.load.consumed <= 0.5 => self.integrate_small_tau(zone, |x, y, _| (x * y).sqrt()),
+            zone => self.integrate_sigma(zone.as_ref(), |x, y, point| (x * y).sqrt() * point.dload_dsigma),
         };
         8.0 / PI / shift * sum
     }
 
-    fn real_part_slope(&self) -> f64 {
+    /// dK'/dδ0 by the tanh-sinh rule, in units of the stiffness scale over that of the displacement.
+    fn integrated_d_real(&self) -> f64 {
         let shift = self.shift();
-        let Some(stick) = &self.stick() else {
-            let roots = self.integrate_sigma(None, |x, y, station| (x / y).sqrt() * station.dload_dsigma);
-            return ((4.0 / PI / shift * roots - 2.0 * self.real_part()) / shift).min(0.0);
+        let Some(zone) = &self.stick_zone() else {
+            let roots = self.integrate_sigma(None, |x, y, point| (x / y).sqrt() * point.dload_dsigma);
+            return ((4.0 / PI / shift * roots - 2.0 * self.integrated_real()) / shift).min(0.0);
         };
-        let sum = if stick.load.consumed <= 0.5 {
-            self.integrate_small_tau(stick, |x, y, near| {
-                x * (x * y).sqrt() * near.curvature / (near.compliance * near.compliance)
+        let sum = if zone.load.consumed <= 0.5 {
+            self.integrate_small_tau(zone, |x, y, point| {
+                x * (x * y).sqrt() * point.curvature / (point.compliance * point.compliance)
             })
         } else {
-            self.integrate_sigma(Some(stick), |x, y, station| {
-                // Not less than in full stick; rounded to 0 if that nearly vanishes.
-                let compliance = station.compliance.max(self.zones().small_load().compliance);
-                x * (x * y).sqrt() * station.dcompliance_dsigma / (compliance * compliance)
+            self.integrate_sigma(Some(zone), |x, y, point| {
+                x * (x * y).sqrt() * point.dcompliance_dsigma / (point.compliance * point.compliance)
             })
         };
         -8.0 / PI / shift * sum
     }
 
-    /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ0 of a stick zone near the origin.
-    fn integrate_small_tau(&self, stick: &StickZone, f: impl Fn(f64, f64, &NearPoint) -> f64) -> f64 {
-        let origin = self.zones().small_load();
-        let (shift, top) = (self.shift(), stick.load.consumed);
+    /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ of a stick zone, τ <= 1/2.
+    fn integrate_small_tau(&self, zone: &StickZone, f: impl Fn(f64, f64, &SmallLoadPoint) -> f64) -> f64 {
+        let series = self.zones().small_load();
+        let (shift, top) = (self.shift(), zone.load.consumed);
         let sum: f64 = TANH_SINH
             .iter()
             .map(|node| {
                 let tau = top * node.from_0;
-                let sums = origin.sums(tau);
-                let x = ((origin.compliance * tau + sums.shift) / shift).min(1.0);
-                let near = NearPoint { compliance: origin.compliance + sums.compliance, curvature: sums.curvature };
-                node.weight * f(x, 1.0 - x, &near)
+                let values = series.evaluate(tau);
+                let x = ((series.compliance * tau + values.shift) / shift).min(1.0);
+                let point =
+                    SmallLoadPoint { compliance: series.compliance + values.compliance, curvature: values.curvature };
+                node.weight * f(x, 1.0 - x, &point)
             })
             .sum();
         sum * top
     }
 
-    /// `∫ f(X, 1-X, station) dσ` from the stick zone, or from the smallest member in gross slip, to the contact.
-    fn integrate_sigma(&self, stick: Option<&StickZone>, f: impl Fn(f64, f64, &QuadraturePoint) -> f64) -> f64 {
-        let (family, shift) = (self.zones(), self.shift());
-        let (from, remaining) = match stick {
-            Some(stick) => (family.size_parameter(stick), stick.shift.remaining),
+    /// `∫ f(X, 1-X, point) dσ` from the stick zone, or from the smallest one in gross slip, to b.
+    fn integrate_sigma(&self, zone: Option<&StickZone>, f: impl Fn(f64, f64, &QuadraturePoint) -> f64) -> f64 {
+        let (zones, shift) = (self.zones(), self.shift());
+        let (from, remaining) = match zone {
+            Some(zone) => (zones.size_parameter(zone), zone.shift.remaining),
             None => (
                 0.0,
                 (self.contact.slip_displacement - self.amplitude)
                     / self.contact.displacement_scale.max(f64::MIN_POSITIVE),
             ),
         };
-        let integrand = |station: &QuadraturePoint| {
-            let x = (station.shift.consumed / shift).clamp(0.0, 1.0);
-            let y = ((station.shift.remaining - remaining) / shift).max(f64::MIN_POSITIVE);
-            f(x, y, station)
+        let integrand = |point: &QuadraturePoint| {
+            let x = (point.shift.consumed / shift).clamp(0.0, 1.0);
+            let y = ((point.shift.remaining - remaining) / shift).max(f64::MIN_POSITIVE);
+            f(x, y, point)
         };
-        // Just beyond gross slip 1-X nearly vanishes at the inner end, on the scale of the member whose rest is the excess:
-        // the integral is divided there.
-        let compliance_increase = (-remaining).min(family.slip_shift() - family.small_load().half_shift);
-        if compliance_increase > 0.0 {
-            let middle = family.size_parameter(&family.at_shift_remaining(compliance_increase));
-            integrate(family, 0.0, middle, integrand) + integrate(family, middle, 1.0, integrand)
+        // Just beyond gross slip 1-X nearly vanishes at σ = 0: it doubles at the stick zone whose remaining shift equals the excess of the
+        // amplitude, and the integral is split there.
+        let excess = (-remaining).min(zones.slip_shift() - zones.small_load().half_shift);
+        if excess > 0.0 {
+            let middle = zones.size_parameter(&zones.at_shift_remaining(excess));
+            integrate(zones, 0.0, middle, integrand) + integrate(zones, middle, 1.0, integrand)
         } else {
-            integrate(family, from, 1.0, integrand)
+            integrate(zones, from, 1.0, integrand)
         }
     }
 
-    /// Both derivatives at the amplitude 0, from the curve's first bend: `-h_2/Λ³` and `4 h_2/(3πΛ³)`.
+    /// Both derivatives at the amplitude 0, from the initial curvature of the curve: `-h_2/Λ³` and `4 h_2/(3πΛ³)`.
     fn initial_slopes(&self) -> (f64, f64) {
         if self.contact.is_frictionless() {
             return (0.0, 0.0);
         }
-        let origin = self.zones().small_load();
-        let second_derivative =
-            0.5 * origin.initial_curvature() / (origin.compliance * origin.compliance * origin.compliance);
+        let series = self.zones().small_load();
+        let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
         let unit = self.contact.stiffness_scale / self.contact.displacement_scale.max(f64::MIN_POSITIVE);
-        (-second_derivative * unit, 4.0 / (3.0 * PI) * second_derivative * unit)
+        (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)
     }
 }
 
-struct NearPoint {
+/// A point of the curve for τ <= 1/2.
+struct SmallLoadPoint {
+    /// Λ + λ.
     compliance: f64,
+    /// h''.
     curvature: f64,
 }
 
@@ -417,7 +347,7 @@ mod tests {
 
     /// Λ = 3.4243 with h = ½ [τ + (1-τ) ln(1-τ)]: K' by adaptive quadrature and K'' in closed form, both to 20 digits.
     #[test]
-    fn a_cylinder_has_the_stiffness_of_its_elementary_curve() {
+    fn the_cylinder_has_the_stiffness_of_its_elementary_curve() {
         let contact = cylinder(3.4243_f64.exp(), 0.0, CENTRE_POINT).unwrap();
         for (part, real, imaginary) in [
             (0.5, 0.278_238_957_245_119_07, 0.006_342_425_455_761_636),
@@ -425,7 +355,7 @@ mod tests {
         ] {
             let complex = contact.complex_stiffness(part * contact.slip_displacement).unwrap();
             let found = [complex.real(), complex.imaginary()].map(|k| k / contact.stiffness_scale);
-            // A unit of rounding of Λ, which comes from the half-width, is one of both.
+            // Λ is computed from the half-width; its relative rounding error is that of K' and K''.
             assert!(
                 (found[0] / real - 1.0).abs() < 4e-15 && (found[1] / imaginary - 1.0).abs() < 2e-14,
                 "{part} {found:?}"
@@ -433,28 +363,28 @@ mod tests {
         }
     }
 
-    /// However little the edges carry: the difference of two compliances, by which stick zones are found, is then lost.
+    /// Down to the smallest loads of the edges, for which the compliance increase is a cancelling difference.
     #[test]
-    fn the_energy_by_displacement_is_that_by_force() {
-        for lightness in 0..60 {
-            let normal_force = 150.0 * 0.1f64.powi(lightness);
+    fn energy_at_an_amplitude_equals_energy_at_its_force() {
+        for exponent in 0..60 {
+            let normal_force = 150.0 * 0.1f64.powi(exponent);
             let contact = Contact::rounded_flat(&Parameters { normal_force, ..parameters(5e-3) }).unwrap();
             for part in [0.4, 0.6, 0.9, 0.975, 0.99, 0.998] {
                 let amplitude = part * contact.slip_displacement;
                 let force = contact.curve_at_displacement(amplitude).unwrap().force();
                 let by_displacement = contact.complex_stiffness(amplitude).unwrap().dissipated();
                 let by_force = contact.dissipated_energy(force).unwrap();
-                // Of the difference of members near each other 1e-13 is left on either side.
+                // The difference of two nearly equal stick zones has a relative error of 1e-13 in both.
                 assert!(
                     (by_displacement / by_force - 1.0).abs() < 1e-12,
-                    "{lightness} {part} {by_displacement} {by_force}"
+                    "{exponent} {part} {by_displacement} {by_force}"
                 );
             }
         }
     }
 
     #[test]
-    fn at_rest_it_starts_with_the_initial_stiffness_and_the_slopes_of_the_first_bend() {
+    fn zero_amplitude_gives_the_initial_stiffness_and_its_derivatives() {
         let titanium = Material { young_modulus: 1.14e11, poisson_ratio: 0.29 };
         let contact = Contact::rounded_flat(&Parameters {
             flat_half_width: 0.0,
@@ -466,40 +396,40 @@ mod tests {
             ..Parameters::default()
         })
         .unwrap();
-        let remaining = contact.complex_stiffness(0.0).unwrap();
-        assert_eq!((remaining.real(), remaining.imaginary()), (contact.initial_stiffness, 0.0));
-        // The reference at 1e-6 of the slip displacement, to which the slopes change by as much.
-        assert!((remaining.d_real() / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
-        assert!((remaining.d_imag() / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
+        let initial = contact.complex_stiffness(0.0).unwrap();
+        assert_eq!((initial.real(), initial.imaginary()), (contact.initial_stiffness, 0.0));
+        // The reference values are at 1e-6 of the displacement of gross slip; the derivatives change by as much up to there.
+        assert!((initial.d_real() / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
+        assert!((initial.d_imag() / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
         for contact in FLATS.map(self::contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let remaining = contact.complex_stiffness(0.0).unwrap();
+            let initial = contact.complex_stiffness(0.0).unwrap();
             let amplitude = 1e-5 * contact.slip_displacement;
             let small = contact.complex_stiffness(amplitude).unwrap();
-            // The next terms are 1e-5 of the slopes; what K' falls by has the rounding of K' itself.
-            let fall = (small.real() - remaining.real()) / amplitude;
-            let rounding = 4.0 * f64::EPSILON * remaining.real() / amplitude;
-            assert!((fall - remaining.d_real()).abs() < 2e-5 * remaining.d_real().abs() + rounding);
-            assert!((small.imaginary() / amplitude / remaining.d_imag() - 1.0).abs() < 2e-5);
-            assert!((small.d_real() / remaining.d_real() - 1.0).abs() < 4e-5);
-            assert!((small.d_imag() / remaining.d_imag() - 1.0).abs() < 4e-5);
+            // The next terms are 1e-5 of the derivatives; the difference of K' has the rounding error of K' itself.
+            let slope = (small.real() - initial.real()) / amplitude;
+            let rounding = 4.0 * f64::EPSILON * initial.real() / amplitude;
+            assert!((slope - initial.d_real()).abs() < 2e-5 * initial.d_real().abs() + rounding);
+            assert!((small.imaginary() / amplitude / initial.d_imag() - 1.0).abs() < 2e-5);
+            assert!((small.d_real() / initial.d_real() - 1.0).abs() < 4e-5);
+            assert!((small.d_imag() / initial.d_imag() - 1.0).abs() < 4e-5);
         }
     }
 
-    /// From mu N/2 on another formula computes, and from the slip displacement on another law holds.
+    /// The formula changes at mu N/2 and at the onset of gross slip.
     #[test]
-    fn nothing_jumps_where_the_formula_changes() {
+    fn complex_stiffness_is_continuous_between_formulas() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let half = contact.curve_at_force(0.5 * contact.slip_force).unwrap().displacement();
             for (amplitude, step) in [(half, 1e-12), (contact.slip_displacement, 1e-9)] {
                 let [low, high] =
                     [1.0 - step, 1.0 + step].map(|part| contact.complex_stiffness(part * amplitude).unwrap());
                 let scale = low.real().hypot(low.imaginary());
-                // K changes by less than K over an amplitude.
+                // |dK/dδ0| < K/δ0.
                 let bound = 2.0 * step + 4e-15;
                 assert!((low.real() - high.real()).abs() < bound * scale);
                 assert!((low.imaginary() - high.imaginary()).abs() < bound * scale);
                 if amplitude == half {
-                    // The slopes are good to 1e-12 on either side.
+                    // The derivatives have an error of 1e-12 on either side.
                     let slope = scale / amplitude;
                     assert!((low.d_real() - high.d_real()).abs() < 4e-12 * slope);
                     assert!((low.d_imag() - high.d_imag()).abs() < 4e-12 * slope);
@@ -511,26 +441,26 @@ mod tests {
     }
 
     #[test]
-    fn the_stiffness_is_the_first_harmonic_of_the_loop() {
-        // Lengths that are just allowed bend the curve near its origin.
+    fn complex_stiffness_is_the_first_harmonic_of_the_loop() {
+        // Lengths just above the minimum: Λ is near 0.
         let short = [1.0001, 1.02, 1.2, 2.0].map(|slenderness| cylinder(slenderness, 0.0, CENTRE_POINT).unwrap());
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]).chain(short) {
             for part in [1e-3, 0.05, 0.3, 0.6, 0.79, 0.95, 0.99, 1.0, 1.5, 20.0] {
                 let amplitude = part * contact.slip_displacement;
-                // Half a period, in gross slip divided where amplitude (1 - cos t) is twice the slip displacement.
+                // Half a period, in gross slip split where amplitude (1 - cos t) is twice the displacement of gross slip.
                 let middle = if part > 1.0 { (1.0 - 2.0 / part).acos() / PI } else { 0.5 };
                 let (mut real, mut imaginary) = (0.0, 0.0);
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
                     for node in &TANH_SINH {
-                        let turn: f64 = from + (to - from) * node.from_0;
-                        let force = contact.hysteresis_loop(amplitude).unwrap().force_after((1.0, 0.5 * turn));
-                        let share = 2.0 / amplitude * (to - from) * node.weight * force;
-                        real += share * (PI * turn).cos();
-                        imaginary -= share * (PI * turn).sin();
+                        let phase: f64 = from + (to - from) * node.from_0;
+                        let force = contact.hysteresis_loop(amplitude).unwrap().force_at((1.0, 0.5 * phase));
+                        let part = 2.0 / amplitude * (to - from) * node.weight * force;
+                        real += part * (PI * phase).cos();
+                        imaginary -= part * (PI * phase).sin();
                     }
                 }
                 let complex = contact.complex_stiffness(amplitude).unwrap();
-                // The sums have the rounding of forces up to the largest; K'' is what is left of them.
+                // The sums have the rounding error of the largest force; K'' is a cancelling sum.
                 let size = contact.initial_stiffness.min(4.0 * contact.slip_force / amplitude);
                 assert!((complex.real() - real).abs() < 1e-13 * size, "{part} {} {real}", complex.real());
                 assert!(
@@ -543,7 +473,7 @@ mod tests {
     }
 
     #[test]
-    fn amplitudes_are_refused_by_name() {
+    fn invalid_amplitudes_are_rejected() {
         let contact = contact(50e-6);
         for amplitude in [-1e-9, f64::NAN, f64::INFINITY, 1.1e150] {
             assert_eq!(contact.complex_stiffness(amplitude).map(|_| ()), Err(Error::BadAmplitude));

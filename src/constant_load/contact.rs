@@ -1,5 +1,5 @@
-//! A contact under a constant normal force: initialised once, then only read. It holds the stick zones of its shape, and the scales
-//! that turn their nondimensional quantities into forces and displacements.
+//! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
+//! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::complex_stiffness::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
@@ -283,7 +283,7 @@ pub(crate) mod tests {
         Contact::rounded_flat(&parameters(flat_half_width)).unwrap()
     }
 
-    /// A cylinder of that ratio of 2L to b.
+    /// A cylinder with a ratio 2L/b of `slenderness`.
     pub(crate) fn cylinder(slenderness: f64, poisson_ratio: f64, reference: i32) -> Result<Contact, Error> {
         let body = Material { young_modulus: 2e11, poisson_ratio };
         let half_width = 2.0 * 0.01 / slenderness;
@@ -313,22 +313,22 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_half_width_obeys_equation_1() {
+    fn half_width_satisfies_equation_1() {
         for flat in FLATS {
             let contact = contact(flat);
             let load = 4.0 * 150.0 / 10e-3 * 5e-3 / contact.composite_modulus;
             let (b, sine) = (contact.half_width, flat / contact.half_width);
             let angle = sine.asin();
-            // (π - 2φ0)/sin² φ0 - 2 cot φ0, times a² for the cylinder's sake.
+            // (π - 2φ0)/sin² φ0 - 2 cot φ0, times a² to include the cylinder.
             let expected = b * b * ((PI - 2.0 * angle) - 2.0 * sine * angle.cos());
-            // Eq. 1 as it stands is a difference, (w/b)³ of its terms, and loses as many digits.
-            let consumed = (1.0 - sine * sine).powf(-1.5);
-            assert!((expected / load - 1.0).abs() < 1e-15 * (4.0 + consumed), "{flat}: {expected} {load}");
+            // Eq. 1 as printed is a difference that is (w/b)³ of its terms: cancellation amplifies the rounding error.
+            let amplification = (1.0 - sine * sine).powf(-1.5);
+            assert!((expected / load - 1.0).abs() < 1e-15 * (4.0 + amplification), "{flat}: {expected} {load}");
         }
     }
 
     #[test]
-    fn unlike_bodies_have_each_their_own_compliance() {
+    fn compliances_of_unlike_bodies_add_up() {
         let steel = Material { young_modulus: 2.1e11, poisson_ratio: 0.28 };
         let one = Contact::rounded_flat(&Parameters { material: [steel, TITANIUM], ..parameters(20e-6) }).unwrap();
         let other = Contact::rounded_flat(&Parameters { material: [TITANIUM, steel], ..parameters(20e-6) }).unwrap();
@@ -337,14 +337,14 @@ pub(crate) mod tests {
             2.0 * (1.0 - nu * nu) / (PI * body.young_modulus) * ((2.0 * 10e-3 / one.half_width).ln() + nu / (1.0 - nu))
         };
         let expected = 10e-3 / (of_body(steel) + of_body(TITANIUM));
-        // A few units of rounding, as between both orders.
+        // A few units of rounding.
         assert!((one.initial_stiffness / expected - 1.0).abs() < 2e-15);
         assert!((one.initial_stiffness / other.initial_stiffness - 1.0).abs() < 2e-15);
         assert!(one.initial_stiffness > contact(20e-6).initial_stiffness);
     }
 
     #[test]
-    fn a_rigid_strip_is_stiffer_by_the_corrections_named() {
+    fn rigid_strip_is_stiffer_by_the_strip_correction() {
         for (nu, slenderness) in [(0.0, 4.0), (0.3, 10.0), (0.5, 100.0)] {
             let [centre, strip] =
                 [CENTRE_POINT, RIGID_STRIP].map(|reference| cylinder(slenderness, nu, reference).unwrap());
@@ -358,26 +358,26 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_length_below_half_the_half_width_is_refused() {
+    fn length_below_half_the_half_width_is_rejected() {
         for nu in [0.0, 0.3, 0.5] {
             for reference in [CENTRE_POINT, RIGID_STRIP] {
-                // 2L = b to 1e-9: far beyond the rounding of both.
-                let refused = cylinder(1.0 - 1e-9, nu, reference).map(|_| ());
-                assert_eq!(refused, Err(Error::LengthTooShort), "{nu}");
-                let barely = cylinder(1.0 + 1e-9, nu, reference).unwrap();
-                assert!(barely.initial_stiffness > 0.0 && compliance(&barely) > 0.0, "{nu}");
+                // 2L = b to 1e-9, far above the rounding errors of both.
+                let rejected = cylinder(1.0 - 1e-9, nu, reference).map(|_| ());
+                assert_eq!(rejected, Err(Error::LengthTooShort), "{nu}");
+                let shortest = cylinder(1.0 + 1e-9, nu, reference).unwrap();
+                assert!(shortest.initial_stiffness > 0.0 && compliance(&shortest) > 0.0, "{nu}");
             }
         }
-        // A flat alone may be too wide for its length.
+        // A flat wider than its length allows, whatever the load.
         let wide = Contact::rounded_flat(&parameters(20.1e-3)).map(|_| ());
         assert_eq!(wide, Err(Error::LengthTooShort));
     }
 
-    /// Over numbers of any size: either refused, or finite and positive.
+    /// For parameters of any magnitude: either rejected, or all results finite and positive.
     #[test]
-    fn what_is_accepted_is_representable() {
+    fn accepted_contacts_are_representable() {
         let sizes = [1e-300, 1e-120, 1e-30, 1e-3, 1e5, 1e40, 1e150, 1e300];
-        let (mut accepted, mut refused) = (0, 0);
+        let (mut accepted, mut rejected) = (0, 0);
         let mut check = |contact: Result<Contact, Error>| match contact {
             Ok(contact) => {
                 accepted += 1;
@@ -389,7 +389,7 @@ pub(crate) mod tests {
                 assert!(slip_energy.is_normal() && slip_energy < 2.0 * work, "{contact:?}");
             }
             Err(error) => {
-                refused += 1;
+                rejected += 1;
                 assert!(matches!(error, Error::OutOfRange | Error::LengthTooShort), "{error:?}");
             }
         };
@@ -418,20 +418,21 @@ pub(crate) mod tests {
                 }
             }
         }
-        assert!(accepted > 100 && refused > 1000, "{accepted} {refused}");
+        assert!(accepted > 100 && rejected > 1000, "{accepted} {rejected}");
     }
 
     #[test]
-    fn an_open_contact_and_one_without_friction_carry_no_force() {
+    fn open_and_frictionless_contacts_carry_no_force() {
         for flat in [0.0, 50e-6] {
             let open = Contact::rounded_flat(&Parameters { normal_force: 0.0, ..parameters(flat) }).unwrap();
-            let smooth = Contact::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(flat) }).unwrap();
+            let frictionless =
+                Contact::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(flat) }).unwrap();
             assert_eq!((open.half_width, open.pressure(0.0)), (0.0, 0.0));
-            assert_eq!((smooth.half_width, smooth.pressure(0.0)), {
-                let rough = contact(flat);
-                (rough.half_width, rough.pressure(0.0))
+            assert_eq!((frictionless.half_width, frictionless.pressure(0.0)), {
+                let frictional = contact(flat);
+                (frictional.half_width, frictional.pressure(0.0))
             });
-            for contact in [open, smooth] {
+            for contact in [open, frictionless] {
                 assert!(contact.is_initialised() && contact.composite_modulus > 0.0);
                 let Contact { slip_force, slip_displacement, initial_stiffness, slip_energy, .. } = contact;
                 assert_eq!([slip_force, slip_displacement, initial_stiffness, slip_energy], [0.0; 4]);
@@ -445,7 +446,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_negative_zero_is_a_zero() {
+    fn negative_zero_is_zero() {
         let minus = Contact::rounded_flat(&Parameters { flat_half_width: -0.0, ..parameters(0.0) }).unwrap();
         assert_eq!(std::format!("{minus:?}"), std::format!("{:?}", contact(0.0)));
     }
@@ -460,9 +461,9 @@ pub(crate) mod tests {
         }
     }
 
-    /// Products in range whose factors are not: neither an overflow on the way nor a NaN that passes for a contact.
+    /// Products in range whose factors are not: no intermediate overflow, and no contact of NaNs.
     #[test]
-    fn factors_out_of_range_are_refused() {
+    fn factors_out_of_range_are_rejected() {
         let body = Material { young_modulus: 5.5e85, poisson_ratio: 0.486 };
         let extreme = Parameters {
             flat_half_width: 0.0,
@@ -478,28 +479,28 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_displacement_of_gross_slip_that_no_call_takes_is_refused() {
-        let (mut accepted, mut refused) = (0, 0);
+    fn displacement_of_gross_slip_beyond_the_limit_is_rejected() {
+        let (mut accepted, mut rejected) = (0, 0);
         let soft = Material { young_modulus: 7.4e-57, ..TITANIUM };
         for exponent in 285..305 {
-            let rough = EllipticParameters {
+            let parameters = EllipticParameters {
                 semi_axis_x: 1e-4,
                 semi_axis_y: 2e-4,
                 normal_force: 100.0,
                 friction_coefficient: 2f64.powi(exponent),
                 material: [soft, TITANIUM],
             };
-            match Contact::elliptic(&rough) {
+            match Contact::elliptic(&parameters) {
                 Ok(contact) => {
                     accepted += 1;
                     assert!(contact.curve_at_displacement(contact.slip_displacement).is_ok());
                 }
                 Err(error) => {
-                    refused += 1;
+                    rejected += 1;
                     assert_eq!(error, Error::OutOfRange);
                 }
             }
         }
-        assert!(accepted > 0 && refused > 0);
+        assert!(accepted > 0 && rejected > 0);
     }
 }

@@ -138,12 +138,12 @@ fn interpolate<const N: usize>(
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let mut values = [0.0; N];
-    let mut places = values.iter_mut();
+    let mut slots = values.iter_mut();
     let mut first = None;
     let decrease = Interpolant::<N>::through(|z| {
         let zone = at(z);
-        if let Some(place) = places.next() {
-            *place = zone.load.remaining;
+        if let Some(slot) = slots.next() {
+            *slot = zone.load.remaining;
         }
         let increase = zone.compliance_increase;
         (3.0 + z) * ((increase - *first.get_or_insert(increase)) / (compliance + increase))
@@ -167,35 +167,36 @@ fn interpolate<const N: usize>(
 mod tests {
     use crate::constant_load::contact::tests::{FLATS, contact};
 
-    /// The ends of the pieces: where the polynomial in the approach ends, and every octave of v.
-    fn borders() -> impl Iterator<Item = f64> {
+    /// The boundaries of the pieces: of the first polynomial, and of every dyadic interval of v.
+    fn boundaries() -> impl Iterator<Item = f64> {
         (0..=super::PIECES as i32).map(|piece| 1.0 - (1.0 - super::INNER_FRACTION) * 0.25f64.powi(piece))
     }
 
     #[test]
-    fn force_and_stiffness_are_those_of_the_stick_zone() {
+    fn interpolant_agrees_with_the_stick_zone() {
         for contact in FLATS.map(contact) {
-            let shares = (1..400).map(|k| f64::from(k) / 400.0).chain([1e-12, 1e-3, 0.9999]).chain(borders());
-            for share in shares.filter(|share| *share < 1.0) {
-                let displacement = share * contact.slip_displacement;
-                let (found, stick) = (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
-                // Three polynomials' roundings of a unit each; near gross slip the stiffness has those of what is left.
-                assert!((found.force / contact.force_of(&stick) - 1.0).abs() < 1.5e-15, "{share}");
-                let bound = 2e-15 / (1.0 - share).min(1.0);
-                assert!((found.stiffness / contact.stiffness_of(&stick) - 1.0).abs() < bound, "{share}");
+            let fractions = (1..400).map(|k| f64::from(k) / 400.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
+            for fraction in fractions.filter(|fraction| *fraction < 1.0) {
+                let displacement = fraction * contact.slip_displacement;
+                let (response, zone) =
+                    (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
+                // Rounding errors of a unit from each of three polynomials; those of the stiffness scale as 1/(1 - x/x_s) near gross slip.
+                assert!((response.force / contact.force_of(&zone) - 1.0).abs() < 1.5e-15, "{fraction}");
+                let bound = 2e-15 / (1.0 - fraction).min(1.0);
+                assert!((response.stiffness / contact.stiffness_of(&zone) - 1.0).abs() < bound, "{fraction}");
             }
         }
     }
 
     #[test]
-    fn pieces_meet_and_the_curve_ends() {
+    fn interpolant_is_continuous_and_ends_at_mu_n() {
         for contact in FLATS.map(contact) {
-            for border in borders() {
-                let below = (border * contact.slip_displacement).next_down().next_down();
+            for boundary in boundaries() {
+                let below = (boundary * contact.slip_displacement).next_down().next_down();
                 let steps = std::iter::successors(Some(below), |x| Some(x.next_up())).take(5);
                 let forces: std::vec::Vec<f64> = steps.map(|x| contact.response(x).force).collect();
                 for pair in forces.windows(2) {
-                    assert!((pair[1] / pair[0] - 1.0).abs() < 1.5e-15, "{border}");
+                    assert!((pair[1] / pair[0] - 1.0).abs() < 1.5e-15, "{boundary}");
                 }
             }
             let end = contact.response(contact.slip_displacement);
@@ -206,23 +207,19 @@ mod tests {
         }
     }
 
-    /// Where the curve bends too sharply for polynomials it is solved, and as accurate.
+    /// For Λ near 0 the polynomials do not converge; the curve is solved by iteration, to the same accuracy.
     #[test]
-    fn a_length_just_allowed_has_no_polynomials() {
+    fn shortest_lengths_have_no_interpolant() {
         use crate::constant_load::contact::tests::cylinder;
         use crate::parameters::CENTRE_POINT;
-        for compliance_increase in [1e-9, 1e-3, 0.02] {
-            let contact = cylinder(1.0 + compliance_increase, 0.0, CENTRE_POINT).unwrap();
+        for excess in [1e-9, 1e-3, 0.02] {
+            let contact = cylinder(1.0 + excess, 0.0, CENTRE_POINT).unwrap();
             assert_eq!(contact.interpolant().converged, 0);
-            for share in (1..400).map(|k| f64::from(k) / 400.0).chain([1e-9, 0.9999]) {
-                let displacement = share * contact.slip_displacement;
+            for fraction in (1..400).map(|k| f64::from(k) / 400.0).chain([1e-9, 0.9999]) {
+                let displacement = fraction * contact.slip_displacement;
                 let back = contact.curve_at_force(contact.response(displacement).force).unwrap().displacement();
-                // A few units on both ways. Near gross slip a unit of the force is worth as much of the displacement.
-                assert!(
-                    (back / displacement - 1.0).abs() < 4e-15,
-                    "{compliance_increase} {share} {}",
-                    back / displacement - 1.0
-                );
+                // A few units of rounding in both directions. Near gross slip the error of the force is amplified in the displacement.
+                assert!((back / displacement - 1.0).abs() < 4e-15, "{excess} {fraction} {}", back / displacement - 1.0);
             }
         }
     }

@@ -3,8 +3,8 @@
 //! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
 
 use crate::constant_load::contact::{Contact, check_displacement};
-use crate::constant_load::curve::CurveEvaluator;
 use crate::constant_load::energy::Dissipation;
+use crate::constant_load::evaluator::CurveEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Transition, push};
 use crate::constant_load::state;
 use crate::error::Error;
@@ -223,7 +223,7 @@ mod tests {
         state
     }
 
-    /// Advances a state along displacements, over that of gross slip; the force at the end.
+    /// Advances a state along displacements in units of that of gross slip, and returns the last force.
     fn apply(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
         let mut force = f64::NAN;
         for displacement in path {
@@ -238,8 +238,8 @@ mod tests {
         contact.curve_at_displacement(displacement * contact.slip_displacement).unwrap().force()
     }
 
-    /// Numbers from -1 to 1 without a pattern, the same every time.
-    fn scattered(count: usize, seed: u64) -> impl Iterator<Item = f64> {
+    /// Pseudo-random values from -1 to 1.
+    fn pseudo_random(count: usize, seed: u64) -> impl Iterator<Item = f64> {
         let mut bits = seed;
         (0..count).map(move |_| {
             bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -256,35 +256,35 @@ mod tests {
     #[test]
     fn memory_without_a_tag_is_rejected() {
         let contact = contact(50e-6);
-        let mut good = unloaded(3);
-        apply(&contact, &mut good, &[0.5, -0.2, 0.1]);
+        let mut valid = unloaded(3);
+        apply(&contact, &mut valid, &[0.5, -0.2, 0.1]);
         let rejects = |state: &[f64], error: Error| {
             assert_eq!(check_step(state, 0.0), Err(error));
             assert_eq!(check_path(state, &[0.0]), Err(error));
             assert_eq!(shear_tractions(&contact, state, &[0.0], &mut [0.0]), Err(error));
             assert_eq!(state_error(state), Err(error));
         };
-        for tag in [0.0, f64::NAN, 1.5, -good[0], f64::from_bits(good[0].to_bits() + 2)] {
-            let mut bad = good.clone();
-            bad[0] = tag;
-            rejects(&bad, Error::BadState);
+        for tag in [0.0, f64::NAN, 1.5, -valid[0], f64::from_bits(valid[0].to_bits() + 2)] {
+            let mut invalid = valid.clone();
+            invalid[0] = tag;
+            rejects(&invalid, Error::BadState);
         }
-        rejects(good.get(..state_length(2) - 1).unwrap(), Error::StateTooShort);
-        // Truncated below its number of reversals.
-        apply(&contact, &mut good, &[0.05]);
-        rejects(good.get(..state_length(2)).unwrap(), Error::BadState);
+        rejects(valid.get(..state_length(2) - 1).unwrap(), Error::StateTooShort);
+        // Shorter than its number of reversals requires.
+        apply(&contact, &mut valid, &[0.05]);
+        rejects(valid.get(..state_length(2)).unwrap(), Error::BadState);
         assert_eq!(state_init(&mut [0.0; state_length(0) - 1]), Err(Error::StateTooShort));
-        assert_eq!(check_step(&good, f64::NAN), Err(Error::BadDisplacement));
+        assert_eq!(check_step(&valid, f64::NAN), Err(Error::BadDisplacement));
     }
 
     #[test]
-    fn the_mirror_of_the_first_reversal_leads_back_to_the_virgin_curve() {
+    fn branch_continues_on_the_initial_curve_at_the_mirror_image_of_the_first_reversal() {
         for flat in FLATS {
             let contact = contact(flat);
             for beyond in [0.5, 0.500001, 0.7, 0.999] {
                 let mut state = unloaded(8);
                 let force = apply(&contact, &mut state, &[0.5, -0.1, 0.3, 0.2, -beyond]);
-                // At the mirror point itself the closed branch is the virgin curve, too.
+                // At the mirror image itself the branch and the initial loading curve agree.
                 assert!((force + on_curve(&contact, beyond)).abs() <= 4e-16 * contact.slip_force, "{flat} {beyond}");
                 assert_eq!(depth_and_offset(&state), (0, 0.0));
             }
@@ -292,19 +292,19 @@ mod tests {
     }
 
     #[test]
-    fn gross_slip_forgets_everything() {
+    fn gross_slip_erases_the_memory() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let (mut rich, mut poor) = (unloaded(64), unloaded(64));
-            apply(&contact, &mut rich, &[0.5, -0.3, 0.9, -0.8, 0.1, 0.0, 0.05]);
-            for state in [&mut rich, &mut poor] {
+            let (mut loaded, mut initial) = (unloaded(64), unloaded(64));
+            apply(&contact, &mut loaded, &[0.5, -0.3, 0.9, -0.8, 0.1, 0.0, 0.05]);
+            for state in [&mut loaded, &mut initial] {
                 assert_eq!(apply(&contact, state, &[2.5]), contact.slip_force);
             }
-            assert_eq!(rich.first_chunk::<5>(), poor.first_chunk::<5>());
+            assert_eq!(loaded.first_chunk::<5>(), initial.first_chunk::<5>());
             for path in [&[2.4][..], &[1.0, 1.3], &[-0.4], &[0.6]] {
-                let [one, two] = [&mut rich, &mut poor].map(|state| apply(&contact, state, path));
+                let [one, two] = [&mut loaded, &mut initial].map(|state| apply(&contact, state, path));
                 assert_eq!(one, two);
             }
-            // From the end of a slip the way back is twice the curve, and slides again after twice its length.
+            // A branch that starts in gross slip is the curve scaled by two; it reaches gross slip at twice its displacement.
             let mut state = unloaded(2);
             let back = apply(&contact, &mut state, &[2.5, 2.5 - 1.2]);
             let expected = contact.slip_force - 2.0 * on_curve(&contact, 0.6);
@@ -314,11 +314,11 @@ mod tests {
     }
 
     #[test]
-    fn a_step_of_zero_changes_nothing() {
+    fn zero_step_changes_nothing() {
         let contact = contact(1e-6);
         let mut state = unloaded(64);
-        for (number, displacement) in scattered(200, 3).enumerate() {
-            // Up to gross slip and beyond, from the virgin state on.
+        for (number, displacement) in pseudo_random(200, 3).enumerate() {
+            // Up to gross slip and beyond, from the initial state.
             let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
             let first = step(&contact, &state, target);
             first.write(&contact, &mut state);
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deep_spiral_is_exact_and_closes_at_once() {
+    fn deep_spiral_of_reversals_is_closed_by_one_step() {
         let contact = contact(0.0);
         let spiral: Vec<f64> =
             (0..400).map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0)).collect();
@@ -343,15 +343,15 @@ mod tests {
         assert_eq!(depth_and_offset(&state).0, 0);
     }
 
-    /// A path whose last state is discarded is the path of a kept state.
+    /// The results of a path do not depend on whether the new state is discarded.
     #[test]
-    fn a_path_in_a_copy_is_the_same_path() {
+    fn path_in_copy_equals_path() {
         let contact = contact(50e-6);
         let slip = contact.slip_displacement;
         for capacity in [0, 3, 40] {
             let mut state = unloaded(capacity);
             for seed in 0..4 {
-                let path: Vec<f64> = scattered(60, seed).map(|x| 1.1 * x * slip).collect();
+                let path: Vec<f64> = pseudo_random(60, seed).map(|x| 1.1 * x * slip).collect();
                 let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
                 let output = |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
                 path_in_copy(&contact, &state, &path, output(&mut discarded));
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_loop_dissipates_the_energy_of_its_amplitude() {
+    fn closed_loop_dissipates_the_energy_of_its_amplitude() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             for amplitude in [0.01, 0.3, 0.8, 0.9999] {
                 let mut state = unloaded(4);
@@ -374,9 +374,9 @@ mod tests {
                     step.write(&contact, &mut state);
                 }
                 let expected = contact.dissipated_energy(force).unwrap();
-                // Near gross slip the rounding of the force itself, a unit in 1e-4 of mu N, is worth the most.
+                // The largest contribution is the rounding error of the force near gross slip, relative to the distance of 1e-4.
                 assert!((sum / expected - 1.0).abs() < 1e-13, "{amplitude} {sum} {expected}");
-                // A small loop within, on the way: the same energy wherever it hangs, to the rounding of its place.
+                // A small nested loop dissipates the same energy anywhere, up to the rounding error of its displacements.
                 apply(&contact, &mut state, &[0.0, -0.2 * amplitude]);
                 let part = 0.1 * amplitude;
                 let mut inner = 0.0;
@@ -385,48 +385,48 @@ mod tests {
                     inner += energy;
                     step.write(&contact, &mut state);
                 }
-                let alone = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
-                assert!((inner / alone - 1.0).abs() < 1e-13, "{amplitude} {inner} {alone}");
+                let expected = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
+                assert!((inner / expected - 1.0).abs() < 1e-13, "{amplitude} {inner} {expected}");
             }
         }
     }
 
     #[test]
-    fn tractions_after_a_history_obey_coulomb_and_add_up_to_the_force() {
+    fn tractions_after_a_history_satisfy_coulomb_and_integrate_to_the_force() {
         let contact = contact(50e-6);
         let mut state = unloaded(8);
         let force = apply(&contact, &mut state, &[0.9, -0.6, 0.4, -0.1, 0.2]);
-        // Between the stick edges of all jumps of force, flat and edge, where the traction has its roots.
+        // The singular points of the traction: the stick edges of all changes of force, and the edges of flat and contact.
         let forces: Vec<f64> =
             state::read(&state).unwrap().reversals.iter().map(|[_, force, _]| *force).chain([force]).collect();
-        let edge = |jump: f64| contact.curve_at_force(jump).unwrap().stick_half_width();
-        let mut places: Vec<f64> = forces.windows(2).map(|pair| edge(0.5 * (pair[1] - pair[0]))).collect();
-        assert_eq!(places.len(), 4);
-        places.extend([0.0, 50e-6, contact.half_width, edge(forces[0])]);
-        places.sort_by(f64::total_cmp);
+        let stick_edge = |change: f64| contact.curve_at_force(change).unwrap().stick_half_width();
+        let mut points: Vec<f64> = forces.windows(2).map(|pair| stick_edge(0.5 * (pair[1] - pair[0]))).collect();
+        assert_eq!(points.len(), 4);
+        points.extend([0.0, 50e-6, contact.half_width, stick_edge(forces[0])]);
+        points.sort_by(f64::total_cmp);
         let mut sum = 0.0;
-        for (from, to) in places.iter().zip(places.iter().skip(1)) {
+        for (from, to) in points.iter().zip(points.iter().skip(1)) {
             for node in &crate::numerics::quadrature::TANH_SINH {
                 let x = from + (to - from) * node.from_0;
                 let mut shear = [0.0];
                 shear_tractions(&contact, &state, &[x], &mut shear).unwrap();
                 let [shear] = shear;
-                // Rounding of five terms.
+                // The rounding errors of five terms.
                 assert!(shear.abs() <= 0.4 * contact.pressure(x) * (1.0 + 1e-12));
                 sum += 2.0 * 10e-3 * (to - from) * node.weight * shear;
             }
         }
-        // The rule's nodes next to an edge are rounded to it.
+        // The nodes of the rule next to an edge round to it.
         assert!((sum / force - 1.0).abs() < 1e-7, "{sum} {force}");
-        // The force of a stronger contact.
+        // A force above the mu N of this contact.
         let stronger = Contact::rounded_flat(&Parameters { normal_force: 225.0, ..parameters(50e-6) }).unwrap();
         apply(&stronger, &mut state, &[-3.0]);
         assert_eq!(shear_tractions(&contact, &state, &[0.0], &mut [0.0]), Err(Error::ForceExceedsSlip));
     }
 
-    /// So far in gross slip that the origin cannot be told from the displacement, the direction is still known.
+    /// So far in gross slip that the offset of the initial loading curve equals the displacement in double precision.
     #[test]
-    fn a_step_of_zero_far_in_gross_slip_changes_nothing() {
+    fn zero_step_far_in_gross_slip_changes_nothing() {
         let contact = contact(0.0);
         for displacement in [-1e17 * contact.slip_displacement, -1e150, 1e150] {
             let mut state = unloaded(3);

@@ -116,13 +116,13 @@ impl Shape for HertzEllipse {
 
 /// J and J_cos over the semi-axes along (b) and across (l) the force \[1/m\].
 ///
-/// With M the mean of both axes, J = π/(2M). The share of J that goes with the smaller axis' direction is
+/// With M the mean of both axes, J = π/(2M). The fraction of J for the direction of the smaller axis is
 /// `½ [1 + Σ 2ⁿ c_n²/c_0²]`, where c_n are the half-differences of the means and c_0² = 1 - k'²: positive terms.
 fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
     let (small, large) = (along.min(across), along.max(across));
     let ratio = small / large;
     let (mut mean, mut geometric) = (1.0, ratio);
-    // c_1²/c_0², then the following ones from c_{n+1} = c_n²/(4 M_{n+1}).
+    // c_1²/c_0², then the next ones from c_{n+1} = c_n²/(4 M_{n+1}).
     let mut half = 0.5 * (1.0 - ratio);
     let mut square = 0.25 * (1.0 - ratio) / (1.0 + ratio);
     let mut power = 2.0;
@@ -132,18 +132,18 @@ fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
         let next = 0.5 * (mean + geometric);
         geometric = (mean * geometric).sqrt();
         mean = next;
-        let following = half * half / (2.0 * (mean + geometric));
-        square *= (following / half.max(TINY)) * (following / half.max(TINY));
-        half = following;
+        let next_half = half * half / (2.0 * (mean + geometric));
+        square *= (next_half / half.max(TINY)) * (next_half / half.max(TINY));
+        half = next_half;
         power *= 2.0;
         if square <= 1e-18 {
             break;
         }
     }
     let all = FRAC_PI_2 / (0.5 * (mean + geometric)) / large;
-    let share = 0.5 * sum;
-    // sin² goes with the smaller axis: W² = large² (1 - k² sin²) for b < l, and with cos and sin exchanged for b > l.
-    (all, if along <= across { all * (1.0 - share) } else { all * share })
+    let fraction = 0.5 * sum;
+    // sin² belongs to the smaller axis: W² = large² (1 - k² sin²) for b < l, and with cos and sin exchanged for b > l.
+    (all, if along <= across { all * (1.0 - fraction) } else { all * fraction })
 }
 
 #[cfg(test)]
@@ -152,7 +152,7 @@ mod tests {
     use crate::constant_load::contact::tests::cylinder;
     use crate::parameters::{CENTRE_POINT, Material};
 
-    fn like(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
+    fn equal_bodies(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
         [Material { young_modulus, poisson_ratio }; 2]
     }
 
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sphere_has_the_stiffness_of_mindlin() {
+    fn sphere_has_the_stiffness_of_mindlin() {
         let radius = 0.3e-3;
         let material = [
             Material { young_modulus: 2.1e11, poisson_ratio: 0.3 },
@@ -176,38 +176,41 @@ mod tests {
     }
 
     #[test]
-    fn a_long_ellipse_tends_to_the_cylinder() {
+    fn long_ellipse_approaches_the_cylinder() {
         let nu = 0.3;
         for slenderness in [40.0, 400.0, 4000.0_f64] {
             let line = cylinder(slenderness, nu, CENTRE_POINT).unwrap();
-            let compliance = initial_compliance(line.half_width, 0.01 / 2.0, &like(2e11, nu));
-            // Both integrals for k' = b/l → 0, to the next term.
+            let compliance = initial_compliance(line.half_width, 0.01 / 2.0, &equal_bodies(2e11, nu));
+            // The expansion of both integrals for k' = b/l → 0, to second order.
             let (square, log) = (16.0 / (slenderness * slenderness), slenderness.ln());
             let next = (1.0 - nu) * 0.25 * (log - 1.0) + nu * (0.75 - 0.5 * log);
             let expected = square * next / ((1.0 - nu) * log + nu);
-            let off = compliance * line.initial_stiffness - 1.0;
-            // The term after that is k'⁴ ln k', and both compliances are rounded.
-            assert!((off - expected).abs() < square * square * log + 2e-15, "{slenderness}: {off:e} {expected:e}");
+            let deviation = compliance * line.initial_stiffness - 1.0;
+            // The next term is k'⁴ ln k'; both compliances have rounding errors.
+            assert!(
+                (deviation - expected).abs() < square * square * log + 2e-15,
+                "{slenderness}: {deviation:e} {expected:e}"
+            );
         }
     }
 
     #[test]
-    fn swapped_axes_share_one_elliptic_integral() {
+    fn swapped_axes_have_complementary_integrals() {
         for (one, two) in [(1.0, 1.0), (1.0, 1.01), (1e-3, 0.2), (1e-9, 1.0)] {
             let ((all, along), (same, across)) = (cerruti_integrals(one, two), cerruti_integrals(two, one));
-            // cos² and sin² add up to 1; a share of nearly all or nothing has its error in the other.
+            // cos² + sin² = 1.
             assert!((all / same - 1.0).abs() < 1e-15 && ((along + across) / all - 1.0).abs() < 1e-15, "{one} {two}");
-            let compliance = |x: f64, y: f64, nu: f64| initial_compliance(x, y, &like(1.0, nu));
+            let compliance = |x: f64, y: f64, nu: f64| initial_compliance(x, y, &equal_bodies(1.0, nu));
             assert!((compliance(one, two, 0.0) / compliance(two, one, 0.0) - 1.0).abs() < 1e-15);
-            // With Poisson's ratio the contact that is long along the force is the softer one.
+            // For ν > 0 the contact whose longer axis is along the force is more compliant.
             assert!(one == two || compliance(two, one, 0.3) > compliance(one, two, 0.3));
         }
     }
 
     #[test]
-    fn the_integrals_are_those_of_cerruti() {
+    fn integrals_agree_with_the_midpoint_rule() {
         for (along, across) in [(1.0, 1.0), (1.0, 0.7), (0.3, 1.1)] {
-            // The midpoint rule over a period has an error of ((l-b)/(l+b))⁶⁴, 4e-16 of these axes, and by the rounding of its sum.
+            // The midpoint rule over a period has an error of ((l-b)/(l+b))⁶⁴, at most 4e-16 for these axes, and rounding errors.
             let (mut all, mut cosine) = (0.0, 0.0);
             for k in 0..64 {
                 let angle = PI * (k as f64 + 0.5) / 64.0;

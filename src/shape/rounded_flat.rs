@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn each_quantity_gives_the_size_back() {
+    fn inverses_return_the_size() {
         for flat in FLATS {
             let shape = RoundedFlat::new(&parameters(flat)).unwrap();
             for k in -40..8 {

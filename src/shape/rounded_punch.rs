@@ -1,30 +1,29 @@
-//! Indentation by a flat with rounded edges: load and size of the contact (Eq. 1, 19, 24).
+//! Load and size of a punch with a flat and rounded edges (Eq. 1, 19, 24).
 //!
-//! The contact has half-width `c`, the flat `a`. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)`,
+//! The contact has half-width c, the flat a. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)` the load is
 //!
 //! ```text
-//! g(w) = 2 c² ψ - 2 a w  =  4 R P(c) / E*          Eq. 1, mended
+//! g(w) = 2 c² ψ - 2 a w  =  4 R P(c) / E*          Eq. 1, corrected
 //! ```
 //!
-//! is the load of that contact. Along the family of contacts that a growing load runs through, two means of the load
-//! over ln c decide everything that follows: of the load itself and of its square,
+//! Shift and energy depend on the means of the load and of its square over ln c:
 //!
 //! ```text
 //! β = (1/g) ∫ g dc/c,       γ = (1/g²) ∫ g² dc/c        from c = a (from 0 for a cylinder) to c.
 //! ```
 //!
-//! Both depend on ψ alone: they rise from ψ²/5 and ψ²/8 for the flat to 1/2 and 1/4 for the cylinder.
+//! Both are functions of ψ: they increase from ψ²/5 and ψ²/8 for the flat to 1/2 and 1/4 for the cylinder.
 //!
-//! Written with ψ, all three cancel for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3 they are summed as
-//! power series in `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` instead; the series converge for χ < 1 and lose at most one bit.
+//! The closed forms in ψ suffer cancellation for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3, power series in
+//! `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` are used instead; they converge for χ < 1 and lose at most one bit.
 
 use crate::numerics::polynomial::{self, Rows, rows};
 use core::f64::consts::PI;
 
-/// Terms of the series; the first one left out is below 3⁻³⁶ of the sum.
+/// Terms of the series; the first omitted term is below 3⁻³⁶ of the sum.
 const TERMS: usize = 36;
 
-/// Where numbers only guard a division that the result does not use.
+/// Lower bound of a divisor or of the argument of a logarithm whose result is not used.
 pub(crate) const TINY: f64 = 1e-300;
 
 type Table = Rows<{ TERMS / 4 }>;
@@ -43,11 +42,11 @@ static LOAD: Table = {
     rows(&table)
 };
 
-/// Coefficients of β (`order` 1) or γ (`order` 2) over χ.
+/// Coefficients of β (`order` 1) or γ (`order` 2) divided by χ.
 ///
-/// Along the family `df/d ln c = 1 - f d ln g^order / d ln c`, which in χ reads
+/// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of χ this is
 /// `χ (1 - χ²) P f' + order A f = 2 χ P` with `A = ψ/(2 √χ)` and `P = (ψ - sin ψ cos ψ)/(8 χ √χ)`.
-const fn mean_over_family(order: f64) -> Table {
+const fn mean_over_ln_c(order: f64) -> Table {
     let mut atan = [0.0; TERMS + 1];
     let mut load = [0.0; TERMS + 1];
     let mut sign = 1.0;
@@ -59,7 +58,7 @@ const fn mean_over_family(order: f64) -> Table {
         sign = -sign;
         k += 1;
     }
-    // f_0 = 0; table[k - 1] holds f_k.
+    // f_0 = 0; table[k - 1] is f_k.
     let mut table = [0.0; TERMS];
     let mut k = 1;
     while k <= TERMS {
@@ -67,8 +66,8 @@ const fn mean_over_family(order: f64) -> Table {
         let mut j = 1;
         while j < k {
             let i = k - j;
-            let steep = load[i] - if i >= 2 { load[i - 2] } else { 0.0 };
-            sum -= table[j - 1] * (j as f64 * steep + order * atan[i]);
+            let factor = load[i] - if i >= 2 { load[i - 2] } else { 0.0 };
+            sum -= table[j - 1] * (j as f64 * factor + order * atan[i]);
             j += 1;
         }
         table[k - 1] = sum / (k as f64 * load[0] + order);
@@ -77,14 +76,14 @@ const fn mean_over_family(order: f64) -> Table {
     rows(&table)
 }
 
-static BETA: Table = mean_over_family(1.0);
-static GAMMA: Table = mean_over_family(2.0);
+static BETA: Table = mean_over_ln_c(1.0);
+static GAMMA: Table = mean_over_ln_c(2.0);
 
 fn sum(table: &Table, chi: f64) -> f64 {
     polynomial::sum(table.iter().copied().take(polynomial::rows_for(chi, TERMS / 4)), chi)
 }
 
-/// One contact of the family, given by the half-width `a` of the flat and by `w`; lengths in any one unit.
+/// A contact, given by the half-width a of the flat and by w; lengths in any one unit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RoundedPunch {
     pub flat: f64,
@@ -97,7 +96,7 @@ pub(crate) struct RoundedPunch {
 
 impl RoundedPunch {
     pub fn new(flat: f64, w: f64) -> RoundedPunch {
-        // A cylinder keeps its right angle down to no width at all.
+        // For a cylinder ψ = π/2 even at w = 0.
         RoundedPunch {
             flat,
             w,
@@ -106,18 +105,18 @@ impl RoundedPunch {
         }
     }
 
-    /// χ = tan²(ψ/2), where the series are the way to compute.
+    /// χ = tan²(ψ/2) if the series apply.
     fn chi(&self) -> Option<f64> {
         let root = self.w / (self.flat + self.half_width).max(TINY);
         (self.w * self.w <= 3.0 * self.flat * self.flat).then_some(root * root)
     }
 
-    /// `w - a ψ`, the part of w beyond the arc. Formulas that lose digits near ψ = π/3 lose fewest as differences from it.
+    /// `w - a ψ`. In terms of this difference the closed forms suffer the least cancellation near ψ = π/3.
     fn w_minus_arc(&self) -> f64 {
         self.w - self.flat * self.psi
     }
 
-    /// g = 4RP/E*: the load of this contact \[length²\].
+    /// g = 4RP/E* \[length²\].
     pub fn load(&self) -> f64 {
         let (a, w, c) = (self.flat, self.w, self.half_width);
         match self.chi() {
@@ -135,7 +134,7 @@ impl RoundedPunch {
         }
     }
 
-    /// γ, the mean of the load's square over ln c, given the load g.
+    /// γ, the mean of the squared load over ln c, given the load g.
     pub fn gamma(&self, load: f64) -> f64 {
         let (a, w) = (self.flat, self.w);
         match self.chi() {
@@ -144,22 +143,21 @@ impl RoundedPunch {
                 let c2 = (a * a + w * w).max(TINY);
                 // cos² ψ, sin² ψ, and c²/g, which is below 1 here.
                 let (cos2, sin2, unit) = (a * a / c2, w * w / c2, c2 / load.max(c2));
-                // cos² ψ ln cos ψ vanishes with cos ψ: the clamp only keeps the logarithm finite.
+                // cos² ψ ln cos ψ vanishes with cos ψ; the lower bound keeps the logarithm finite.
                 let elementary = cos2 * (sin2 * (1.0 + cos2) + 2.0 * cos2 * cos2.max(TINY).ln());
                 0.25 - unit * ((2.0 / 3.0) * (a * w / c2) * sin2 - (4.0 / 3.0) * unit * elementary)
             }
         }
     }
 
-    /// The contact of this load: the inverse of g (Eq. 1).
+    /// The contact that carries a load: the inverse of g (Eq. 1).
     ///
-    /// The two limits, `w = sqrt(g/π)` of the cylinder and `w = (3ag/4)^(1/3)` of the flat, added as cubes, are 3 % off at
-    /// worst; Halley's iteration cubes that error each time.
+    /// Halley's iteration, with cubic convergence, from an initial guess with an error of at most 3 %.
     pub fn from_load(flat: f64, load: f64) -> RoundedPunch {
         RoundedPunch::refine_from(RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load)), load)
     }
 
-    /// The contact of this load, from one near it.
+    /// The contact that carries a load, by Halley's iteration from one close to it.
     pub fn refine_from(start: RoundedPunch, load: f64) -> RoundedPunch {
         let mut now = start;
         for _ in 0..4 {
@@ -175,7 +173,8 @@ impl RoundedPunch {
         now
     }
 
-    /// The contact of this load, from one that is nearly always within 1e-9 of it, and of no use elsewhere.
+    /// The contact that carries a load, by one Newton step from a contact that is nearly always within 1e-9 of it; otherwise by
+    /// [`RoundedPunch::from_load`].
     pub fn newton_step_from(start: RoundedPunch, load: f64) -> RoundedPunch {
         let RoundedPunch { w, psi, half_width, flat } = start;
         let step = (load - start.load()) / (4.0 * w * psi).max(TINY);
@@ -187,7 +186,8 @@ impl RoundedPunch {
         RoundedPunch { w: w + step, psi: psi + step * (flat / c / c), half_width: half_width + step * (w / c), flat }
     }
 
-    /// w of the contact of this load to 3 %.
+    /// w of the contact that carries a load, with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of
+    /// the flat, added as cubes.
     pub fn initial_guess_w(flat: f64, load: f64) -> f64 {
         let load = load.max(0.0);
         let hertz = load / PI;
@@ -213,9 +213,9 @@ mod tests {
             for (node, weight) in crate::numerics::quadrature::gauss_nodes(4) {
                 let v = w * (panel as f64 + node) / panels as f64;
                 let now = RoundedPunch::new(a, v);
-                let share = weight * (w / panels as f64) * v / (now.half_width * now.half_width);
-                one += share * now.load();
-                two += share * now.load() * now.load();
+                let element = weight * (w / panels as f64) * v / (now.half_width * now.half_width);
+                one += element * now.load();
+                two += element * now.load() * now.load();
             }
         }
         let g = RoundedPunch::new(a, w).load();
@@ -223,19 +223,19 @@ mod tests {
     }
 
     #[test]
-    fn the_two_ways_to_compute_meet_at_a_third_of_pi() {
+    fn series_and_closed_forms_agree_on_both_sides_of_the_switch() {
         let inside = RoundedPunch::new(1.0, 3f64.sqrt() * (1.0 - 1e-15));
         let outside = RoundedPunch::new(1.0, 3f64.sqrt() * (1.0 + 1e-15));
         assert!(inside.chi().is_some() && outside.chi().is_none());
         let (g, f) = (inside.load(), outside.load());
-        // 10 units of rounding: each side loses at most four, and the two arguments differ by 2e-15.
+        // Rounding errors of up to four units on each side, and arguments that differ by 2e-15.
         assert!((g / f - 1.0).abs() < 1e-14);
         assert!((inside.beta(g) / outside.beta(f) - 1.0).abs() < 1e-14);
         assert!((inside.gamma(g) / outside.gamma(f) - 1.0).abs() < 1e-14);
     }
 
     #[test]
-    fn the_means_are_their_integrals() {
+    fn beta_and_gamma_are_the_mean_integrals() {
         for w in [1e-4, 0.1, 0.7, 1.5, 2.0, 10.0] {
             let one = RoundedPunch::new(1.0, w);
             let g = one.load();
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn the_limits_are_the_flat_and_the_cylinder() {
+    fn beta_and_gamma_have_the_limits_of_flat_and_cylinder() {
         let flat = RoundedPunch::new(1.0, 1e-6);
         let psi2 = 1e-12;
         assert!((flat.beta(flat.load()) / (psi2 / 5.0) - 1.0).abs() < 1e-11);
@@ -258,11 +258,11 @@ mod tests {
     }
 
     #[test]
-    fn size_and_load_are_inverse() {
+    fn from_load_inverts_the_load() {
         for k in -120..=120 {
             let load = 10f64.powf(k as f64 / 10.0);
             let back = RoundedPunch::from_load(1.0, load).load();
-            // A unit of rounding of w is worth up to three in the load.
+            // A relative error of w is amplified by up to three in the load.
             assert!((back / load - 1.0).abs() < 1.5e-15, "{load}: {back}");
         }
         assert_eq!(RoundedPunch::from_load(1.0, 0.0).w, 0.0);
@@ -270,14 +270,14 @@ mod tests {
     }
 
     #[test]
-    fn series_and_closed_forms_meet() {
+    fn series_of_beta_equals_its_closed_form() {
         // At ψ = π/3: a = 1, w = √3, c = 2.
         let (w, psi, chi) = (3f64.sqrt(), PI / 3.0, 1.0 / 3.0);
         let load = 2.0 * (4.0 * psi - w);
         let beta = (6.0 * psi - 3.0 * w) / load;
-        let series = chi * sum(&mean_over_family(1.0), chi);
-        // Both lose a bit or two.
+        let series = chi * sum(&mean_over_ln_c(1.0), chi);
+        // Both lose one or two bits to cancellation.
         assert!((series / beta - 1.0).abs() < 2e-15, "{series} {beta}");
-        assert_eq!(mean_over_family(2.0), GAMMA);
+        assert_eq!(mean_over_ln_c(2.0), GAMMA);
     }
 }

@@ -1,14 +1,14 @@
 //! Stick zones: the sizes below the present contact size b, relative to it.
 //!
-//! Under the load of b, a monotonically increased tangential force leaves a stick zone of size c in the same family, and
+//! Under the load of b, a monotonically increased tangential force leaves a stick zone of a smaller size c of the same shape, and
 //!
 //! ```text
 //! Q = μ [P(b) - P(c)],        δ = μ [S(b) - S(c)],        dS = K(c) dP,
 //! ```
 //!
 //! with the load P(c) and the tangential shift S(c) of size c (Cattaneo; Jäger and Ciavarella, 1998). Every tangential state under
-//! that load is a signed sum of such differences. Nondimensionally, with loads in P(b), sizes in b and shifts in a unit of the
-//! family's choice, a stick zone is described by
+//! that load is a signed sum of such differences. Nondimensionally, with loads in P(b), sizes in b and shifts in a unit that
+//! depends on the shape, a stick zone is described by
 //!
 //! ```text
 //! τ = 1 - P(c)/P(b)         the tangential force over mu N
@@ -26,7 +26,7 @@ pub(crate) mod small_load;
 use crate::numerics::quadrature::TANH_SINH;
 use small_load::SmallLoadSeries;
 
-/// An amount in two parts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
+/// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Complement {
     pub consumed: f64,
@@ -58,8 +58,8 @@ pub(crate) struct QuadraturePoint {
     pub dcompliance_dsigma: f64,
 }
 
-/// A point along the width. The differences are formed from the lengths as given: x/b alone has lost the digits that tell flat
-/// and edge of a nearly flat contact apart.
+/// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
+/// x/b may exceed the distance from flat to edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SurfacePoint {
     /// |x|/b.
@@ -150,9 +150,11 @@ pub(crate) trait StickZones {
     }
 }
 
-/// `∫ f dσ` between two size parameters, for f with at worst a square root at each end.
+/// `∫ f dσ` between two size parameters, for f with at worst a square root at each end. No node lies beyond `to`, even with rounding
+/// upward: the compliance of a size above b could vanish.
 pub(crate) fn integrate(zones: &dyn StickZones, from: f64, to: f64, mut f: impl FnMut(&QuadraturePoint) -> f64) -> f64 {
     let length = to - from;
-    let values = TANH_SINH.iter().map(|node| node.weight * f(&zones.quadrature_point(from + length * node.from_0)));
+    let values =
+        TANH_SINH.iter().map(|node| node.weight * f(&zones.quadrature_point((from + length * node.from_0).min(to))));
     length * values.sum::<f64>()
 }

@@ -1,4 +1,4 @@
-//! Stick zones of the elliptical Hertz contact. All elliptical contacts have the same ones in their own units.
+//! Stick zones of the elliptical Hertz contact: nondimensionally the same for all elliptical contacts.
 //!
 //! The size parameter σ is the semi-axis of the stick ellipse over that of the contact. Loads scale as σ³, shifts as σ², so that, in
 //! units of C_t μ N,
@@ -42,11 +42,11 @@ impl StickZones for EllipseZones {
 
     fn at_load_remaining(&self, remaining: f64) -> StickZone {
         let size = remaining.cbrt();
-        let left = SLIP_SHIFT * size * size;
+        let remaining_shift = SLIP_SHIFT * size * size;
         let compliance_increase = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
         StickZone {
             load: Complement { consumed: 1.0 - remaining, remaining },
-            shift: Complement { consumed: SLIP_SHIFT - left, remaining: left },
+            shift: Complement { consumed: SLIP_SHIFT - remaining_shift, remaining: remaining_shift },
             compliance_increase,
             size_parameter: Some(size),
         }
@@ -81,10 +81,10 @@ impl StickZones for EllipseZones {
     }
 
     fn quadrature_point(&self, size: f64) -> QuadraturePoint {
-        let left = SLIP_SHIFT * size * size;
+        let remaining = SLIP_SHIFT * size * size;
         let inverse = 1.0 / size.max(1e-100);
         QuadraturePoint {
-            shift: Complement { consumed: SLIP_SHIFT - left, remaining: left },
+            shift: Complement { consumed: SLIP_SHIFT - remaining, remaining },
             compliance: inverse,
             dload_dsigma: 3.0 * size * size,
             dcompliance_dsigma: inverse * inverse,
@@ -104,7 +104,7 @@ impl StickZones for EllipseZones {
         let (size, x) = (self.size(zone), point.x);
         let outer = (point.from_edge * (1.0 + x)).max(0.0).sqrt();
         let inner = ((size - x) * (size + x)).max(0.0).sqrt();
-        // The difference of the two square roots from that of their squares, if both exist.
+        // The difference of the two square roots, if both are real, from the difference of their squares.
         let difference =
             if inner > 0.0 { consumed_size(zone) * (1.0 + size) / (outer + inner).max(TINY) } else { outer };
         SLIP_SHIFT / PI * difference
@@ -128,16 +128,16 @@ mod tests {
     use crate::parameters::{EllipticParameters, Material};
     use crate::shape::stick_zone::integrate;
 
-    fn like(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
+    fn equal_bodies(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
         [Material { young_modulus, poisson_ratio }; 2]
     }
 
-    /// The example `cattaneo` of the program CONTACT; millimetres and newtons, numbers given to five digits. The friction
-    /// work is that of one monotonic loading, a quarter of a cycle's.
+    /// The example `cattaneo` of the program CONTACT; millimetres and newtons, results printed with five digits. The friction work is
+    /// that of the initial loading, a quarter of that of a cycle.
     #[test]
-    fn cattaneos_problem_has_the_shift_and_the_friction_work_known() {
+    fn cattaneo_problem_has_the_published_shift_and_friction_work() {
         let (normal_force, radius, friction, ratio) = (9.1954, 50.0, 0.4, 0.42);
-        let material = like(200.0 * 2.0 * (1.0 + ratio), ratio);
+        let material = equal_bodies(200.0 * 2.0 * (1.0 + ratio), ratio);
         let modulus = 200.0 * (1.0 + ratio) / (1.0 - ratio * ratio);
         let size: f64 = (0.75 * normal_force * radius / modulus).cbrt();
         let contact = Contact::elliptic(&EllipticParameters {
@@ -153,33 +153,33 @@ mod tests {
         let work = 0.25 * contact.dissipated_energy(force).unwrap();
         assert!((point.displacement() - 8.1724e-3).abs() < 0.5e-7, "{}", point.displacement());
         assert!((work - 2.7554e-3).abs() < 0.5e-7, "{work}");
-        // Half of the contact's size sticks: (1 - 7/8)^(1/3).
+        // The stick ellipse has half the size of the contact: (1 - 7/8)^(1/3).
         assert!((point.stick_half_width() / size - 0.5).abs() < 4e-16);
     }
 
     #[test]
-    fn series_and_closed_form_meet() {
-        // Below 1/2 the series, above the closed form: within 1e-12 of the change both have the same tangent.
-        let family = EllipseZones;
-        let at = |tau: f64| family.at_load(Complement { consumed: tau, remaining: 1.0 - tau });
+    fn series_and_closed_form_agree_at_half_load() {
+        // The series applies up to τ = 1/2, the closed form beyond: within 1e-12 of it both have the same tangent.
+        let zones = EllipseZones;
+        let at = |tau: f64| zones.at_load(Complement { consumed: tau, remaining: 1.0 - tau });
         let (low, high) = (at(0.5), at(0.5 + 1e-12));
-        let step = 1e-12 * family.compliance(&low);
+        let step = 1e-12 * zones.compliance(&low);
         assert!((high.shift.consumed - low.shift.consumed - step).abs() < 1e-15);
         assert!((high.compliance_increase - low.compliance_increase).abs() < 2e-12);
-        let slope = family.d_dissipation(&low);
-        assert!((family.dissipation(&high) - family.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
-        // The whole cycle, and its integral over the family: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
-        let end = family.dissipation(&family.at_load_remaining(0.0));
-        let sum = integrate(&family, 0.0, 1.0, |station| {
-            let size = (station.shift.remaining / SLIP_SHIFT).sqrt();
+        let slope = zones.d_dissipation(&low);
+        assert!((zones.dissipation(&high) - zones.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
+        // The energy at gross slip, and its integral over all stick zones: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
+        let gross_slip = zones.dissipation(&zones.at_load_remaining(0.0));
+        let sum = integrate(&zones, 0.0, 1.0, |point| {
+            let size = (point.shift.remaining / SLIP_SHIFT).sqrt();
             let remaining = size * size * size;
-            4.0 * (1.0 - remaining) * remaining * station.dcompliance_dsigma
+            4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma
         });
-        assert!((end - 1.2).abs() < 4e-16 && (sum - 1.2).abs() < 4e-15, "{end} {sum}");
+        assert!((gross_slip - 1.2).abs() < 4e-16 && (sum - 1.2).abs() < 4e-15, "{gross_slip} {sum}");
     }
 
     #[test]
-    fn tractions_on_the_axis_are_hertz_less_the_stick_ellipse() {
+    fn tractions_on_the_axis_are_differences_of_hertz_pressures() {
         let (x_axis, y_axis) = (0.1e-3, 0.4e-3);
         let contact = ellipse(x_axis, y_axis);
         let peak = 1.5 * 150.0 / (PI * x_axis * y_axis);

@@ -9,7 +9,7 @@
 //! energy           e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                          Eq. 13-16
 //! ```
 //!
-//! These formulas are evaluated for τ >= 1/2; below, where they cancel, by the expansion of `small_load`. The size parameter is
+//! These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation and are replaced by the expansion of `small_load`. The size parameter is
 //! `σ = w_c/w_b`.
 
 use crate::numerics::chebyshev::Interpolant;
@@ -293,81 +293,80 @@ mod tests {
     use crate::parameters::CENTRE_POINT;
     use crate::shape::stick_zone::integrate;
 
-    /// A contact by its ψ, and a compliance of its own.
-    fn family(psi: f64) -> RoundedFlatZones {
+    /// The stick zones of a contact of angle ψ, with Λ = 3.
+    fn zones_of(psi: f64) -> RoundedFlatZones {
         RoundedFlatZones::new(&RoundedPunch { flat: psi.cos(), w: psi.sin(), half_width: 1.0, psi }, 3.0)
     }
 
-    /// The cylinder, by its angle and by no flat at all, down to the nearly flat.
-    fn families() -> impl Iterator<Item = RoundedFlatZones> {
+    /// From the cylinder, with ψ near π/2 and with a = 0, to the nearly flat contact.
+    fn all_zones() -> impl Iterator<Item = RoundedFlatZones> {
         let cylinder = RoundedFlatZones::new(&RoundedPunch::new(0.0, 1.0), 3.0);
-        [1.57, 1.2, 0.7, 0.05, 1e-4].map(family).into_iter().chain([cylinder])
+        [1.57, 1.2, 0.7, 0.05, 1e-4].map(zones_of).into_iter().chain([cylinder])
     }
 
-    fn at(family: &RoundedFlatZones, tau: f64) -> StickZone {
-        family.at_load(Complement { consumed: tau, remaining: 1.0 - tau })
+    fn at(zones: &RoundedFlatZones, tau: f64) -> StickZone {
+        zones.at_load(Complement { consumed: tau, remaining: 1.0 - tau })
     }
 
     #[test]
-    fn the_series_and_the_closed_form_are_one_curve() {
-        for family in families() {
+    fn series_and_closed_form_agree() {
+        for zones in all_zones() {
             for tau in [0.5, 0.45, 0.3, 0.1] {
-                let (series, closed) = (at(&family, tau), family.at_load_remaining(1.0 - tau));
-                // The closed form's differences are good to a few units of rounding of Λ = 3.
+                let (series, closed) = (at(&zones, tau), zones.at_load_remaining(1.0 - tau));
+                // The differences of the closed form have rounding errors of a few units of Λ = 3.
                 assert!((series.shift.consumed - closed.shift.consumed).abs() < 4e-15, "{tau}");
                 assert!((series.shift.remaining - closed.shift.remaining).abs() < 4e-15, "{tau}");
                 assert!((series.compliance_increase - closed.compliance_increase).abs() < 4e-15, "{tau}");
-                assert!((family.size(&series) - family.size(&closed)).abs() < 4e-15, "{tau}");
+                assert!((zones.size(&series) - zones.size(&closed)).abs() < 4e-15, "{tau}");
             }
         }
     }
 
     #[test]
-    fn both_formulas_give_the_energy() {
-        for family in families() {
-            let kappa = family.small_load().sums(0.0).curvature;
+    fn series_and_closed_form_of_the_energy_agree() {
+        for zones in all_zones() {
+            let curvature = zones.small_load().evaluate(0.0).curvature;
             for tau in [0.5, 0.4, 0.25] {
-                let member = at(&family, tau);
-                let series = family.dissipation(&member);
-                let beyond = family.dissipation_beyond_half(&family.at_load_remaining(1.0 - tau));
-                // The closed form is a difference of terms of size ψ², λ and h, which go with the curvature.
-                assert!((series - beyond).abs() < 1e-14 * kappa.max(1e-2), "{tau} {series} {beyond}");
-                let panels = |t: f64| 4.0 * t * (tau - t) * family.small_load().sums(t).curvature;
-                let sum = crate::numerics::quadrature::gauss(tau, panels);
+                let zone = at(&zones, tau);
+                let series = zones.dissipation(&zone);
+                let closed = zones.dissipation_beyond_half(&zones.at_load_remaining(1.0 - tau));
+                // The closed form is a difference of terms of size ψ², λ and h, which scale with the curvature.
+                assert!((series - closed).abs() < 1e-14 * curvature.max(1e-2), "{tau} {series} {closed}");
+                let integrand = |t: f64| 4.0 * t * (tau - t) * zones.small_load().evaluate(t).curvature;
+                let sum = crate::numerics::quadrature::gauss(tau, integrand);
                 assert!((series / sum - 1.0).abs() < 1e-13, "{tau} {series} {sum}");
             }
-            // Gross slip: e = 4 ∫ t (1 - t) h'' dt over the whole family.
-            let end = family.dissipation(&family.at_load_remaining(0.0));
-            let sum = integrate(&family, 0.0, 1.0, |station| {
-                let size = (family.slip_shift() - station.shift.consumed).max(0.0);
-                let remaining = family.at_shift_remaining(size).load.remaining;
-                4.0 * (1.0 - remaining) * remaining * station.dcompliance_dsigma
+            // Gross slip: e = 4 ∫ t (1 - t) h'' dt over all stick zones.
+            let gross_slip = zones.dissipation(&zones.at_load_remaining(0.0));
+            let sum = integrate(&zones, 0.0, 1.0, |point| {
+                let distance = (zones.slip_shift() - point.shift.consumed).max(0.0);
+                let remaining = zones.at_shift_remaining(distance).load.remaining;
+                4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma
             });
-            assert!((end / sum - 1.0).abs() < 1e-9, "{end} {sum}");
+            assert!((gross_slip / sum - 1.0).abs() < 1e-9, "{gross_slip} {sum}");
         }
     }
 
     #[test]
-    fn a_station_is_the_member_of_its_measure() {
-        for family in families() {
+    fn quadrature_point_is_the_stick_zone_of_its_size_parameter() {
+        for zones in all_zones() {
             for remaining in [1e-6, 0.01, 0.2, 0.4999] {
-                let member = family.at_load_remaining(remaining);
-                let size_parameter = family.size_parameter(&member);
-                let station = family.quadrature_point(size_parameter);
-                assert!((station.shift.consumed - member.shift.consumed).abs() < 4e-15, "{remaining}");
-                assert!((station.shift.remaining / member.shift.remaining - 1.0).abs() < 4e-15, "{remaining}");
-                assert!((station.compliance - family.compliance(&member)).abs() < 4e-15, "{remaining}");
-                // The rates, by central differences: (1e-4)²/6 times curvatures of order 1/measure².
+                let zone = zones.at_load_remaining(remaining);
+                let size_parameter = zones.size_parameter(&zone);
+                let point = zones.quadrature_point(size_parameter);
+                assert!((point.shift.consumed - zone.shift.consumed).abs() < 4e-15, "{remaining}");
+                assert!((point.shift.remaining / zone.shift.remaining - 1.0).abs() < 4e-15, "{remaining}");
+                assert!((point.compliance - zones.compliance(&zone)).abs() < 4e-15, "{remaining}");
+                // The derivatives by central differences, with an error of (1e-4)²/6 times third derivatives of order 1/σ².
                 let h = 1e-4 * size_parameter;
                 let (low, high) =
-                    (family.quadrature_point(size_parameter - h), family.quadrature_point(size_parameter + h));
+                    (zones.quadrature_point(size_parameter - h), zones.quadrature_point(size_parameter + h));
                 let shift = (high.shift.remaining - low.shift.remaining) / (2.0 * h);
-                assert!((shift / (station.dload_dsigma * station.compliance) - 1.0).abs() < 1e-7, "{remaining}");
-                let compliance_increase = (low.compliance - high.compliance) / (2.0 * h);
-                // Rounding of the compliance, over the width of the difference.
+                assert!((shift / (point.dload_dsigma * point.compliance) - 1.0).abs() < 1e-7, "{remaining}");
+                let dcompliance = (low.compliance - high.compliance) / (2.0 * h);
+                // The rounding error of the compliance, divided by h.
                 assert!(
-                    (compliance_increase - station.dcompliance_dsigma).abs()
-                        < 1e-7 * station.dcompliance_dsigma + 1e-15 / h,
+                    (dcompliance - point.dcompliance_dsigma).abs() < 1e-7 * point.dcompliance_dsigma + 1e-15 / h,
                     "{remaining}"
                 );
             }
@@ -375,12 +374,12 @@ mod tests {
     }
 
     #[test]
-    fn the_inverse_finds_the_member() {
-        for family in families() {
+    fn at_shift_remaining_inverts_at_load_remaining() {
+        for zones in all_zones() {
             for remaining in [0.0, 1e-12, 1e-3, 0.3, 0.4999] {
-                let member = family.at_load_remaining(remaining);
-                let back = family.at_shift_remaining(member.shift.remaining);
-                // A relative error of the approach's rest is one of the load's, as long as both shrink together.
+                let zone = zones.at_load_remaining(remaining);
+                let back = zones.at_shift_remaining(zone.shift.remaining);
+                // The relative errors of the remaining shift and of the remaining load are of the same size.
                 assert!(
                     (back.load.remaining - remaining).abs() <= 4e-15 * remaining,
                     "{remaining} {}",
@@ -391,53 +390,55 @@ mod tests {
     }
 
     #[test]
-    fn the_cylinder_has_an_elementary_curve() {
-        let family = RoundedFlatZones::new(&RoundedPunch::new(0.0, 1.0), 3.0);
+    fn cylinder_has_an_elementary_curve() {
+        let zones = RoundedFlatZones::new(&RoundedPunch::new(0.0, 1.0), 3.0);
         for tau in [1e-8, 1e-3, 0.2, 0.499, 0.5, 0.501, 0.9, 0.999999] {
-            let (member, remaining) = (at(&family, tau), 1.0 - tau);
-            // h = ½ [τ + (1-τ) ln(1-τ)], its slope -½ ln(1-τ).
+            let (zone, remaining) = (at(&zones, tau), 1.0 - tau);
+            // h = ½ [τ + (1-τ) ln(1-τ)], h' = -½ ln(1-τ).
             let h = 0.5 * (tau + remaining * (-tau).ln_1p());
-            assert!((member.shift.consumed - 3.0 * tau - h).abs() < 2e-15, "{tau}");
+            assert!((zone.shift.consumed - 3.0 * tau - h).abs() < 2e-15, "{tau}");
             assert!(
-                (member.compliance_increase + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + member.compliance_increase),
+                (zone.compliance_increase + 0.5 * (-tau).ln_1p()).abs() < 2e-15 * (1.0 + zone.compliance_increase),
                 "{tau}"
             );
-            assert!((family.size(&member) - remaining.sqrt()).abs() < 2e-15, "{tau}");
+            assert!((zones.size(&zone) - remaining.sqrt()).abs() < 2e-15, "{tau}");
             // e = τ (2-τ) + 2 (1-τ) ln(1-τ), a difference of terms of size 2τ.
             let energy = tau * (2.0 - tau) + 2.0 * remaining * (-tau).ln_1p();
-            assert!((family.dissipation(&member) - energy).abs() < 2e-15 * tau.max(0.5), "{tau}");
+            assert!((zones.dissipation(&zone) - energy).abs() < 2e-15 * tau.max(0.5), "{tau}");
         }
     }
 
-    /// The inverse, wherever the approach rests, against the formula of the rest itself.
+    /// The inverse at remaining shifts of any size, compared with the formula of the remaining shift.
     #[test]
-    fn what_rests_is_found_again() {
+    fn remaining_shift_is_recovered() {
         let short = cylinder(1.005, 0.0, CENTRE_POINT).unwrap();
-        // The last one bends sharply: Λ = 0.005.
-        for (flat, shape) in FLATS.map(|flat| (flat, contact(flat))).into_iter().chain([(0.0, short)]) {
-            let family = shape.stick_zones();
-            let half = family.slip_shift() - family.small_load().half_shift;
-            // Coarsely to far below, and finely, for what depends on where an iteration ends.
+        // The last one has Λ = 0.005 and a strong curvature.
+        for (flat, contact) in FLATS.map(|flat| (flat, contact(flat))).into_iter().chain([(0.0, short)]) {
+            let zones = contact.stick_zones();
+            let half = zones.slip_shift() - zones.small_load().half_shift;
+            // A coarse grid down to 1e-16, and a fine one to cover all last steps of the iteration.
             for power in (0..=800).map(|k| -0.02 * f64::from(k)).chain((0..=4000).map(|k| -1e-4 * f64::from(k))) {
                 let remaining = half * 10f64.powf(power);
-                let found = family.at_shift_remaining(remaining);
-                let member = family.at_load_remaining(found.load.remaining);
+                let inverse = zones.at_shift_remaining(remaining);
+                let zone = zones.at_load_remaining(inverse.load.remaining);
                 assert!(
-                    (member.shift.remaining / remaining - 1.0).abs() < 4e-15,
+                    (zone.shift.remaining / remaining - 1.0).abs() < 4e-15,
                     "{flat} {remaining}: {}",
-                    member.shift.remaining
+                    zone.shift.remaining
                 );
                 assert!(
-                    (member.compliance_increase / found.compliance_increase - 1.0).abs() < 4e-15,
+                    (zone.compliance_increase / inverse.compliance_increase - 1.0).abs() < 4e-15,
                     "{flat} {remaining}: {}",
-                    member.compliance_increase
+                    zone.compliance_increase
                 );
             }
-            let end = family.at_shift_remaining(0.0);
+            let smallest = zones.at_shift_remaining(0.0);
             assert!(
-                end.load.remaining == 0.0 && end.shift.remaining == 0.0 && end.shift.consumed == family.slip_shift()
+                smallest.load.remaining == 0.0
+                    && smallest.shift.remaining == 0.0
+                    && smallest.shift.consumed == zones.slip_shift()
             );
-            assert_eq!(end.compliance_increase.is_infinite(), flat == 0.0);
+            assert_eq!(smallest.compliance_increase.is_infinite(), flat == 0.0);
         }
     }
 }

@@ -1,13 +1,13 @@
-//! The curve near its origin, up to τ = 1/2, as one polynomial: `x = Λ τ + Σ h_n τⁿ`, n from 2.
+//! The monotonic curve up to τ = 1/2 as one polynomial: `x = Λ τ + Σ h_n τⁿ`, n from 2.
 //!
-//! Near the origin everything of interest is a small difference of two nearly equal members. The curvature h'' is positive;
-//! its integrals lose nothing. One set of coefficients, `h'' = Σ c_m τᵐ`, serves all:
+//! For small τ the formulas of `stick_zone` are differences of nearly equal terms. The curvature h'' is positive, and its integrals are
+//! free of cancellation. All quantities follow from the coefficients of `h'' = Σ c_m τᵐ`:
 //!
 //! ```text
 //! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ,
 //! ```
 //!
-//! each of them `Σ c_m f_m τᵐ` with factors f that depend on m alone, times a power of τ.
+//! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
 use crate::numerics::polynomial::{self, Rows, rows};
 use crate::shape::stick_zone::{Complement, StickZone};
@@ -15,12 +15,12 @@ use crate::shape::stick_zone::{Complement, StickZone};
 /// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
 pub(crate) const TERMS: usize = 48;
 
-/// Terms of the polynomial that stands for it up to τ = 1/2, to 5.8⁻²⁰ of the series.
+/// Terms of the polynomial that replaces it up to τ = 1/2, with a relative error of 5.8⁻²⁰.
 pub(crate) const RETAINED_TERMS: usize = 20;
 
 type Terms = Rows<{ RETAINED_TERMS / 4 }>;
 
-/// Chebyshev polynomials T_n(4τ - 1), from n = [`RETAINED_TERMS`] on, by their powers of τ over the leading one.
+/// Coefficients of the Chebyshev polynomials T_n(4τ - 1), n from [`RETAINED_TERMS`], divided by the leading one.
 const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = {
     let mut table = [[0.0; TERMS]; TERMS - RETAINED_TERMS];
     let (mut before, mut now) = ([0.0; TERMS], [0.0; TERMS]);
@@ -48,8 +48,8 @@ const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = {
     table
 };
 
-/// The polynomial of fewer terms that stands for a power series up to τ = 1/2 (Lanczos' economisation): from the last on, every
-/// power gives way to the Chebyshev polynomial that it leads.
+/// Economizes a power series on 0 <= τ <= 1/2 (Lanczos): from the highest power on, a multiple of the Chebyshev polynomial with that
+/// leading power is subtracted.
 pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS] {
     let mut n = TERMS;
     while n > RETAINED_TERMS {
@@ -61,23 +61,23 @@ pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS
             k += 1;
         }
     }
-    let mut kept = [0.0; RETAINED_TERMS];
+    let mut retained = [0.0; RETAINED_TERMS];
     let mut k = 0;
     while k < RETAINED_TERMS {
-        kept[k] = series[k];
+        retained[k] = series[k];
         k += 1;
     }
-    kept
+    retained
 }
 
-/// What integrations of τᵐ leave: `numerator / ((m+1)…)`, the product over the numbers added to m.
-const fn factors(numerator: f64, added: &[usize]) -> Terms {
+/// The factors f_m of integrals of τᵐ: `numerator` divided by the product of `m + offset` over all offsets.
+const fn factors(numerator: f64, offsets: &[usize]) -> Terms {
     let mut terms = [numerator; RETAINED_TERMS];
     let mut m = 0;
     while m < RETAINED_TERMS {
         let mut k = 0;
-        while k < added.len() {
-            terms[m] /= (m + added[k]) as f64;
+        while k < offsets.len() {
+            terms[m] /= (m + offsets[k]) as f64;
             k += 1;
         }
         m += 1;
@@ -86,15 +86,15 @@ const fn factors(numerator: f64, added: &[usize]) -> Terms {
 }
 
 const COMPLIANCE: Terms = factors(1.0, &[1]);
-const APPROACH: Terms = factors(1.0, &[1, 2]);
+const SHIFT: Terms = factors(1.0, &[1, 2]);
 const DISSIPATION: Terms = factors(4.0, &[2, 3]);
-const DISSIPATION_SLOPE: Terms = factors(4.0, &[2]);
+const D_DISSIPATION: Terms = factors(4.0, &[2]);
 
-/// The curve near its origin.
+/// The expansion of the monotonic curve for τ <= 1/2.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct SmallLoadSeries {
-    /// Λ, the compliance of the full stick.
+    /// Λ, the compliance in full stick.
     pub(crate) compliance: f64,
     /// x at τ = 1/2.
     pub(crate) half_shift: f64,
@@ -102,7 +102,7 @@ pub struct SmallLoadSeries {
     curvature: Terms,
 }
 
-/// Sums of the series at one τ.
+/// Values of the series at one τ.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SeriesValues {
     /// h.
@@ -120,7 +120,7 @@ impl SmallLoadSeries {
         let mut m = RETAINED_TERMS;
         while m > 0 {
             m -= 1;
-            half_shift = 0.5 * half_shift + curvature[m] * APPROACH[m / 4][m % 4];
+            half_shift = 0.5 * half_shift + curvature[m] * SHIFT[m / 4][m % 4];
         }
         let half_shift = 0.5 * compliance + 0.25 * half_shift;
         SmallLoadSeries { compliance, half_shift, curvature: rows(&curvature) }
@@ -139,11 +139,12 @@ impl SmallLoadSeries {
         polynomial::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
     }
 
+    /// h, λ and h'' at τ.
     #[inline(always)]
-    pub fn sums(&self, tau: f64) -> SeriesValues {
+    pub fn evaluate(&self, tau: f64) -> SeriesValues {
         // λ/τ and its derivative give λ and h''.
         let (compliance, slope) = polynomial::value_and_slope(&self.terms(&COMPLIANCE), tau);
-        let (shift, _) = polynomial::value_and_slope(&self.terms(&APPROACH), tau);
+        let (shift, _) = polynomial::value_and_slope(&self.terms(&SHIFT), tau);
         SeriesValues { shift: shift * tau * tau, compliance: compliance * tau, curvature: compliance + slope * tau }
     }
 
@@ -164,10 +165,10 @@ impl SmallLoadSeries {
 
     /// de/dτ at τ.
     pub fn d_dissipation(&self, tau: f64) -> f64 {
-        self.sum(&DISSIPATION_SLOPE, tau) * tau * tau
+        self.sum(&D_DISSIPATION, tau) * tau * tau
     }
 
-    /// Both at once.
+    /// e and de/dτ at τ.
     #[inline(always)]
     pub fn dissipation_with_derivative(&self, tau: f64) -> (f64, f64) {
         let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
@@ -175,10 +176,10 @@ impl SmallLoadSeries {
         (sum * tau * square, (3.0 * sum + slope * tau) * square)
     }
 
-    /// The member at which a load of at most 1/2 is lost.
+    /// The stick zone at a load τ <= 1/2.
     pub fn at_load(&self, load: Complement, slip_shift: f64) -> StickZone {
         let consumed =
-            self.compliance * load.consumed + self.sum(&APPROACH, load.consumed) * load.consumed * load.consumed;
+            self.compliance * load.consumed + self.sum(&SHIFT, load.consumed) * load.consumed * load.consumed;
         let compliance_increase = self.sum(&COMPLIANCE, load.consumed) * load.consumed;
         StickZone {
             load,
@@ -188,20 +189,20 @@ impl SmallLoadSeries {
         }
     }
 
-    /// The member at which an approach of at most that at τ = 1/2 is lost: Halley's iteration from the root of the series'
-    /// first two terms, which lies above the solution by less than 5 %.
+    /// The stick zone at a shift of at most that at τ = 1/2: Halley's iteration from the root of the first two terms of the series, which
+    /// is too large by less than 5 %.
     pub fn at_shift(&self, shift: Complement) -> StickZone {
         let linear = self.compliance;
         let second_derivative = 2.0 * self.initial_curvature() * shift.consumed;
         let mut tau = 2.0 * shift.consumed / (linear + (linear * linear + second_derivative).sqrt());
         let mut compliance_increase = 0.0;
         for _ in 0..5 {
-            let now = self.sums(tau);
+            let now = self.evaluate(tau);
             let slope = linear + now.compliance;
             let newton = (linear * tau + now.shift - shift.consumed) / slope;
             let step = newton / (1.0 - 0.5 * newton * now.curvature / slope);
             tau -= step;
-            // Up to the square of the step, which no digit feels any more.
+            // To first order in the step; its square is below rounding.
             compliance_increase = now.compliance - step * now.curvature;
             if step.abs() <= 1e-8 * tau {
                 break;
@@ -221,28 +222,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fewer_terms_stand_for_the_series() {
-        // That of a cylinder, 1/(2 - 2τ), and an alternating one.
+    fn economized_series_equals_the_series() {
+        // The series of a cylinder, 1/(2 - 2τ), and an alternating one.
         for ratio in [1.0, -1.0] {
             let mut series = [0.5; TERMS];
             for (k, term) in series.iter_mut().enumerate() {
                 *term *= f64::powi(ratio, k as i32);
             }
-            let kept = economized(series);
+            let retained = economized(series);
             for k in 0..=50 {
                 let at = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| sum * f64::from(k) / 100.0 + term);
-                // 5.8⁻²⁰, and the rounding of both sums.
-                assert!((at(&kept) / at(&series) - 1.0).abs() < 2e-15, "{ratio} {k}");
+                // The truncation error of 5.8⁻²⁰, and the rounding errors of both sums.
+                assert!((at(&retained) / at(&series) - 1.0).abs() < 2e-15, "{ratio} {k}");
             }
         }
     }
 
     #[test]
-    fn factors_are_those_of_integrals() {
+    fn factors_equal_the_integrals() {
         for (m, factor) in factors(4.0, &[2, 3]).as_flattened().iter().enumerate() {
             // ∫ t (1-t) tᵐ dt from 0 to 1, four times.
             let exact = 4.0 * (1.0 / (m + 2) as f64 - 1.0 / (m + 3) as f64);
-            // The difference loses the digits of m.
+            // The difference loses log2(m) bits to cancellation.
             assert!((factor / exact - 1.0).abs() < 4e-16 * (m + 3) as f64, "{m}");
         }
     }

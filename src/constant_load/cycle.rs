@@ -1,0 +1,51 @@
+//! Energy dissipated per cycle of prescribed amplitude (Eq. 13-16).
+
+use crate::constant_load::contact::Contact;
+use crate::error::Error;
+use crate::numerics::fp_class::in_0_to;
+use crate::shape::stick_zone::StickZone;
+
+impl Contact {
+    /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
+    ///
+    /// # Errors
+    /// `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
+    pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
+        self.check_force_amplitude(force_amplitude)?;
+        let point = self.curve_at_force(force_amplitude)?;
+        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_of(&zone)))
+    }
+
+    pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
+        if in_0_to(f64::MAX, force_amplitude) {
+            self.check_force(force_amplitude)
+        } else {
+            Err(Error::BadForceAmplitude)
+        }
+    }
+
+    /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
+    /// amplitude \[N\].
+    #[inline(always)]
+    pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
+        let zones = self.stick_zones();
+        if let Some((load, stiffness)) = self.evaluator().load_at(amplitude) {
+            if load.consumed <= 0.5 {
+                let (dissipation, slope) = zones.small_load().dissipation_with_derivative(load.consumed);
+                return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
+            }
+            let compliance_increase =
+                self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - zones.small_load().compliance;
+            let (dissipation, slope) = self.rounded_flat_zones().cycle(load.remaining, compliance_increase);
+            return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
+        }
+        let zone = self.stick_zone_at_displacement(amplitude);
+        let slope = self.slip_force * zones.d_dissipation(&zone) / zones.compliance(&zone);
+        (self.energy_of(&zone), slope)
+    }
+
+    /// Energy \[J\] dissipated per cycle with this stick zone at its reversals.
+    pub(crate) fn energy_of(&self, zone: &StickZone) -> f64 {
+        self.energy_scale() * self.stick_zones().dissipation(zone)
+    }
+}

@@ -1,0 +1,109 @@
+//! Fields along the width of the contact: pressure, and under a monotonically increased force shear traction, slip and damage.
+
+use crate::constant_load::contact::Contact;
+use crate::constant_load::curve::CurvePoint;
+use crate::error::Error;
+use crate::shape::stick_zone::{StickZone, SurfacePoint};
+
+impl CurvePoint<'_> {
+    /// The stick zone; in gross slip the smallest one, to which it has shrunk.
+    fn stick_zone_or_smallest(&self) -> StickZone {
+        self.stick_zone().unwrap_or_else(|| self.contact.stick_zone_at_force(self.contact.slip_force))
+    }
+
+    /// Shear traction \[Pa\] at x \[m\] (Eq. 21).
+    #[must_use]
+    pub fn shear(&self, x: f64) -> f64 {
+        if self.contact.is_frictionless() {
+            return 0.0;
+        }
+        let unit = self.contact.friction_coefficient * self.contact.pressure_scale;
+        let point = self.contact.surface_point(x);
+        self.sign * unit * self.contact.stick_zones().shear(&point, &self.stick_zone_or_smallest())
+    }
+
+    /// Relative slip \[m\] at x \[m\] (Eq. 15), in gross slip that at its onset: 0 in the stick zone and outside the contact.
+    ///
+    /// # Errors
+    /// `NotAvailable` for an elliptical contact.
+    pub fn slip(&self, x: f64) -> Result<f64, Error> {
+        let point = self.contact.surface_point(x);
+        let zone = self.stick_zone_or_smallest();
+        let slip = self.contact.stick_zones().slip(&point, &zone).ok_or(Error::NotAvailable)?;
+        let slips = point.from_edge >= 0.0 && !self.contact.is_frictionless();
+        Ok(if slips { self.sign * self.contact.displacement_scale * slip } else { 0.0 })
+    }
+
+    /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5).
+    ///
+    /// # Errors
+    /// `NotAvailable` for an elliptical contact.
+    pub fn damage(&self, x: f64) -> Result<f64, Error> {
+        Ok(self.damage_of(x, self.slip(x)?))
+    }
+
+    /// The damage parameter, given the slip at x.
+    pub(crate) fn damage_of(&self, x: f64, slip: f64) -> f64 {
+        self.contact.friction_coefficient * self.contact.pressure(x) * slip.abs()
+    }
+}
+
+impl Contact {
+    /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
+    #[must_use]
+    pub fn pressure(&self, x: f64) -> f64 {
+        if self.half_width > 0.0 {
+            self.pressure_scale * self.stick_zones().pressure(&self.surface_point(x))
+        } else {
+            0.0
+        }
+    }
+
+    /// The point x in units of the half-width, at most 2: all points outside the contact are equivalent.
+    fn surface_point(&self, x: f64) -> SurfacePoint {
+        let (x, unit) = (x.abs().min(2.0 * self.half_width), self.half_width.max(f64::MIN_POSITIVE));
+        SurfacePoint {
+            x: x / unit,
+            past_flat: (x - self.flat_half_width.min(x + unit)) / unit,
+            from_edge: (self.half_width - x) / unit,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constant_load::contact::tests::{FLATS, contact};
+
+    #[test]
+    fn shear_is_mu_p_under_mu_n_and_zero_without_force() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let (end, unloaded) =
+                (contact.curve_at_force(-contact.slip_force).unwrap(), contact.curve_at_force(0.0).unwrap());
+            for ratio in [0.0, 0.3, -0.7, 0.999, 1.0, 1.5] {
+                let x = ratio * contact.half_width;
+                let limit = 0.4 * contact.pressure(x);
+                assert!((end.shear(x) + limit).abs() <= 4e-16 * limit, "{flat} {ratio}");
+                assert_eq!((unloaded.shear(x), unloaded.slip(x)), (0.0, Ok(0.0)));
+                let slip = end.slip(x).unwrap();
+                assert!(slip <= 0.0);
+                // mu p |s|, with the rounding errors of two products.
+                assert!((end.damage(x).unwrap() + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
+            }
+        }
+    }
+
+    /// Tractions and slip in gross slip are those at its onset, at a force as at a displacement.
+    #[test]
+    fn tractions_are_constant_in_gross_slip() {
+        for contact in FLATS.map(contact) {
+            let at_force = contact.curve_at_force(-contact.slip_force).unwrap();
+            let beyond = contact.curve_at_displacement(-1.5 * contact.slip_displacement).unwrap();
+            for x in [0.0, 0.5, 0.95, 1.0, 1.1].map(|ratio| ratio * contact.half_width) {
+                assert_eq!(beyond.shear(x), at_force.shear(x));
+                assert_eq!(beyond.slip(x), at_force.slip(x));
+            }
+            assert!(beyond.shear(0.0) < 0.0 && beyond.stick_half_width() == 0.0);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Hysteresis loops of prescribed displacement amplitude (Eq. 11, 12), sampled at uniformly spaced instants.
+
+use crate::constant_load::complex_stiffness::check_amplitude;
+use crate::constant_load::contact::Contact;
+use crate::error::Error;
+use core::f64::consts::PI;
+
+/// The closed loop of one displacement amplitude (Eq. 11, 12).
+#[derive(Debug, Clone, Copy)]
+pub struct HysteresisLoop<'a> {
+    contact: &'a Contact,
+    amplitude: f64,
+    /// Force at the upper reversal \[N\].
+    top: f64,
+}
+
+impl Contact {
+    /// The closed loop between ± a displacement amplitude \[m\].
+    ///
+    /// # Errors
+    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
+    pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
+        check_amplitude(amplitude)?;
+        let top = if self.is_frictionless() { 0.0 } else { self.response(amplitude).force };
+        Ok(HysteresisLoop { contact: self, amplitude, top })
+    }
+}
+
+impl HysteresisLoop<'_> {
+    /// Displacement \[m\] `amplitude cos t` at instant `i` of `n` uniformly spaced ones in a period, from t = 0.
+    #[must_use]
+    pub fn displacement(&self, i: usize, n: usize) -> f64 {
+        let (sign, phase) = half_cycle(i, n);
+        sign * self.amplitude * (2.0 * PI * phase).cos()
+    }
+
+    /// Force \[N\] at that instant.
+    #[must_use]
+    pub fn force(&self, i: usize, n: usize) -> f64 {
+        self.force_at(half_cycle(i, n))
+    }
+
+    /// Force on the half-cycle of that sign, at the fraction of a period since its reversal.
+    pub(super) fn force_at(&self, (sign, phase): (f64, f64)) -> f64 {
+        let contact = self.contact;
+        if contact.is_frictionless() {
+            return 0.0;
+        }
+        // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2); the monotonic curve is evaluated at half of it.
+        let sine = (PI * phase).sin();
+        // In gross slip the branch reaches -mu N before its end.
+        let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
+        sign * force.max(-contact.slip_force)
+    }
+}
+
+/// The half-cycle to which instant `i` of `n` belongs: its sign, +1 for the first, and the fraction of a period since its reversal.
+fn half_cycle(i: usize, n: usize) -> (f64, f64) {
+    let n = n.max(1);
+    let phase = (i % n) as f64 / n as f64;
+    if phase < 0.5 { (1.0, phase) } else { (-1.0, phase - 0.5) }
+}
