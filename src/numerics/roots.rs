@@ -4,6 +4,7 @@
 /// that leaves the bracket is replaced by bisection; the iteration ends after a Newton step below 1e-9, whose successor would be
 /// about the square of it.
 pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let start = if start >= low && start <= high { start } else { 0.5 * (low + high) };
     let (mut low, mut high, mut at) = (low, high, start);
     for _ in 0..80 {
         let (value, slope) = evaluate(at);
