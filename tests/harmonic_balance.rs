@@ -1,13 +1,12 @@
 //! Harmonic balance of two masses with one contact, by other means than the Fortran programs of `fortran_examples`.
 //!
 //! They condense the structure to the contact, work with complex amplitudes and take force and Jacobian from the library.
-//! Here all harmonics of all degrees of freedom are real unknowns, the force comes from leading the contact's memory step by
-//! step through the period, and the Jacobian from central differences. Both are to give the same motion, and both that of
-//! time marching.
+//! Here all harmonics of all degrees of freedom are real unknowns, the force comes from a time history of three periods, and the
+//! Jacobian from central differences. Both must give the same motion, and both that of time integration.
 
-use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
-use microslip::masing;
-use microslip::memory::{state_init, state_length};
+use microslip::constant_load::masing;
+use microslip::constant_load::state::{state_init, state_length};
+use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::{Contact, Material, Parameters};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
@@ -113,7 +112,7 @@ fn case() -> Case {
         material: body,
         ..Parameters::default()
     };
-    // What this program leaves out must not be asked for.
+    // Not supported here.
     assert_eq!(words("contact.law")[0], "microslip");
     assert_eq!(numbers("contact.dof")[1], 0.0);
     assert_eq!(number("excitation.phase"), 0.0);
@@ -151,7 +150,7 @@ trait ContactForce {
     fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64>;
 }
 
-/// The contact's memory led through three periods; derivatives by central differences.
+/// The contact stepped through three periods; derivatives by central differences.
 struct Stepped<'a> {
     contact: &'a Contact,
     samples: usize,
@@ -168,8 +167,8 @@ impl ContactForce for Stepped<'_> {
         for period in 0..3 {
             for row in &rows {
                 let place: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
-                let step = masing::step(self.contact, &state, place).unwrap();
-                step.write(&mut state);
+                let step = masing::step(self.contact, &state, place);
+                step.write(self.contact, &mut state);
                 if period == 2 {
                     sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
                 }
@@ -181,7 +180,7 @@ impl ContactForce for Stepped<'_> {
 
     fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
         let n = displacement.len();
-        // Rounding of 1e-16/1e-5 and truncation of (1e-5)² are both far below what Newton's method needs.
+        // Rounding of 1e-16/1e-5 and truncation of (1e-5)².
         let width = 1e-5 * displacement.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
         let mut jacobian = DMatrix::zeros(n, n);
         for j in 0..n {
@@ -206,8 +205,8 @@ struct Library<'a> {
 
 impl Library<'_> {
     fn new(contact: &Contact, harmonics: usize, samples: usize) -> Library<'_> {
-        let mut memory = vec![0.0; Rule::Equidistant.workspace_length(harmonics, samples)];
-        Rule::Equidistant.workspace_init(harmonics, samples, &mut memory).unwrap();
+        let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(harmonics, samples)];
+        Rule::UniformSampling.workspace_init(harmonics, samples, &mut memory).unwrap();
         Library { contact, memory }
     }
 }
@@ -237,7 +236,7 @@ struct Balance<'a> {
     excitation: DVector<f64>,
 }
 
-/// A motion, and the size of the residual over that of the excitation along the way to it.
+/// A motion, and the residuals of all iterations over the norm of the excitation.
 struct Solution {
     motion: DVector<f64>,
     residuals: Vec<f64>,
@@ -295,7 +294,7 @@ impl<'a> Balance<'a> {
         jacobian
     }
 
-    /// The motion with a spring of that stiffness for a contact.
+    /// The motion with a linear spring in place of the contact.
     fn with_spring(&self, stiffness: f64) -> DVector<f64> {
         let mut linear = self.linear.clone();
         for c in 0..self.coefficients {
@@ -304,7 +303,7 @@ impl<'a> Balance<'a> {
         linear.lu().solve(&self.excitation).unwrap()
     }
 
-    /// Newton's method from a motion, steps halved while they do not help, until rounding is all that is left.
+    /// Newton's method with step halving, down to rounding.
     fn newton(&self, law: &mut impl ContactForce, start: DVector<f64>, share: f64) -> Solution {
         let excitation = &self.excitation * share;
         let residual_at = |law: &mut _, motion: &_| self.residual(law, motion) + &self.excitation - &excitation;
@@ -326,7 +325,7 @@ impl<'a> Balance<'a> {
         Solution { motion, residuals }
     }
 
-    /// The motion, found with the excitation growing in steps that get finer until Newton's method holds.
+    /// Continuation in the excitation, with steps refined until Newton's method converges.
     fn solve(&self, law: &mut impl ContactForce) -> Solution {
         for steps in [1, 4, 16, 64] {
             let mut solution = Solution {
@@ -344,17 +343,17 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// A steady period found by time marching, sampled at equal steps from the phase 0.
-struct March {
+/// A steady period found by time integration, uniformly sampled from the phase 0.
+struct TimeIntegration {
     /// Displacement of each degree of freedom, step by step.
     displacement: Vec<Vec<f64>>,
     periods: usize,
 }
 
-impl March {
+impl TimeIntegration {
     /// Newmark's method with constant average acceleration, from rest, until a period differs from the one before by less
     /// than `change` of its size.
-    fn until_steady(case: &Case, frequency: f64, steps: usize, change: f64) -> March {
+    fn until_steady(case: &Case, frequency: f64, steps: usize, change: f64) -> TimeIntegration {
         let omega = 2.0 * PI * frequency;
         let h = 2.0 * PI / omega / steps as f64;
         let dofs = case.mass.nrows();
@@ -380,14 +379,14 @@ impl March {
                     (by_force[case.touching], x_free[case.touching] + 0.25 * h * h * a_free[case.touching]);
                 let mut u = u_free - compliance * force;
                 let found = loop {
-                    let found = masing::step(&case.contact, &state, u).unwrap();
+                    let found = masing::step(&case.contact, &state, u);
                     let error = u + compliance * found.force() - u_free;
                     if error.abs() <= 1e-13 * case.contact.slip_displacement {
                         break found;
                     }
                     u -= error / (1.0 + compliance * found.stiffness());
                 };
-                found.write(&mut state);
+                found.write(&case.contact, &mut state);
                 force = found.force();
                 a = a_free - inverse.column(case.touching) * force;
                 x = x_free + &a * (0.25 * h * h);
@@ -398,14 +397,14 @@ impl March {
             let size = pairs().map(|(now, _)| now * now).sum::<f64>();
             before = now;
             if moved <= change * change * size {
-                return March { displacement: before, periods };
+                return TimeIntegration { displacement: before, periods };
             }
         }
         panic!("not steady");
     }
 }
 
-impl March {
+impl TimeIntegration {
     fn steps(&self) -> usize {
         self.displacement[0].len()
     }
@@ -422,7 +421,7 @@ impl March {
     }
 }
 
-/// A periodic displacement from its coefficients, at so many instants from the phase 0.
+/// A periodic displacement from its coefficients, at the given number of instants from the phase 0.
 fn waveform(coefficients: &[f64], instants: usize) -> Vec<f64> {
     let value = |row: Vec<f64>| row.iter().zip(coefficients).map(|(value, coefficient)| value * coefficient).sum();
     (0..instants).map(|k| value(fourier_row(coefficients.len(), 2.0 * PI * k as f64 / instants as f64))).collect()
@@ -446,8 +445,8 @@ fn fundamental(coefficients: &[f64]) -> f64 {
     coefficients[1].hypot(coefficients[2])
 }
 
-/// Half of the way from the lowest to the highest.
-fn swing(waveform: &[f64]) -> f64 {
+/// Half the range.
+fn half_range(waveform: &[f64]) -> f64 {
     0.5 * (waveform.iter().fold(f64::MIN, |top, x| top.max(*x)) - waveform.iter().fold(f64::MAX, |low, x| low.min(*x)))
 }
 
@@ -473,7 +472,7 @@ fn compare(case: &Case, table: &str, name: &str) {
     }
     println!("{name}: largest difference {worst:.1e} of the motion");
     // The Fortran program leaves a residual of up to 1e-12 (its `tolerance`), which the Jacobian's inverse, near the
-    // resonances of the stuck and of the slipping contact, turns into five times that.
+    // resonances of the stuck and of the slipping contact, amplifies five times.
     assert!(worst < 1e-11, "{name}: {worst:e}");
 }
 
@@ -482,7 +481,7 @@ fn the_fortran_program_found_the_same_motion() {
     compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
 }
 
-/// The Fortran program itself, where `MICROSLIP_PREFIX` says what is installed and there is a compiler.
+/// The Fortran program itself, if `MICROSLIP_PREFIX` is set and a compiler is available.
 #[test]
 fn the_fortran_program_finds_the_same_motion() {
     let compiler = std::env::var("FC").unwrap_or("gfortran".to_string());
@@ -508,7 +507,7 @@ fn the_fortran_program_finds_the_same_motion() {
     };
     let prefix = std::fs::canonicalize(&prefix).unwrap();
     let mut make = Command::new("make");
-    // The make that may have started this is not its parent.
+    // Not a child of a make that may have started this.
     ["MAKEFLAGS", "MFLAGS", "MAKELEVEL"].iter().for_each(|name| _ = make.env_remove(name));
     run(make.arg("build/forced_response").arg(format!("FC={compiler}")).arg(format!("PREFIX={}", prefix.display())));
     run(Command::new("build/forced_response").args(["cases/two_dof.nml", "results"]));
@@ -524,7 +523,7 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
         let stepped = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
         let library = balance.solve(&mut Library::new(&case.contact, case.harmonics, case.samples));
         let moved = norm((&stepped.motion - &library.motion).as_slice()) / norm(library.motion.as_slice());
-        // Both balances hold to rounding, and are one.
+        // Both are converged to rounding.
         assert!(moved < 1e-12, "{frequency} Hz: {moved:e}");
         println!("{frequency} Hz, moved {moved:.1e}: {:?}", scientific(&library.residuals));
         // Once near, each residual over the excitation is at most the square of the one before: the force's curvature over
@@ -546,17 +545,17 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
     assert_eq!(regimes, [true; 2]);
 }
 
-/// The balance with so many harmonics as the steady motion to compare with. Its sampling error falls as the samples
-/// squared: with 1024 it is far below that of the harmonics left out.
+/// The balance with the given number of harmonics. The sampling error scales as 1/samples²: with 1024 samples it is far below
+/// that of the omitted harmonics.
 fn finely_sampled(case: &Case, frequency: f64, harmonics: usize) -> [Vec<f64>; 2] {
     let balance = Balance::new(case, frequency, harmonics);
     let solution = balance.solve(&mut Library::new(&case.contact, harmonics, 1024));
     [0, 1].map(|dof| balance.of_dof(&solution.motion, dof))
 }
 
-/// In gross slip, which leaves no memory of how the motion began, the steady motion is the only one.
+/// Gross slip erases the memory of the start, so the steady motion is unique.
 #[test]
-fn more_harmonics_come_nearer_to_time_marching() {
+fn more_harmonics_come_nearer_to_time_integration() {
     let case = case();
     let mut gross_slip = 0;
     for &frequency in &case.frequencies {
@@ -565,7 +564,7 @@ fn more_harmonics_come_nearer_to_time_marching() {
             continue;
         }
         gross_slip += 1;
-        let march = March::until_steady(&case, frequency, 1024, 1e-7);
+        let march = TimeIntegration::until_steady(&case, frequency, 1024, 1e-7);
         // What the contact moves beyond the ninth harmonic, and the motion would change by if it did not.
         let touching = &march.displacement[case.touching];
         let kept = waveform(&march.harmonics(case.touching, 19), march.steps());
@@ -577,9 +576,9 @@ fn more_harmonics_come_nearer_to_time_marching() {
             });
             let nine = &balances[3][dof];
             let first = fundamental(nine) / fundamental(&march.harmonics(dof, 3)) - 1.0;
-            let peak = swing(&waveform(nine, march.steps())) / swing(steady) - 1.0;
+            let peak = half_range(&waveform(nine, march.steps())) / half_range(steady) - 1.0;
             let place = format!(
-                "{frequency} Hz, dof {}, {} periods: {:?}, left out {left_out:.1e}, fundamental {first:.1e}, swing {peak:.1e}",
+                "{frequency} Hz, dof {}, {} periods: {:?}, left out {left_out:.1e}, fundamental {first:.1e}, half range {peak:.1e}",
                 dof + 1,
                 march.periods,
                 scientific(&off)
@@ -596,7 +595,7 @@ fn more_harmonics_come_nearer_to_time_marching() {
 
 /// In microslip the mean displacement depends on how the motion began, by Masing's rule its amplitude does not.
 #[test]
-fn time_marching_has_the_amplitude_of_the_balance_in_microslip() {
+fn time_integration_has_the_amplitude_of_the_balance_in_microslip() {
     let case = case();
     let mut microslip = 0;
     for &frequency in &case.frequencies {
@@ -605,10 +604,10 @@ fn time_marching_has_the_amplitude_of_the_balance_in_microslip() {
             continue;
         }
         microslip += 1;
-        let [coarse, fine] = [512, 1024].map(|steps| March::until_steady(&case, frequency, steps, 1e-8));
+        let [coarse, fine] = [512, 1024].map(|steps| TimeIntegration::until_steady(&case, frequency, steps, 1e-8));
         for (dof, balanced) in balance.iter().enumerate() {
             let [coarse, fine] = [&coarse, &fine].map(|march| fundamental(&march.harmonics(dof, 3)));
-            // Newmark's own error falls as the steps squared: a third of the last change is what is left of it.
+            // Newmark's error scales as 1/steps²: Richardson extrapolation.
             let limit = fine + (fine - coarse) / 3.0;
             let (off, newmark) = (fundamental(balanced) / limit - 1.0, (limit - fine) / limit);
             println!("{frequency} Hz, dof {}: {off:.1e}, taken off {newmark:.1e}", dof + 1);

@@ -1,13 +1,13 @@
-//! The C interface chooses the vectors of the processor at hand; the modules themselves are compiled for the least of its kind.
+//! The C interface dispatches to the SIMD instructions of the processor; the modules themselves are compiled for the baseline.
 //! Both give the same bits.
 
-use microslip::c_api::{
-    mslip_complex_stiffness, mslip_contact, mslip_harmonic_force, mslip_harmonic_workspace_init, mslip_masing_path,
-    mslip_monotonic_force, mslip_state_init,
+use microslip::constant_load::masing::{self, PathOutput};
+use microslip::constant_load::state::state_length;
+use microslip::ffi::{
+    MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_complex_stiffness, mslip_contact, mslip_harmonic_force,
+    mslip_harmonic_workspace_init, mslip_masing_path, mslip_monotonic_force, mslip_state_init,
 };
-use microslip::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
-use microslip::masing::{self, PathOutput};
-use microslip::memory::state_length;
+use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::{Contact, Material, Parameters};
 use std::ptr::null_mut;
 
@@ -31,7 +31,7 @@ fn contacts() -> Vec<Contact> {
         .collect()
 }
 
-/// Numbers from -1 to 1 without a pattern, the same every time.
+/// Pseudorandom numbers from -1 to 1.
 fn scattered(count: usize, seed: u64) -> Vec<f64> {
     let mut bits = seed;
     let mut next = || {
@@ -55,7 +55,7 @@ fn the_curve_has_the_same_bits() {
         let displacement: Vec<f64> = scattered(1000, 1).iter().map(|x| 1.1 * x * contact.slip_displacement).collect();
         let (mut force, mut stiffness) = (vec![0.0; 1000], vec![0.0; 1000]);
         let (f, k) = (force.as_mut_ptr(), stiffness.as_mut_ptr());
-        // SAFETY: arrays of the lengths that are said.
+        // SAFETY: arrays of the given lengths.
         assert_eq!(unsafe { mslip_monotonic_force(&as_c(&contact), 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
         for ((&x, force), stiffness) in displacement.iter().zip(force).zip(stiffness) {
             let point = contact.curve_at_displacement(x).unwrap();
@@ -71,10 +71,10 @@ fn the_complex_stiffness_has_the_same_bits() {
             let amplitude = part * contact.slip_displacement;
             let mut outputs = [0.0; 4];
             let [a, b, c, d] = &mut outputs;
-            // SAFETY: arrays of the lengths that are said.
+            // SAFETY: arrays of the given lengths.
             assert_eq!(unsafe { mslip_complex_stiffness(&as_c(&contact), 1, &raw const amplitude, a, b, c, d) }, 0);
             let k = contact.complex_stiffness(amplitude).unwrap();
-            assert_eq!(bits(&[k.real(), k.imaginary(), k.real_slope(), k.imaginary_slope()]), bits(&outputs), "{part}");
+            assert_eq!(bits(&[k.real(), k.imaginary(), k.d_real(), k.d_imag()]), bits(&outputs), "{part}");
         }
     }
 }
@@ -84,22 +84,22 @@ fn a_path_has_the_same_bits() {
     for contact in contacts() {
         let n = 2000;
         let path: Vec<f64> = scattered(n, 2).iter().map(|x| 0.9 * x * contact.slip_displacement).collect();
-        let run = |wide: bool| {
+        let run = |through_c: bool| {
             let mut state = vec![0.0; state_length(64)];
             let [mut force, mut stiffness, mut energy] = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-            // SAFETY: arrays of the lengths that are said.
+            // SAFETY: arrays of the given lengths.
             assert_eq!(unsafe { mslip_state_init(state.len(), state.as_mut_ptr()) }, 0);
-            if wide {
+            if through_c {
                 let (state, length) = (state.as_mut_ptr(), state.len());
                 let [f, k, e] = [force.as_mut_ptr(), stiffness.as_mut_ptr(), energy.as_mut_ptr()];
-                // SAFETY: arrays of the lengths that are said.
+                // SAFETY: arrays of the given lengths.
                 let status =
                     unsafe { mslip_masing_path(&as_c(&contact), length, state, n, path.as_ptr(), state, f, k, e) };
                 assert_eq!(status, 0);
             } else {
                 let (force, stiffness) = (Some(force.as_mut_slice()), Some(stiffness.as_mut_slice()));
                 let output = PathOutput { force, stiffness, dissipated: Some(&mut energy) };
-                masing::lead(&contact, &mut state, &path, output).unwrap();
+                masing::path(&contact, &mut state, &path, output);
             }
             [bits(&force), bits(&stiffness), bits(&energy), bits(&state)]
         };
@@ -110,7 +110,10 @@ fn a_path_has_the_same_bits() {
 #[test]
 fn the_harmonic_force_has_the_same_bits() {
     for contact in contacts() {
-        for (harmonics, samples) in [(1, 64), (2, 7), (5, 128), (9, 255)] {
+        let sizes = [(1, 64), (2, 7), (5, 128), (9, 255)];
+        let rules = [(Rule::UniformSampling, MSLIP_UNIFORM_SAMPLING), (Rule::EventDriven, MSLIP_EVENT_DRIVEN)];
+        for ((harmonics, samples), (rule, number)) in sizes.into_iter().flat_map(|size| rules.map(|rule| (size, rule)))
+        {
             let n = 2 * harmonics + 1;
             for (seed, odd) in [(3, false), (4, true)] {
                 let mut displacement: Vec<f64> =
@@ -119,16 +122,19 @@ fn the_harmonic_force_has_the_same_bits() {
                     let even = displacement.iter_mut().enumerate().filter(|(k, _)| k.div_ceil(2) % 2 == 0);
                     even.for_each(|(_, coefficient)| *coefficient = 0.0);
                 }
-                let run = |wide: bool| {
-                    let mut memory = vec![0.0; Rule::Equidistant.workspace_length(harmonics, samples)];
+                let run = |through_c: bool| {
+                    let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
                     let (workspace, length) = (memory.as_mut_ptr(), memory.len());
-                    // SAFETY: arrays of the lengths that are said.
-                    assert_eq!(unsafe { mslip_harmonic_workspace_init(harmonics, samples, length, workspace) }, 0);
+                    // SAFETY: arrays of the given lengths.
+                    assert_eq!(
+                        unsafe { mslip_harmonic_workspace_init(harmonics, samples, number, length, workspace) },
+                        0
+                    );
                     let (mut force, mut jacobian, mut energy) = (vec![0.0; n], vec![0.0; n * n], 0.0);
-                    if wide {
+                    if through_c {
                         let (f, j) = (force.as_mut_ptr(), jacobian.as_mut_ptr());
                         let u = displacement.as_ptr();
-                        // SAFETY: arrays of the lengths that are said.
+                        // SAFETY: arrays of the given lengths.
                         let status =
                             unsafe { mslip_harmonic_force(&as_c(&contact), workspace, u, f, j, &raw mut energy) };
                         assert_eq!(status, 0);
@@ -140,7 +146,7 @@ fn the_harmonic_force_has_the_same_bits() {
                     }
                     [bits(&force), bits(&jacobian), bits(&[energy])]
                 };
-                assert_eq!(run(true), run(false), "{harmonics} {samples}");
+                assert_eq!(run(true), run(false), "{harmonics} {samples} {rule:?}");
             }
         }
     }

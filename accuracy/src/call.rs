@@ -1,7 +1,7 @@
 //! The C interface as a caller sees it.
 
 use crate::reference::Given;
-use microslip::c_api::*;
+use microslip::ffi::*;
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 
@@ -13,13 +13,6 @@ pub fn prepare(given: &Given) -> Result<mslip_contact, i32> {
             Given::Ellipse(p) => mslip_contact_init_elliptic(p, contact.as_mut_ptr()),
         }
     };
-    if status == MSLIP_OK { Ok(unsafe { contact.assume_init() }) } else { Err(status) }
-}
-
-pub fn prepare_like(given: &Given, like: &mslip_contact) -> Result<mslip_contact, i32> {
-    let Given::Flat(p) = given else { return prepare(given) };
-    let mut contact = MaybeUninit::uninit();
-    let status = unsafe { mslip_contact_init_like(p, like, contact.as_mut_ptr()) };
     if status == MSLIP_OK { Ok(unsafe { contact.assume_init() }) } else { Err(status) }
 }
 
@@ -90,7 +83,7 @@ pub fn state(reversals: usize) -> Vec<f64> {
     state
 }
 
-/// Force, stiffness and dissipated energy of one step; the state goes along.
+/// Advances a state by one step: force, stiffness and dissipated energy.
 pub fn update(contact: &mslip_contact, state: &mut [f64], displacement: f64) -> [f64; 3] {
     let [mut t, mut k, mut e] = [f64::NAN; 3];
     let place = state.as_mut_ptr();
@@ -125,11 +118,10 @@ pub fn hysteresis_loop(contact: &mslip_contact, amplitude: f64, n: usize) -> [Ve
 }
 
 pub fn workspace(harmonics: usize, samples: usize, rule: i32) -> Vec<f64> {
-    let mut workspace = vec![0.0; mslip_harmonic_workspace_length_rule(harmonics, samples, rule)];
-    let status = unsafe {
-        mslip_harmonic_workspace_init_rule(harmonics, samples, rule, workspace.len(), workspace.as_mut_ptr())
-    };
-    ok(status, "harmonic_workspace_init_rule");
+    let mut workspace = vec![0.0; mslip_harmonic_workspace_length(harmonics, samples, rule)];
+    let status =
+        unsafe { mslip_harmonic_workspace_init(harmonics, samples, rule, workspace.len(), workspace.as_mut_ptr()) };
+    ok(status, "harmonic_workspace_init");
     workspace
 }
 

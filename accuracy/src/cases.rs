@@ -2,7 +2,7 @@
 
 use crate::call;
 use crate::reference::{Given, Reference};
-use microslip::c_api::mslip_contact;
+use microslip::ffi::mslip_contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Material, Parameters};
 use rand::rngs::SmallRng;

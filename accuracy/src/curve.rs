@@ -1,9 +1,9 @@
 //! Contact fields, the monotonic curve and the energy per cycle.
 
 use crate::call;
-use crate::cases::{Case, Dice, KINDS, text};
+use crate::cases::{Case, Dice, text};
 use crate::real::Real;
-use crate::reference::{Given, Law, Point};
+use crate::reference::{Law, Point};
 use crate::tally::Tally;
 
 /// One contact: its fields.
@@ -26,38 +26,6 @@ pub fn fields(dice: &mut Dice, kind: &'static str, tally: &mut Tally) {
         1.0 / law.full_stick.f64(),
     );
     check("slip_energy", contact.slip_energy, law.energy_unit() * law.slip_point().energy, 0.0);
-    if let Given::Flat(parameters) = &reference.given
-        && dice.chance(0.1)
-    {
-        // With the tables of a contact of the same shape, and of another one.
-        let like = if dice.chance(0.8) {
-            call::prepare(&Given::Flat(microslip::Parameters {
-                friction_coefficient: dice.power(-3.0, 1.0),
-                ..*parameters
-            }))
-        } else {
-            let kind = KINDS[dice.below(KINDS.len())];
-            Ok(dice.case(kind, &mut tally.refused).contact)
-        };
-        if let Ok(like) = like {
-            let again = call::prepare_like(&reference.given, &like).unwrap();
-            for (one, two) in [
-                (contact.composite_modulus, again.composite_modulus),
-                (contact.half_width, again.half_width),
-                (contact.slip_force, again.slip_force),
-                (contact.slip_displacement, again.slip_displacement),
-                (contact.initial_stiffness, again.initial_stiffness),
-                (contact.slip_energy, again.slip_energy),
-            ]
-            .into_iter()
-            .chain(contact.reserved.into_iter().zip(again.reserved))
-            {
-                let same = one.to_bits() == two.to_bits();
-                let key = ("contact_init_like", kind, "bits");
-                tally.check(key, if same { 1.0 } else { 0.0 }, &Real::new(64, 1.0), 0.0, place);
-            }
-        }
-    }
 }
 
 /// ε as it enters the neighbours of an input.

@@ -8,6 +8,7 @@ use crate::curve::{half_share, share_of_slip};
 use crate::real::Real;
 use crate::reference::{Law, Point, Shape};
 use crate::tally::Tally;
+use microslip::ffi::MSLIP_EVENT_DRIVEN;
 
 /// Share of the way from the nearer end, whether that is the upper one, and weight over the step.
 type Node = (Real, bool, Real);
@@ -298,23 +299,20 @@ impl Cycles {
 }
 
 impl Cycles {
-    /// The harmonic force between reversals of a cosine about a mean, by K', K'' and the curve.
-    pub fn between_reversals(&self, dice: &mut Dice, samples: usize, tally: &mut Tally) {
+    /// The event-driven harmonic force of a cosine about a mean, by K', K'' and the curve.
+    pub fn event_driven(&self, dice: &mut Dice, samples: usize, tally: &mut Tally) {
         let Case { contact, reference, kind } = &self.case;
         let (names, range) = if samples < 100 {
-            (
-                ["between_reversals_64_force", "between_reversals_64_jacobian", "between_reversals_dissipated"],
-                "64 nodes",
-            )
+            (["event_driven_64_force", "event_driven_64_jacobian", "event_driven_dissipated"], "64 nodes")
         } else {
-            (["between_reversals_force", "between_reversals_jacobian", "between_reversals_dissipated"], "512 nodes")
+            (["event_driven_force", "event_driven_jacobian", "event_driven_dissipated"], "512 nodes")
         };
         let share = if dice.chance(0.3) { dice.power(0.003, 1.0) } else { dice.power(-2.0, -0.005) };
         let (sine, cosine) = dice.between(-3.2, 3.2).sin_cos();
         let mean = if dice.chance(0.3) { 0.0 } else { share * dice.between(-1.0, 1.0) };
         let slip = contact.slip_displacement;
         let u = [mean * slip, share * slip * cosine, share * slip * sine];
-        let mut workspace = call::workspace(1, samples, microslip::c_api::MSLIP_BETWEEN_REVERSALS);
+        let mut workspace = call::workspace(1, samples, MSLIP_EVENT_DRIVEN);
         let (force, jacobian, dissipated) = call::harmonic(contact, &mut workspace, &u);
         let law = reference.law(64);
         let v = u.map(|u| law.real(u) / &law.displacement_unit);

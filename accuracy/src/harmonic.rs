@@ -1,11 +1,11 @@
-//! The harmonic force: by its definition for equidistant samples, and for one harmonic between reversals by the exact integrals.
+//! The harmonic force: by its definition for uniform sampling, and by the exact integrals for one harmonic and the event-driven rule.
 
 use crate::call;
 use crate::cases::{Case, Dice, text};
 use crate::history::{Memory, stiffness};
 use crate::real::Real;
 use crate::tally::Tally;
-use microslip::c_api::MSLIP_EQUIDISTANT;
+use microslip::ffi::MSLIP_UNIFORM_SAMPLING;
 
 /// Coefficients, in displacements of gross slip.
 fn coefficients(dice: &mut Dice, harmonics: usize) -> Vec<f64> {
@@ -23,8 +23,8 @@ fn coefficients(dice: &mut Dice, harmonics: usize) -> Vec<f64> {
     all
 }
 
-/// One displacement through the equidistant rule.
-pub fn equidistant(case: &Case, dice: &mut Dice, tally: &mut Tally) {
+/// One displacement by uniform sampling.
+pub fn uniform_sampling(case: &Case, dice: &mut Dice, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(50);
     let (harmonics, samples, range) = [
@@ -34,7 +34,7 @@ pub fn equidistant(case: &Case, dice: &mut Dice, tally: &mut Tally) {
         (7, 16, "H = 7, 16"),
         (3, 64, "H = 3, 64"),
     ][dice.below(5)];
-    let mut workspace = call::workspace(harmonics, samples, MSLIP_EQUIDISTANT);
+    let mut workspace = call::workspace(harmonics, samples, MSLIP_UNIFORM_SAMPLING);
     let displacement: Vec<f64> =
         coefficients(dice, harmonics).iter().map(|share| share * contact.slip_displacement).collect();
     let (force, jacobian, dissipated) = call::harmonic(contact, &mut workspace, &displacement);
@@ -67,7 +67,7 @@ pub fn equidistant(case: &Case, dice: &mut Dice, tally: &mut Tally) {
         (energy, energy_size) = (energy + lost, energy_size + lost_size);
         size = size.max(memory.now().size.f64());
         let mut slope = vec![zero(); width];
-        for pair in memory.turns.windows(2) {
+        for pair in memory.reversals.windows(2) {
             let Some(point) = &pair[1].point else { continue };
             if (&point.approach / &law.slip_approach - 1.0).abs().f64() < 1e-9 && !point.rest.is_zero() {
                 return; // the Jacobian jumps

@@ -1,5 +1,5 @@
-//! Histories: the law as the operator of Prandtl and Ishlinskii. The force is a sum over the turning points that are not wiped
-//! out, whatever the contact slid in between: T = M(v1) + 2 M((v2-v1)/2) + ..., M odd and mu N beyond gross slip.
+//! Histories: the law as a Prandtl-Ishlinskii operator. The force is a sum over the reversals that were not wiped out, with or
+//! without gross slip in between: T = M(v1) + 2 M((v2-v1)/2) + ..., M odd and mu N beyond gross slip.
 
 use crate::call;
 use crate::cases::{Case, Dice, text};
@@ -7,112 +7,113 @@ use crate::curve::moved;
 use crate::real::Real;
 use crate::reference::{Law, Point, Reference};
 use crate::tally::Tally;
-use microslip::c_api::mslip_contact;
+use microslip::ffi::mslip_contact;
 use std::rc::Rc;
 
-/// A turning point: displacement and force in units, and the number of its sample.
+/// A reversal: displacement and force in units, and the number of its sample.
 #[derive(Clone)]
-pub struct Turn {
+pub struct Reversal {
     pub displacement: Real,
     pub force: Real,
     pub sample: usize,
     /// Sum of the sizes of the terms of the force.
     pub size: Real,
-    /// The point of the curve halfway back to the turn before.
+    /// The point of the curve at half the range from the reversal before.
     pub point: Option<Point>,
 }
 
-/// The turning points from the virgin state on; the last one is the present.
+/// The reversals since the unloaded state; the last one is the present point.
 pub struct Memory<'a> {
     law: Rc<Law>,
     contact: &'a mslip_contact,
-    pub turns: Vec<Turn>,
+    pub reversals: Vec<Reversal>,
 }
 
 impl<'a> Memory<'a> {
     pub fn new(law: Rc<Law>, contact: &'a mslip_contact) -> Memory<'a> {
         let zero = || law.real(0.0);
-        let turns = vec![Turn { displacement: zero(), force: zero(), sample: usize::MAX, size: zero(), point: None }];
-        Memory { law, contact, turns }
+        let reversals =
+            vec![Reversal { displacement: zero(), force: zero(), sample: usize::MAX, size: zero(), point: None }];
+        Memory { law, contact, reversals }
     }
 
-    fn point(&self, way: &Real) -> Point {
-        let near = call::force(self.contact, (way * &self.law.displacement_unit).f64())[0];
-        self.law.at_approach(way, &(self.law.real(near) / &self.law.slip_force))
+    fn point(&self, range: &Real) -> Point {
+        let near = call::force(self.contact, (range * &self.law.displacement_unit).f64())[0];
+        self.law.at_approach(range, &(self.law.real(near) / &self.law.slip_force))
     }
 
     /// Energy, in units, of the first loading to a displacement.
-    fn loading(&self, way: &Real) -> Real {
-        if way.is_zero() {
+    fn loading(&self, range: &Real) -> Real {
+        if range.is_zero() {
             return self.law.real(0.0);
         }
-        crate::cycle::cycle_energy(&self.law, way, &self.point(way)).0 / 4.0
+        crate::cycle::cycle_energy(&self.law, range, &self.point(range)).0 / 4.0
     }
 
-    fn halves(&self) -> f64 {
-        if self.turns.len() == 2 { 1.0 } else { 2.0 }
+    fn scale(&self) -> f64 {
+        if self.reversals.len() == 2 { 1.0 } else { 2.0 }
     }
 
-    /// Goes to a displacement; the energy dissipated and the sum of its terms.
+    /// Advances to a displacement; the energy dissipated and the sum of its terms.
     pub fn go(&mut self, to: &Real, sample: usize, wants_energy: bool) -> (Real, Real) {
         let (mut energy, mut size) = (self.law.real(0.0), self.law.real(0.0));
-        let here = self.turns.last().unwrap().clone();
+        let here = self.reversals.last().unwrap().clone();
         if to == &here.displacement {
             return (energy, size);
         }
         let rises = to > &here.displacement;
-        let goes_on = self.turns.len() > 1 && {
-            let before = &self.turns[self.turns.len() - 2];
+        let goes_on = self.reversals.len() > 1 && {
+            let before = &self.reversals[self.reversals.len() - 2];
             (here.displacement > before.displacement) == rises
         };
         if !goes_on {
             // A branch starts here.
-            self.turns.push(here.clone());
+            self.reversals.push(here.clone());
         }
-        // The last turn is now the moving end; each branch that it ends gives way to the one before.
+        // The last one is now the moving end. A branch that reaches its end continues on the branch before it.
         loop {
-            let n = self.turns.len();
-            let start = self.turns[n - 2].displacement.clone();
+            let n = self.reversals.len();
+            let start = self.reversals[n - 2].displacement.clone();
             let end = match n {
                 0..3 => None,
                 3 => Some(-&start),
-                _ => Some(self.turns[n - 3].displacement.clone()),
+                _ => Some(self.reversals[n - 3].displacement.clone()),
             };
-            let from = self.turns[n - 1].displacement.clone();
+            let from = self.reversals[n - 1].displacement.clone();
             let passes = end.as_ref().is_some_and(|end| if rises { to >= end } else { to <= end });
             let stop = if passes { end.unwrap() } else { to.clone() };
-            let halves = self.halves();
+            let scale = self.scale();
             if wants_energy {
-                let upto = self.loading(&((&stop - &start).abs() / halves)) * halves;
-                energy = energy + &upto - self.loading(&((&from - &start).abs() / halves)) * halves;
+                let upto = self.loading(&((&stop - &start).abs() / scale)) * scale;
+                energy = energy + &upto - self.loading(&((&from - &start).abs() / scale)) * scale;
                 size = size + upto;
             }
             if !passes {
                 break;
             }
-            // Both turns of the closed loop are forgotten; of the first one its mirror point is on the virgin curve.
-            self.turns.truncate(if n == 3 { 1 } else { n - 3 });
-            let moving = Turn { displacement: stop, ..here.clone() };
-            self.turns.push(moving);
+            // Both reversals of a closed loop are popped; the mirror point of the oldest is on the initial loading curve.
+            self.reversals.truncate(if n == 3 { 1 } else { n - 3 });
+            let moving = Reversal { displacement: stop, ..here.clone() };
+            self.reversals.push(moving);
         }
-        let n = self.turns.len();
-        let halves = self.halves();
-        let start = &self.turns[n - 2];
-        let way = (to - &start.displacement).abs() / halves;
-        let point = self.point(&way);
-        let jump = &point.tau * halves;
+        let n = self.reversals.len();
+        let scale = self.scale();
+        let start = &self.reversals[n - 2];
+        let range = (to - &start.displacement).abs() / scale;
+        let point = self.point(&range);
+        let jump = &point.tau * scale;
         let force = if rises { &start.force + &jump } else { &start.force - &jump };
-        let now = Turn { displacement: to.clone(), force, sample, size: &start.size + jump, point: Some(point) };
-        self.turns[n - 1] = now;
+        let now = Reversal { displacement: to.clone(), force, sample, size: &start.size + jump, point: Some(point) };
+        self.reversals[n - 1] = now;
         (energy, size)
     }
 
-    pub fn now(&self) -> &Turn {
-        self.turns.last().unwrap()
+    pub fn now(&self) -> &Reversal {
+        self.reversals.last().unwrap()
     }
 }
 
-/// Tangent stiffness over the unit at the end of a branch, and how much it changes with the way and with Λ.
+/// Dimensionless tangent stiffness at the end of a branch, and its condition number with respect to the displacement and Λ.
 pub fn stiffness(point: &Point) -> (Real, f64) {
     if point.rest.is_zero() {
         return (Real::new(128, 0.0), 0.0);
@@ -160,8 +161,8 @@ pub fn along_a_path(case: &Case, dice: &mut Dice, steps: usize, tally: &mut Tall
         let got = call::update(contact, &mut state, u);
         let (energy, size) = memory.go(&(law.real(u) / &law.displacement_unit), i, true);
         let now = memory.now();
-        let range = match memory.turns.len() {
-            0..3 => "virgin",
+        let range = match memory.reversals.len() {
+            0..3 => "initial loading",
             3..6 => "1 to 3 reversals",
             _ => "4 and more",
         };
@@ -172,12 +173,12 @@ pub fn along_a_path(case: &Case, dice: &mut Dice, steps: usize, tally: &mut Tall
         if let Some(point) = &now.point {
             let (exact, condition) = stiffness(point);
             let exact = &law.stiffness_unit * exact;
-            let way = &point.approach;
+            let distance = &point.approach;
             tally.check_between(("masing_stiffness", kind, range), got[1], &exact, &exact, condition, place, || {
-                // The way back to the reversal is a difference of two displacements.
+                // The range from the reversal is a difference of two displacements.
                 let units = 8.0 * (2.0 + 1.0 / law.slip_approach.f64()) * (1.0 + 2.0 * farthest);
-                let moved = [-units, units].map(|units| way * moved(1.0, units));
-                Some(moved.map(|way| &law.stiffness_unit * stiffness(&memory.point(&way)).0).into())
+                let moved = [-units, units].map(|units| distance * moved(1.0, units));
+                Some(moved.map(|range| &law.stiffness_unit * stiffness(&memory.point(&range)).0).into())
             });
         }
         let scale = &energy_unit * (size + if farthest > 1.0 { farthest * 4.0 * law.slip_approach.f64() } else { 0.0 });
@@ -209,11 +210,11 @@ fn shear(
     for (&x, got) in x.iter().zip(got) {
         let spot = law.real(x.abs()) / &law.half_width;
         let (mut sum, mut size, mut condition) = (law.real(0.0), law.real(0.0), 0.0f64);
-        for (i, turn) in memory.turns.iter().enumerate().skip(1) {
-            let Some(point) = &turn.point else { continue };
+        for (i, reversal) in memory.reversals.iter().enumerate().skip(1) {
+            let Some(point) = &reversal.point else { continue };
             let term = law.shear(&spot, point) * if i == 1 { 1.0 } else { 2.0 };
             size = size + &term;
-            let rises = turn.displacement > memory.turns[i - 1].displacement;
+            let rises = reversal.displacement > memory.reversals[i - 1].displacement;
             sum = if rises { sum + term } else { sum - term };
             // What position, force and half-width bring by their rounding: near each stick zone's edge, and at b.
             let gap = |edge: &Real| (&spot / (&spot - edge)).abs().f64();

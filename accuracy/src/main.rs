@@ -96,7 +96,7 @@ fn run(job: &Job, dice: &mut Dice, tally: &mut Tally) {
             }
             "loops" => history::closed_loop(&case, dice, tally),
             "harmonic" => {
-                harmonic::equidistant(&case, dice, tally);
+                harmonic::uniform_sampling(&case, dice, tally);
                 1
             }
             "neighbours" => {
@@ -114,7 +114,7 @@ fn run(job: &Job, dice: &mut Dice, tally: &mut Tally) {
                 cycles.at_amplitudes(dice, count, tally);
                 if cycles.interpolates() {
                     for i in 0..count.div_ceil(30) {
-                        cycles.between_reversals(dice, if i % 2 == 0 { 64 } else { 512 }, tally);
+                        cycles.event_driven(dice, if i % 2 == 0 { 64 } else { 512 }, tally);
                     }
                 }
                 left

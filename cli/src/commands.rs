@@ -8,9 +8,9 @@ use crate::picture::{Axis, Line, Panel, Picture, rounded};
 use crate::refusal::{Outcome, Refusal, input, usage};
 use crate::table::Table;
 use crate::units::Quantity;
-use microslip::equivalent::{SpringSlider, iwan, jenkins};
-use microslip::masing::step;
-use microslip::memory::{state_init, state_length};
+use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
+use microslip::constant_load::masing::{check_step, step, step_with_energy};
+use microslip::constant_load::state::{state_init, state_length};
 use microslip::{Contact, Error};
 use std::f64::consts::PI;
 
@@ -65,18 +65,18 @@ impl Answer {
     }
 }
 
-/// What was given, in units of the contact's own where the user wants that.
+/// The given values, in units of the contact's own if relative.
 fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     let factor = if relative { unit } else { 1.0 };
     values.iter().map(|value| value * factor).collect()
 }
 
-/// Equidistant from 0 to the end, which is met to the bit.
+/// Uniformly spaced from 0 to the end, which is exact.
 fn grid(end: f64, points: u32) -> Vec<f64> {
     (0..points).map(|i| f64::from(i) / f64::from(points - 1) * end).collect()
 }
 
-/// Equidistant in the logarithm; both ends are met to the bit.
+/// Uniformly spaced in the logarithm; both ends are exact.
 fn logarithmic_grid(from: f64, to: f64, points: u32) -> Vec<f64> {
     let between = |part: f64| from.powf(1.0 - part) * to.powf(part);
     grid(1.0, points).into_iter().map(between).collect()
@@ -149,7 +149,7 @@ fn maximum_pressure(described: &Described) -> f64 {
     contact.pressure(0.5 * (low + high))
 }
 
-/// The library's sentence on a force; how much mu N is, where that is exceeded.
+/// The library's message on a force, with the value of mu N if that is exceeded.
 fn refused_force(force: f64, contact: &Contact, error: Error) -> Refusal {
     match Refusal::of_flag("--force", digits(force), error) {
         Refusal::Input(sentence) if error == Error::ForceExceedsSlip => {
@@ -331,8 +331,8 @@ pub fn stiffness(arguments: &Amplitudes, described: Described) -> Outcome<Answer
             amplitude,
             complex.real(),
             complex.imaginary(),
-            complex.real_slope(),
-            complex.imaginary_slope(),
+            complex.d_real(),
+            complex.d_imag(),
             complex.dissipated(),
         ])
     };
@@ -355,25 +355,25 @@ pub fn stiffness(arguments: &Amplitudes, described: Described) -> Outcome<Answer
 pub fn history(arguments: &History, described: Described) -> Outcome<Answer> {
     let (contact, units) = (&described.contact, described.units);
     let path = path::read(&arguments.displacements, arguments.column.as_deref(), units)?;
-    // No path has more reversals than points.
+    // No path has more reversals than rows, so none is merged.
     let mut state = vec![0.0; state_length(path.len())];
     state_init(&mut state).map_err(|error| Refusal::in_file(&arguments.displacements, error))?;
-    // Between the rows the picture follows the law, and no chord.
+    // The picture follows the curve between the rows.
     let between = u32::try_from(2000 / path.len()).unwrap_or(1).max(1);
     let (mut rows, mut points) = (Vec::new(), vec![(0.0, 0.0)]);
     for Row { number, displacement } in path {
         let refuse = |error| Refusal::in_file(&arguments.displacements, format!("row {number}: {error}"));
         let displacement = if arguments.relative { displacement * contact.slip_displacement } else { displacement };
+        check_step(&state, displacement).map_err(refuse)?;
         let from = rows.last().map_or(0.0, |row: &Vec<f64>| row[0]);
         for part in 1..between {
             let on_the_way = from + (displacement - from) * f64::from(part) / f64::from(between);
-            points.push((on_the_way, step(contact, &state, on_the_way).map_err(refuse)?.force()));
+            points.push((on_the_way, step(contact, &state, on_the_way).force()));
         }
-        let step = step(contact, &state, displacement).map_err(refuse)?;
-        let dissipated = step.dissipated(&state).map_err(refuse)?;
+        let (step, dissipated) = step_with_energy(contact, &state, displacement);
         points.push((displacement, step.force()));
         rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
-        step.write(&mut state);
+        step.write(contact, &mut state);
     }
     let mut options = format!(" --displacements {}", quoted(&arguments.displacements.to_string_lossy()));
     if let Some(column) = &arguments.column {

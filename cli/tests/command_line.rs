@@ -1,8 +1,8 @@
 //! The program as its users call it: its numbers against the library's, bit for bit, its refusals, its files.
 
-use microslip::equivalent::{iwan, jenkins};
-use microslip::masing::{PathOutput, lead};
-use microslip::memory::{state_init, state_length};
+use microslip::constant_load::equivalents::{iwan, jenkins};
+use microslip::constant_load::masing::{self, PathOutput};
+use microslip::constant_load::state::{state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::fs::{self, File};
 use std::io::Write;
@@ -227,7 +227,7 @@ fn complex_stiffness_and_jenkins_are_the_librarys() {
     for (contact, flags) in [flat(), ellipse()] {
         let stiffness = |amplitude: f64| {
             let complex = contact.complex_stiffness(amplitude).unwrap();
-            let slopes = [complex.real_slope(), complex.imaginary_slope(), complex.dissipated()];
+            let slopes = [complex.d_real(), complex.d_imag(), complex.dissipated()];
             [vec![amplitude, complex.real(), complex.imaginary()], slopes.to_vec()].concat()
         };
         let slider = |amplitude: f64| {
@@ -264,7 +264,7 @@ fn a_history_is_the_librarys() {
     state_init(&mut state).unwrap();
     let output =
         PathOutput { force: Some(&mut force), stiffness: Some(&mut stiffness), dissipated: Some(&mut dissipated) };
-    lead(&contact, &mut state, &path, output).unwrap();
+    masing::path(&contact, &mut state, &path, output);
     let expected: Vec<_> = (0..8).map(|i| vec![path[i], force[i], stiffness[i], dissipated[i]]).collect();
 
     let table = path.map(|displacement| format!("{displacement:e}\n")).concat();

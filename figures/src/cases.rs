@@ -2,8 +2,8 @@
 //!
 //! The law has similarity: in these units nothing depends on the numbers that are chosen here for size, modulus and friction.
 
+use microslip::constant_load::{masing, state};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
-use microslip::{masing, memory};
 use std::f64::consts::PI;
 
 /// Half-width b of the contacts \[m\].
@@ -60,7 +60,7 @@ impl Case {
         Case::loaded(flat, edge_radius, length, line_load * length, material, friction)
     }
 
-    /// A flat by a/R, L/R and P/(E* R). `widened` times R is what Eq. 1 hears of: 1, or 2 for the relation as it is printed.
+    /// A flat by a/R, L/R and P/(E* R). Eq. 1 is evaluated with `widened` times R: 1, or 2 for the relation as printed.
     pub fn under_load(flat_over_radius: f64, length_over_radius: f64, load: f64, widened: f64) -> Case {
         let (flat, length) = (flat_over_radius * EDGE_RADIUS, length_over_radius * EDGE_RADIUS);
         let normal_force = load * composite_modulus(STEEL) * EDGE_RADIUS * length;
@@ -175,12 +175,13 @@ impl Case {
     }
 
     /// The state after displacements in their unit.
-    fn state_after(&self, displacements: &[f64]) -> [f64; memory::state_length(2)] {
-        let mut state = [0.0; memory::state_length(2)];
-        memory::state_init(&mut state).expect("a state");
+    fn state_after(&self, displacements: &[f64]) -> [f64; state::state_length(2)] {
+        let mut state = [0.0; state::state_length(2)];
+        state::state_init(&mut state).expect("a state");
         for displacement in displacements {
-            let step = masing::step(&self.contact, &state, displacement * self.displacement_unit()).expect("a step");
-            step.write(&mut state);
+            let displacement = displacement * self.displacement_unit();
+            let step = masing::step(&self.contact, &state, displacement);
+            step.write(&self.contact, &mut state);
         }
         state
     }
@@ -189,26 +190,26 @@ impl Case {
     pub fn force_after(&self, displacements: &[f64]) -> f64 {
         let (last, before) = displacements.split_last().expect("a displacement");
         let state = self.state_after(before);
-        let step = masing::step(&self.contact, &state, last * self.displacement_unit()).expect("a step");
+        let step = masing::step(&self.contact, &state, last * self.displacement_unit());
         step.force() / self.contact.slip_force
     }
 
     /// Stiffness a little after a reversal at Q/μP, in its unit.
     pub fn stiffness_after_reversal(&self, reversal: f64, little: f64) -> f64 {
-        let turn = self.displacement(reversal);
-        let back = (1.0 - little) * turn * self.displacement_unit();
-        let state = self.state_after(&[turn]);
-        masing::step(&self.contact, &state, back).expect("a step").stiffness() / self.stiffness_unit()
+        let at_reversal = self.displacement(reversal);
+        let back = (1.0 - little) * at_reversal * self.displacement_unit();
+        let state = self.state_after(&[at_reversal]);
+        masing::step(&self.contact, &state, back).stiffness() / self.stiffness_unit()
     }
 
     /// b q/(μP) at each x/b, loaded to one Q/μP and brought back to another.
     pub fn shear_after_reversal(&self, x: &[f64], reversal: f64, force: f64) -> Vec<f64> {
         let half = self.displacement((reversal - force) / 2.0);
-        let turn = self.displacement(reversal);
-        let state = self.state_after(&[turn, turn - 2.0 * half]);
+        let at_reversal = self.displacement(reversal);
+        let state = self.state_after(&[at_reversal, at_reversal - 2.0 * half]);
         let places: Vec<f64> = x.iter().map(|x| x * self.contact.half_width).collect();
         let mut shear = vec![0.0; x.len()];
-        masing::shear_after(&self.contact, &state, &places, &mut shear).expect("tractions");
+        masing::shear_tractions(&self.contact, &state, &places, &mut shear).expect("tractions");
         let unit = self.contact.half_width / (self.friction * self.line_load());
         shear.iter().map(|shear| shear * unit).collect()
     }
@@ -231,7 +232,7 @@ impl Case {
         (stiffness.real() / self.stiffness_unit(), stiffness.imaginary() / self.stiffness_unit())
     }
 
-    /// The closed loop of a displacement amplitude: displacements and forces at so many instants, the first repeated.
+    /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants, the first repeated.
     pub fn hysteresis_loop(&self, amplitude: f64, instants: usize) -> (Vec<f64>, Vec<f64>) {
         let cycle = self.contact.hysteresis_loop(amplitude * self.displacement_unit()).expect("an amplitude");
         (0..=instants)

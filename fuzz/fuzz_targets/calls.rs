@@ -1,12 +1,13 @@
-//! An input is a sequence of calls on a few contacts, states and workspaces; some of their memory is changed on the way.
+//! An input is a sequence of calls on a few contacts, states and workspaces; some of their memory is corrupted in between.
 //!
-//! What is held against each call: the status is declared, and is one that the arguments explain; a refused call has
-//! written nothing; no output depends on which others are wanted, or on where the states are; outputs are numbers within
-//! their bounds, inputs stay as they are, and no exception is raised. Memory that was changed since it was prepared is refused.
+//! Checks of each call: the status is declared and explained by the arguments; a rejected call has written nothing; no output
+//! depends on which others are requested, or on where the states are; outputs are within their bounds, inputs are not modified,
+//! and no floating-point exception is raised. Uninitialised memory is rejected. Corrupted memory behind a valid tag may give
+//! any results, but no access out of bounds and no panic; the checks of contacts and states are called for it, too.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use microslip::c_api::*;
+use microslip::ffi::*;
 use microslip::{EllipticParameters, Error, Material, Parameters};
 use microslip_fuzz::contacts::{self, SIZE};
 use microslip_fuzz::interface::{self, Faults, call, status};
@@ -23,31 +24,29 @@ fuzz_target!(init: interface::start(), |input: &[u8]| {
     assert!(world.contacts.is(&world.contacts_as_written), "a contact that was to be read was changed");
 });
 
-/// What became of memory: never prepared, as it was prepared, or one number of it, which was that, changed since.
+/// Status of a buffer: uninitialised, initialised, or corrupted since.
 #[derive(Clone, Copy, PartialEq, Debug)]
-enum Health {
-    Blank,
+enum Status {
+    Uninitialised,
     Good,
-    Changed(usize, f64),
+    Corrupted,
 }
-use Health::{Blank, Changed, Good};
+use Status::{Corrupted, Good, Uninitialised};
 
-impl Health {
-    fn at(self, place: usize) -> Health {
-        if let Changed(_, before) = self { Changed(place, before) } else { self }
+impl Status {
+    fn faults(self, error: Error) -> Faults {
+        Faults::default().when(self == Uninitialised, error).arbitrary(self == Corrupted)
     }
 }
 
 struct State {
     numbers: Array,
-    health: Health,
+    status: Status,
 }
 
 struct Workspace {
     numbers: Array,
-    health: Health,
-    /// Whether its tables may have been changed, or only what is scratch memory.
-    touched: bool,
+    status: Status,
     harmonics: usize,
 }
 
@@ -57,12 +56,12 @@ struct World<'a> {
     source: Source<'a>,
     contacts: Array,
     contacts_as_written: Array,
-    contact_health: [Health; CONTACTS],
+    contact_status: [Status; CONTACTS],
     states: [State; 3],
     workspaces: [Workspace; 2],
 }
 
-/// A contact as an argument, and what is to be expected of it.
+/// A contact as an argument, and what its results are compared with.
 struct Chosen {
     pointer: *const mslip_contact,
     faults: Faults,
@@ -75,22 +74,54 @@ struct Chosen {
 
 impl Chosen {
     /// A scale for displacements.
-    fn way(&self) -> f64 {
+    fn scale(&self) -> f64 {
         if self.slip_displacement > 0.0 { self.slip_displacement } else { 1e-6 }
     }
 }
 
+/// Items of a batch.
+struct Items {
+    n: usize,
+    n_contacts: usize,
+    contacts: *const mslip_contact,
+    index: Option<Vec<i32>>,
+    active: Option<Vec<i32>>,
+    /// The contact of each item; `None` for those that are skipped.
+    slots: Vec<Option<usize>>,
+    faults: Faults,
+}
+
+impl Items {
+    fn active(&self) -> impl Iterator<Item = usize> {
+        self.slots.iter().enumerate().filter_map(|(i, slot)| slot.map(|_| i))
+    }
+}
+
+fn pointer(flags: &Option<Vec<i32>>) -> *const i32 {
+    flags.as_ref().map_or(null(), |flags| flags.as_ptr())
+}
+
+const UNKNOWN: Chosen = Chosen {
+    pointer: null(),
+    faults: Faults::NONE,
+    half_width: 1.0,
+    slip_force: 0.0,
+    slip_displacement: 0.0,
+    initial_stiffness: 0.0,
+    slip_energy: 0.0,
+};
+
 /// An excess over mu N that is a few units of rounding is taken as mu N.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Displacements beyond are refused.
+/// Displacements beyond are rejected.
 const FARTHEST: f64 = 1e150;
 
 fn is_near(displacement: f64) -> bool {
     displacement.abs() <= FARTHEST
 }
 
-/// What is rounded up in the last digits of a bound.
+/// Within a bound, up to rounding.
 fn within(value: f64, bound: f64) -> bool {
     value.abs() <= bound * (1.0 + 1e-13)
 }
@@ -107,48 +138,45 @@ impl<'a> World<'a> {
     fn new(source: Source<'a>) -> World<'a> {
         let mut source = source;
         let mut contacts = Array::new(CONTACTS * SIZE, UNTOUCHED);
-        let (choices, mut contact_health) = (contacts::all(), [Blank; CONTACTS]);
-        for (contact, health) in contacts.values_mut().chunks_exact_mut(SIZE).zip(&mut contact_health) {
-            // One more than there are is none.
+        let (choices, mut contact_status) = (contacts::all(), [Uninitialised; CONTACTS]);
+        for (contact, status) in contacts.values_mut().chunks_exact_mut(SIZE).zip(&mut contact_status) {
+            // The last choice leaves it uninitialised.
             if let Some((_, bits)) = choices.get(source.below(choices.len() + 1)) {
                 contact.copy_from_slice(bits);
-                *health = Good;
+                *status = Good;
             }
         }
         let states = [(); 3].map(|()| {
             let byte = source.byte() as usize;
             let mut numbers = Array::new(mslip_state_length(byte % 24), UNTOUCHED);
             if byte >= 240 {
-                return State { numbers, health: Blank };
+                return State { numbers, status: Uninitialised };
             }
             let answer = call(true, || unsafe { mslip_state_init(numbers.values().len(), numbers.pointer_mut()) });
             assert!(answer == 0);
-            State { numbers, health: Good }
+            State { numbers, status: Good }
         });
-        let workspaces = [(); 2].map(|()| Workspace {
-            numbers: Array::new(4, UNTOUCHED),
-            health: Blank,
-            touched: false,
-            harmonics: 1,
-        });
-        World { source, contacts_as_written: contacts.copy(), contacts, contact_health, states, workspaces }
+        let workspaces =
+            [(); 2].map(|()| Workspace { numbers: Array::new(4, UNTOUCHED), status: Uninitialised, harmonics: 1 });
+        World { source, contacts_as_written: contacts.copy(), contacts, contact_status, states, workspaces }
     }
 
     fn step(&mut self) {
-        // What is cheap comes often: a contact costs as much as a thousand steps, sliders as much as ten thousand.
+        // Cheap calls are frequent: a contact costs as much as a thousand steps, sliders as much as ten thousand.
         match self.source.byte() {
             0 => self.init(),
-            1 => self.init_like(),
+            1 => self.contact_check(),
             2..5 => self.init_elliptic(),
             5..11 => self.copy_contact(),
-            11..17 => self.change(),
+            11..17 => self.corrupt(),
             17..27 => self.tractions(),
             27..35 => self.slip(),
             35..49 => self.monotonic_displacement(),
             49..67 => self.monotonic_force(),
             67..79 => self.state_init(),
             79..129 => self.masing_update(),
-            129..159 => self.march(),
+            129..155 => self.steps(),
+            155..159 => self.state_check(),
             159..177 => self.masing_path(),
             177..185 => self.masing_tractions(),
             185..193 => self.hysteresis_loop(),
@@ -158,9 +186,9 @@ impl<'a> World<'a> {
             214..225 => self.harmonic_force(),
             225..229 => self.jenkins_equivalent(),
             229 => self.iwan_equivalent(),
-            230..235 => self.interface_complex_stiffness(),
-            235..245 => self.interface_masing_update(),
-            245..248 => self.interface_harmonic_force(),
+            230..235 => self.batch_complex_stiffness(),
+            235..245 => self.batch_masing_update(),
+            245..248 => self.batch_harmonic_force(),
             _ => self.others(),
         }
     }
@@ -170,28 +198,23 @@ impl<'a> World<'a> {
     fn contact(&mut self) -> Chosen {
         let byte = self.source.byte() as usize;
         let slot = byte % CONTACTS;
-        let health = self.contact_health[slot];
-        let contact = &self.contacts.values()[slot * SIZE..][..SIZE];
-        let mut chosen = Chosen {
-            pointer: contact.as_ptr().cast(),
-            faults: Faults::default().when(health != Good, Error::BadContact),
-            half_width: 1.0,
-            slip_force: 0.0,
-            slip_displacement: 0.0,
-            initial_stiffness: 0.0,
-            slip_energy: 0.0,
-        };
+        let status = self.contact_status[slot];
+        tell!("  contact {slot}, {status:?}");
         if byte >= 0xfc {
-            chosen = Chosen { pointer: null(), faults: Faults::default().when(true, Error::NullPointer), ..chosen };
-        } else if health == Good {
-            chosen.half_width = contact[1];
-            chosen.slip_force = contact[2];
-            chosen.slip_displacement = contact[3];
-            chosen.initial_stiffness = contact[4];
-            chosen.slip_energy = contact[5];
+            return Chosen { pointer: null(), faults: Faults::default().when(true, Error::NullPointer), ..UNKNOWN };
         }
-        tell!("  contact {slot}, {health:?}");
-        chosen
+        let chosen = self.item(slot);
+        let known = if status == Good { chosen } else { Chosen { pointer: chosen.pointer, ..UNKNOWN } };
+        Chosen { faults: status.faults(Error::BadContact), ..known }
+    }
+
+    fn contact_check(&mut self) {
+        let slot = self.source.below(CONTACTS);
+        let contact = self.contacts.values()[slot * SIZE..].as_ptr().cast();
+        let answer = status("mslip_contact_check", true, || unsafe { mslip_contact_check(contact) });
+        // A contact that was corrupted may have been corrected by chance.
+        let faults = self.contact_status[slot].faults(Error::BadContact);
+        faults.explain("mslip_contact_check", answer);
     }
 
     /// An input, its pointer and its length as they are passed, and what is wrong with them.
@@ -219,8 +242,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// A call whose outputs have the lengths given, once with those wanted that the input says, and perhaps again with all.
-    /// Nothing for one that was refused.
+    /// A call whose outputs have the given lengths, once with outputs requested by the input, and perhaps again with all.
+    /// `None` for one that was rejected, or has arbitrary results.
     fn run<const K: usize>(
         &mut self,
         name: &str,
@@ -234,18 +257,21 @@ impl<'a> World<'a> {
             k += 1;
             Output::new(choice >> (k - 1) & 1 == 0, length)
         });
-        let answer = status(name, true, || function(outputs.each_mut().map(Output::pointer)));
+        let answer = status(name, !faults.is_arbitrary(), || function(outputs.each_mut().map(Output::pointer)));
         tell!("  {:?}", outputs.each_ref().map(Output::values));
         faults.explain(name, answer);
         if answer != 0 {
-            assert!(outputs.iter().all(Output::is_untouched), "{name} is refused and has written");
+            assert!(outputs.iter().all(Output::is_untouched), "{name} is rejected and has written");
+            return None;
+        }
+        if faults.is_arbitrary() {
             return None;
         }
         assert!(outputs.iter().all(|output| all(output.values(), |value| !value.is_nan())), "{name} gives no number");
         if choice & 0x40 != 0 {
             let mut again = lengths.map(|length| Output::new(true, length));
             let second = status(name, true, || function(again.each_mut().map(Output::pointer)));
-            assert!(second == 0, "{name} answers {second} the second time");
+            assert!(second == 0, "{name} returns {second} the second time");
             for (one, two) in outputs.iter().zip(&again) {
                 let equal = one.0.is_none() || same(one.values(), two.values());
                 assert!(equal, "{name} gives something else the second time: {:?} {:?}", one.values(), two.values());
@@ -276,11 +302,11 @@ impl<'a> World<'a> {
         World::faults_of_materials(&p.material, faults).may(true, Error::LengthTooShort).may(true, Error::OutOfRange)
     }
 
-    /// Takes a prepared contact into a slot.
+    /// Copies an initialised contact into a slot.
     fn keep(&mut self, slot: usize, contact: &[f64]) {
         self.contacts.values_mut()[slot * SIZE..][..SIZE].copy_from_slice(contact);
         self.contacts_as_written.values_mut()[slot * SIZE..][..SIZE].copy_from_slice(contact);
-        self.contact_health[slot] = Good;
+        self.contact_status[slot] = Good;
         let &[modulus, half_width, slip_force, slip_displacement, stiffness, energy, ..] = contact else { return };
         assert!(modulus > 0.0 && modulus.is_finite(), "E* {modulus}");
         let others = [half_width, slip_force, slip_displacement, stiffness, energy];
@@ -309,30 +335,7 @@ impl<'a> World<'a> {
             assert!(made.is(&again), "the same parameters make another contact");
             self.keep(slot, made.values());
         } else {
-            assert!(made.is(&again), "a refused contact was written to");
-        }
-    }
-
-    fn init_like(&mut self) {
-        let slot = self.source.below(CONTACTS);
-        let like = self.contact();
-        let p = contacts::draw_flat(&mut self.source);
-        tell!("{p:?}");
-        let mut made = Array::new(SIZE, UNTOUCHED);
-        let answer = status("mslip_contact_init_like", true, || unsafe {
-            mslip_contact_init_like(&p, like.pointer, made.pointer_mut().cast())
-        });
-        // The numbers may be found wrong before the contact is, or after.
-        let mut fresh = Array::new(SIZE, UNTOUCHED);
-        let plain =
-            status("mslip_contact_init", true, || unsafe { mslip_contact_init(&p, fresh.pointer_mut().cast()) });
-        if answer == plain {
-            assert!(made.is(&fresh), "like another is not the same");
-        } else {
-            like.faults.explain("mslip_contact_init_like", answer);
-        }
-        if answer == 0 {
-            self.keep(slot, made.values());
+            assert!(made.is(&again), "a rejected contact was written to");
         }
     }
 
@@ -368,75 +371,51 @@ impl<'a> World<'a> {
             for contacts in [&mut self.contacts, &mut self.contacts_as_written] {
                 contacts.values_mut().copy_within(from * SIZE..(from + 1) * SIZE, to * SIZE);
             }
-            self.contact_health[to] = self.contact_health[from];
+            self.contact_status[to] = self.contact_status[from];
         }
     }
 
-    /// Writes where only the library should; where something is changed already, that is made good.
-    fn change(&mut self) {
+    /// Corrupts a double of a buffer.
+    fn corrupt(&mut self) {
         let (what, place) = (self.source.byte() as usize, self.source.byte() as usize);
         let value = match self.source.byte() {
             bit if bit < 128 => Err(1 << (bit % 64)),
             _ => Ok(self.source.number(1e-6)),
         };
-        tell!("change {what}, {place}: {value:?}");
-        let change = |number: &mut f64| {
-            let before = *number;
-            *number = value.unwrap_or_else(|bit: u64| f64::from_bits(before.to_bits() ^ bit));
-            if before.to_bits() == number.to_bits() { Good } else { Changed(place, before) }
+        tell!("corrupt {what}, {place}: {value:?}");
+        let change = |number: &mut f64, status: &mut Status| {
+            let before = number.to_bits();
+            *number = value.unwrap_or_else(|bit: u64| f64::from_bits(before ^ bit));
+            if *status == Good && before != number.to_bits() {
+                *status = Corrupted;
+            }
         };
         match what % 8 {
             0..3 => {
                 let slot = what / 8 % CONTACTS;
                 let contact = &mut self.contacts.values_mut()[slot * SIZE..][..SIZE];
-                let health = &mut self.contact_health[slot];
-                *health = match *health {
-                    Blank => Blank,
-                    Good => change(&mut contact[place % SIZE]),
-                    Changed(place, before) => {
-                        contact[place % SIZE] = before;
-                        Good
-                    }
-                };
+                change(&mut contact[place % SIZE], &mut self.contact_status[slot]);
                 self.contacts_as_written.values_mut()[slot * SIZE..][..SIZE].copy_from_slice(contact);
             }
             3..6 => {
-                let State { numbers, health } = &mut self.states[what / 8 % 3];
+                let State { numbers, status } = &mut self.states[what / 8 % 3];
                 let numbers = numbers.values_mut();
-                *health = match *health {
-                    Blank => Blank,
-                    Good => {
-                        // What lies beyond the reversals that it uses may be anything.
-                        let used = 6 + 2 * numbers[1] as usize;
-                        let place = place % numbers.len();
-                        let changed = change(&mut numbers[place]);
-                        if place < used && changed != Good { changed } else { Good }
-                    }
-                    Changed(place, before) => {
-                        let length = numbers.len();
-                        numbers[place % length] = before;
-                        Good
-                    }
-                };
+                if !numbers.is_empty() {
+                    let place = place % numbers.len();
+                    change(&mut numbers[place], status);
+                }
             }
             _ => {
-                let Workspace { numbers, health, touched, .. } = &mut self.workspaces[what / 8 % 2];
+                let Workspace { numbers, status, .. } = &mut self.workspaces[what / 8 % 2];
                 let numbers = numbers.values_mut();
-                // Its header half of the time.
-                let length = if what % 2 == 0 { 4 } else { numbers.len() };
-                *health = match *health {
-                    Blank => Blank,
-                    Good => {
-                        let changed = change(&mut numbers[place % length]);
-                        let header = place % length < 4;
-                        *touched |= !header && changed != Good;
-                        if header { changed.at(place % length) } else { Good }
-                    }
-                    Changed(place, before) => {
-                        numbers[place] = before;
-                        Good
-                    }
-                };
+                let header: [f64; 4] = *numbers.first_chunk().expect("a header");
+                let place = if what % 2 == 0 { place % 4 } else { place % numbers.len() };
+                change(&mut numbers[place], status);
+                // The header of another valid workspace belongs to memory of another length.
+                let extent = microslip::hbm::workspace_extent(numbers.first_chunk().expect("a header"));
+                if extent.is_ok_and(|extent| extent > numbers.len()) {
+                    numbers[..header.len()].copy_from_slice(&header);
+                }
             }
         }
     }
@@ -519,7 +498,7 @@ impl<'a> World<'a> {
 
     fn monotonic_force(&mut self) {
         let c = self.contact();
-        let (displacement, at, n, faults) = self.numbers(c.way());
+        let (displacement, at, n, faults) = self.numbers(c.scale());
         let far = !all(displacement.values(), is_near);
         let faults = faults.and(c.faults).when(far, Error::BadDisplacement);
         let lengths = [displacement.values().len(); 3];
@@ -543,34 +522,50 @@ impl<'a> World<'a> {
     fn state_init(&mut self) {
         let slot = self.source.below(3);
         let byte = self.source.byte() as usize;
-        // Room for so many reversals, or a length that is none of a state.
+        // Valid lengths, and shorter ones.
         let length = if byte < 192 { mslip_state_length(byte % 12) } else { byte % 16 };
         let mut numbers = Array::new(length, UNTOUCHED);
         let (pointer, passed, faults) = match self.source.huge() {
             Some(huge) => (numbers.pointer_mut(), huge, Faults::default().when(true, Error::BadArraySize)),
             None if byte == 0xff => (null_mut(), length, Faults::default().when(true, Error::NullPointer)),
-            None => (numbers.pointer_mut(), length, Faults::default().when(length < 6, Error::StateTooShort)),
+            None => {
+                let faults = Faults::default().when(length < mslip_state_length(0), Error::StateTooShort);
+                (numbers.pointer_mut(), length, faults)
+            }
         };
         let answer = status("mslip_state_init", true, || unsafe { mslip_state_init(passed, pointer) });
         faults.explain("mslip_state_init", answer);
         assert!(answer == 0 || all(numbers.values(), |value| value.to_bits() == UNTOUCHED.to_bits()));
-        self.states[slot] = State { numbers, health: if answer == 0 { Good } else { Blank } };
+        self.states[slot] = State { numbers, status: if answer == 0 { Good } else { Uninitialised } };
     }
 
     /// A state: the number of its slot, a copy of it, and what is wrong with it.
     fn state(&mut self) -> (usize, Array, Faults) {
         let slot = self.source.below(3);
-        let State { numbers, health } = &self.states[slot];
-        let short = numbers.values().len() < 6;
+        let State { numbers, status } = &self.states[slot];
+        let short = numbers.values().len() < mslip_state_length(0);
         let faults = Faults::default()
             .when(short, Error::StateTooShort)
-            .when(short && numbers.values().is_empty(), Error::NullPointer)
-            .when(*health != Good && !short, Error::BadState);
-        tell!("  state {slot}, {health:?}: {:?}", numbers.values());
+            .when(short && numbers.values().is_empty(), Error::NullPointer);
+        let faults = if short { faults } else { faults.and(status.faults(Error::BadState)) };
+        tell!("  state {slot}, {status:?}: {:?}", numbers.values());
         (slot, numbers.copy(), faults)
     }
 
-    /// Holds what a history gave against what it may give.
+    fn state_check(&mut self) {
+        let (_, state, faults) = self.state();
+        let (length, at) = (state.values().len(), state.pointer());
+        let answer = status("mslip_state_check", true, || unsafe { mslip_state_check(length, at) });
+        // Steps of different contacts may leave what no history of one contact does.
+        faults.may(true, Error::BadState).explain("mslip_state_check", answer);
+        if let Some([error]) =
+            self.run("mslip_state_error", faults, [1], |[error]| unsafe { mslip_state_error(length, at, error) })
+        {
+            assert!(not_negative(error.values()), "an error of {:?}", error.values());
+        }
+    }
+
+    /// Checks the bounds of the results of a history.
     fn check_history(c: &Chosen, [force, stiffness, dissipated]: [&[f64]; 3]) {
         assert!(all(force, |force| force.abs() <= c.slip_force), "{force:?} beyond {:e}", c.slip_force);
         assert!(all(stiffness, |value| value >= 0.0 && within(value, c.initial_stiffness)), "{stiffness:?}");
@@ -580,11 +575,10 @@ impl<'a> World<'a> {
     fn masing_update(&mut self) {
         let c = self.contact();
         let (slot, before, faults) = self.state();
-        let displacement = self.source.number(c.way());
+        let displacement = self.source.number(c.scale());
         tell!("  to {displacement:e}");
-        let faults =
-            faults.and(c.faults).when(!is_near(displacement), Error::BadDisplacement).may(true, Error::StateFull);
-        self.lead(
+        let faults = faults.and(c.faults).when(!is_near(displacement), Error::BadDisplacement);
+        self.advance(
             &c,
             slot,
             before,
@@ -600,11 +594,11 @@ impl<'a> World<'a> {
     fn masing_path(&mut self) {
         let c = self.contact();
         let (slot, before, faults) = self.state();
-        let (path, at, n, wrong) = self.numbers(c.way());
+        let (path, at, n, wrong) = self.numbers(c.scale());
         let far = !all(path.values(), is_near);
-        let faults = faults.and(wrong).and(c.faults).when(far, Error::BadDisplacement).may(true, Error::StateFull);
+        let faults = faults.and(wrong).and(c.faults).when(far, Error::BadDisplacement);
         let steps = path.values().len();
-        self.lead(
+        self.advance(
             &c,
             slot,
             before,
@@ -617,9 +611,9 @@ impl<'a> World<'a> {
         );
     }
 
-    /// Leads a state on, into itself, elsewhere or nowhere: all of which must give the same.
+    /// Advances a state in place, into other memory, or discards the new one: all must give the same.
     #[allow(clippy::too_many_arguments)]
-    fn lead(
+    fn advance(
         &mut self,
         c: &Chosen,
         slot: usize,
@@ -636,15 +630,16 @@ impl<'a> World<'a> {
         let mut state = std::mem::replace(&mut self.states[slot].numbers, Array::new(0, 0.0));
         let mut other = Array::new(length, UNTOUCHED);
         let given = self.run(name, faults, [steps; 3], |outputs| {
-            // What is read again must be what it was.
+            // The old state of a second call.
             state.values_mut().copy_from_slice(before.values());
             let pointer = state.pointer_mut();
             let to = [pointer, other.pointer_mut(), null_mut()][where_to as usize % 3];
             function(passed, pointer, to, outputs)
         });
         let in_place = where_to % 3 == 0;
-        if given.is_none() || !in_place {
-            assert!(state.is(&before), "{name} has changed a state that it was to read");
+        let arbitrary = faults.is_arbitrary();
+        if !in_place || (given.is_none() && !arbitrary) {
+            assert!(state.is(&before), "{name} has modified a state that it may only read");
         }
         if let Some([force, stiffness, dissipated]) = &given {
             World::check_history(c, [force.values(), stiffness.values(), dissipated.values()]);
@@ -652,7 +647,7 @@ impl<'a> World<'a> {
             let mut elsewhere = Array::new(length, UNTOUCHED);
             let answer =
                 status(name, true, || function(passed, before.pointer(), elsewhere.pointer_mut(), [null_mut(); 3]));
-            assert!(answer == 0, "{name} answers {answer} where nothing but the state is wanted");
+            assert!(answer == 0, "{name} returns {answer} if only the state is requested");
             let written = if in_place { Some(&state) } else { Some(&other).filter(|_| where_to % 3 == 1) };
             assert!(written.is_none_or(|written| written.is(&elsewhere)), "{name} leaves another state elsewhere");
             state = elsewhere;
@@ -660,55 +655,57 @@ impl<'a> World<'a> {
         self.states[slot].numbers = state;
     }
 
-    /// Many steps one by one, which lead where they lead at once.
-    fn march(&mut self) {
+    /// Many steps one by one, compared with one call.
+    fn steps(&mut self) {
         let c = self.contact();
         let (slot, before, faults) = self.state();
         let steps = self.source.byte() as usize + 1;
-        let width = self.source.number(c.way());
+        let width = self.source.number(c.scale());
         let mut scatter = Scatter::new(&mut self.source, width);
         let mut path = Array::new(steps, 0.0);
         for i in 0..steps {
             path.values_mut()[i] = scatter.next(&path.values()[..i]);
         }
         tell!("  {:?}", path.values());
-        let refused = faults.and(c.faults).refuses();
-        let (mut walked, mut led, length) = (before.copy(), before.copy(), before.values().len());
+        let far = !all(path.values(), is_near);
+        let faults = faults.and(c.faults).when(far, Error::BadDisplacement);
+        let (mut stepped, mut at_once, length) = (before.copy(), before.copy(), before.values().len());
         let [mut force, mut stiffness, mut dissipated] = [(); 3].map(|()| Array::new(steps, UNTOUCHED));
+        let traps = !faults.is_arbitrary();
         let mut answer = 0;
         for i in 0..steps {
-            let state = walked.pointer_mut();
+            let state = stepped.pointer_mut();
             let outputs = [&mut force, &mut stiffness, &mut dissipated].map(|array| &raw mut array.values_mut()[i]);
             let [force, stiffness, dissipated] = outputs;
             let displacement = path.values()[i];
-            answer = status("mslip_masing_update", true, || unsafe {
+            answer = status("mslip_masing_update", traps, || unsafe {
                 mslip_masing_update(c.pointer, length, state, displacement, state, force, stiffness, dissipated)
             });
             if answer != 0 {
                 break;
             }
         }
-        assert!(answer != 0 || !refused, "a march is not refused");
+        faults.explain("mslip_masing_update", answer);
+        let mut outputs = [(); 3].map(|()| Array::new(steps, UNTOUCHED));
+        let state = at_once.pointer_mut();
+        let [f, k, d] = outputs.each_mut().map(Array::pointer_mut);
+        let status_at_once = status("mslip_masing_path", traps, || unsafe {
+            mslip_masing_path(c.pointer, length, state, steps, path.pointer(), state, f, k, d)
+        });
+        if faults.is_arbitrary() {
+            return;
+        }
+        assert!(answer == status_at_once, "steps return {answer}, a path {status_at_once}");
         let taken = force.values().iter().take_while(|force| force.to_bits() != UNTOUCHED.to_bits()).count();
         let [force, stiffness, dissipated] = [&force, &stiffness, &dissipated].map(|array| &array.values()[..taken]);
         World::check_history(&c, [force, stiffness, dissipated]);
-        let mut outputs = [(); 3].map(|()| Array::new(steps, UNTOUCHED));
-        let state = led.pointer_mut();
-        let [f, k, d] = outputs.each_mut().map(Array::pointer_mut);
-        let at_once = status("mslip_masing_path", true, || unsafe {
-            mslip_masing_path(c.pointer, length, state, steps, path.pointer(), state, f, k, d)
-        });
-        assert!(answer == at_once, "a march answers {answer}, at once {at_once}");
         if answer == 0 {
             let [f, k, d] = outputs.each_ref().map(Array::values);
-            assert!(
-                same(force, f) && same(stiffness, k) && same(dissipated, d),
-                "a march gives something else at once"
-            );
-            assert!(walked.is(&led), "a march leads elsewhere at once");
-            self.states[slot].numbers = walked;
+            assert!(same(force, f) && same(stiffness, k) && same(dissipated, d), "a path differs from its steps");
+            assert!(stepped.is(&at_once), "the state after a path differs from that after its steps");
+            self.states[slot].numbers = stepped;
         } else {
-            assert!(led.is(&before), "a path that was refused has changed its state");
+            assert!(at_once.is(&before), "a path that was rejected has modified its state");
         }
     }
 
@@ -739,7 +736,7 @@ impl<'a> World<'a> {
 
     fn hysteresis_loop(&mut self) {
         let c = self.contact();
-        let amplitude = self.source.number(c.way());
+        let amplitude = self.source.number(c.scale());
         let n = self.source.length();
         let huge = self.source.huge();
         tell!("  amplitude {amplitude:e}, {n} points");
@@ -780,7 +777,7 @@ impl<'a> World<'a> {
 
     fn complex_stiffness(&mut self) {
         let c = self.contact();
-        let (amplitude, at, n, faults) = self.numbers(c.way());
+        let (amplitude, at, n, faults) = self.numbers(c.scale());
         let faults = amplitude
             .values()
             .iter()
@@ -796,7 +793,7 @@ impl<'a> World<'a> {
 
     fn jenkins_equivalent(&mut self) {
         let c = self.contact();
-        let amplitude = self.source.number(c.way());
+        let amplitude = self.source.number(c.scale());
         tell!("  amplitude {amplitude:e}");
         let faults = World::faults_of_amplitude(amplitude).and(c.faults);
         let given = self.run("mslip_jenkins_equivalent", faults, [1; 2], |[stiffness, slip_force]| unsafe {
@@ -835,12 +832,12 @@ impl<'a> World<'a> {
             byte if byte < 248 => (byte & 1).into(),
             byte => byte as i8 as i32,
         };
-        let length = mslip_harmonic_workspace_length_rule(harmonics, samples, rule);
+        let length = mslip_harmonic_workspace_length(harmonics, samples, rule);
         let short = self.source.byte();
         // Too short, or with something behind it.
         let length = if short < 224 { length } else { (length + short as usize).saturating_sub(240) };
         let mut numbers = Array::new(length.max(4), UNTOUCHED);
-        let needed = mslip_harmonic_workspace_length_rule(harmonics, samples, rule);
+        let needed = mslip_harmonic_workspace_length(harmonics, samples, rule);
         let pointer = if short == 0xff { null_mut() } else { numbers.pointer_mut() };
         let length = numbers.values().len();
         let faults = Faults::default()
@@ -849,47 +846,49 @@ impl<'a> World<'a> {
             .when(samples <= 2 * harmonics, Error::BadSamples)
             .when(pointer.is_null(), Error::NullPointer)
             .when(length < needed, Error::WorkspaceTooShort);
-        let answer = status("mslip_harmonic_workspace_init_rule", true, || unsafe {
-            mslip_harmonic_workspace_init_rule(harmonics, samples, rule, length, pointer)
+        let answer = status("mslip_harmonic_workspace_init", true, || unsafe {
+            mslip_harmonic_workspace_init(harmonics, samples, rule, length, pointer)
         });
         tell!("  {harmonics} harmonics, {samples} samples, rule {rule}, {length} numbers");
-        faults.explain("mslip_harmonic_workspace_init_rule", answer);
-        if rule == MSLIP_EQUIDISTANT {
-            let mut plain = Array::new(length, UNTOUCHED);
-            let name = "mslip_harmonic_workspace_init";
-            let to = if pointer.is_null() { pointer } else { plain.pointer_mut() };
-            let other = status(name, true, || unsafe { mslip_harmonic_workspace_init(harmonics, samples, length, to) });
-            assert!(other == answer && plain.is(&numbers), "{name} is something else");
-            assert!(mslip_harmonic_workspace_length(harmonics, samples) == needed);
+        faults.explain("mslip_harmonic_workspace_init", answer);
+        if answer == 0 {
+            let (mut h, mut n, mut r) = (0, 0, -1);
+            let size = status("mslip_harmonic_workspace_size", true, || unsafe {
+                mslip_harmonic_workspace_size(pointer, &mut h, &mut n, &mut r)
+            });
+            assert!(
+                (size, h, n, r) == (0, harmonics, samples, rule),
+                "a workspace of {h} harmonics, {n} samples, rule {r}"
+            );
         }
         let untouched = all(numbers.values(), |value| value.to_bits() == UNTOUCHED.to_bits());
-        assert!(untouched || answer == 0, "a refused workspace was written to");
+        assert!(untouched || answer == 0, "a rejected workspace was written to");
         self.workspaces[slot] =
-            Workspace { numbers, health: if answer == 0 { Good } else { Blank }, touched: false, harmonics };
+            Workspace { numbers, status: if answer == 0 { Good } else { Uninitialised }, harmonics };
     }
 
     /// A workspace: its pointer, 2H + 1, and what is wrong with it.
     fn workspace(&mut self) -> (*mut f64, usize, Faults) {
         let byte = self.source.byte() as usize;
         let workspace = &mut self.workspaces[byte % 2];
-        tell!("  workspace {}, {:?}, {} harmonics", byte % 2, workspace.health, workspace.harmonics);
+        tell!("  workspace {}, {:?}, {} harmonics", byte % 2, workspace.status, workspace.harmonics);
         if byte >= 0xfc {
             return (null_mut(), 1, Faults::default().when(true, Error::NullPointer));
         }
-        let faults = Faults::default()
-            .when(workspace.health != Good, Error::BadWorkspace)
-            .may(workspace.touched, Error::BadWorkspace);
-        (workspace.numbers.pointer_mut(), 2 * workspace.harmonics + 1, faults)
+        // A corrupted header may give another number of harmonics.
+        let header = workspace.numbers.values().first_chunk().expect("a header");
+        let harmonics = microslip::hbm::workspace_size(header).map_or(workspace.harmonics, |(harmonics, ..)| harmonics);
+        (workspace.numbers.pointer_mut(), 2 * harmonics + 1, workspace.status.faults(Error::BadWorkspace))
     }
 
     fn check_harmonic_force(c: &Chosen, [force, jacobian, dissipated]: [&[f64]; 3]) {
-        // A coefficient is at most twice the mean of what has that bound.
+        // A coefficient is at most twice a mean of forces.
         assert!(all(force, |value| within(value, 2.0 * c.slip_force)), "{force:?}");
         assert!(all(jacobian, f64::is_finite), "{jacobian:?}");
         assert!(not_negative(dissipated), "dissipated {dissipated:?}");
     }
 
-    /// Coefficients for so many items, and whether one of those that count is not allowed.
+    /// Numbers around a scale.
     fn coefficients(&mut self, count: usize, scale: f64) -> Array {
         let scale = scale * self.source.power();
         let array = Array::of((0..count).map(|_| self.source.number(scale)));
@@ -900,7 +899,7 @@ impl<'a> World<'a> {
     fn harmonic_force(&mut self) {
         let c = self.contact();
         let (workspace, one, faults) = self.workspace();
-        let displacement = self.coefficients(one, c.way());
+        let displacement = self.coefficients(one, c.scale());
         let far = !all(displacement.values(), is_near);
         let null_input = self.source.byte() == 0xff;
         let at = if null_input { null() } else { displacement.pointer() };
@@ -914,25 +913,43 @@ impl<'a> World<'a> {
         }
     }
 
-    // Many contacts.
+    // Batches.
 
-    /// How many of the contacts take part, which of them, and what is wrong with those.
-    fn items(&mut self) -> (usize, *const mslip_contact, Option<Vec<i32>>, Faults) {
-        let n = self.source.below(CONTACTS + 1);
+    /// Items: their number, the contacts and what each item uses of them, and what is wrong.
+    fn items(&mut self) -> Items {
+        let n = self.source.below(2 * CONTACTS);
         let choice = self.source.byte();
-        let flags = (choice & 1 == 0)
-            .then(|| (0..n).map(|i| (choice >> (i + 1) & 1) as i32 * choice as i8 as i32).collect::<Vec<_>>());
-        let takes_part = |i: usize| flags.as_ref().is_none_or(|flags| flags[i] != 0);
-        let mut healths = (0..n).filter(|&i| takes_part(i)).map(|i| self.contact_health[i]);
-        let faults = Faults::default().when(healths.any(|health| health != Good), Error::BadContact);
-        let null_contacts = choice == 0xff && n > 0;
-        let faults = faults.when(null_contacts, Error::NullPointer);
-        tell!("  {n} contacts, {flags:?}, {:?}", self.contact_health);
-        let pointer = if null_contacts { null() } else { self.contacts.pointer().cast() };
-        (n, pointer, flags, faults)
+        let active = (choice & 1 == 0)
+            .then(|| (0..n).map(|i| (choice >> (i % 7 + 1) & 1) as i32 * choice as i8 as i32).collect::<Vec<_>>());
+        let index = (choice & 2 == 0).then(|| {
+            let wrong = self.source.byte() >= 0xf0;
+            (0..n)
+                .map(|_| self.source.below(CONTACTS + usize::from(wrong)) as i32 - i32::from(wrong))
+                .collect::<Vec<_>>()
+        });
+        let n_contacts = if self.source.byte() < 0xf0 { CONTACTS } else { self.source.below(CONTACTS) };
+        let contact = |i: usize| index.as_ref().map_or(i, |index: &Vec<i32>| index[i] as usize);
+        let slots: Vec<Option<usize>> = (0..n)
+            .map(|i| active.as_ref().is_none_or(|active: &Vec<i32>| active[i] != 0).then(|| contact(i)))
+            .collect();
+        let null_contacts = choice == 0xff && n_contacts > 0;
+        let faults = slots.iter().flatten().fold(Faults::default(), |faults, &slot| match slot {
+            0..CONTACTS if slot < n_contacts => faults.and(self.contact_status[slot].faults(Error::BadContact)),
+            _ => faults.when(true, Error::BadIndex),
+        });
+        tell!("  {n} items, index {index:?}, active {active:?}, {n_contacts} contacts, {:?}", self.contact_status);
+        Items {
+            n,
+            n_contacts,
+            contacts: if null_contacts { null() } else { self.contacts.pointer().cast() },
+            index,
+            active,
+            slots,
+            faults: faults.when(null_contacts, Error::NullPointer),
+        }
     }
 
-    /// What is expected of an item.
+    /// The contact of a slot, with what its results are compared with.
     fn item(&self, slot: usize) -> Chosen {
         let contact = &self.contacts.values()[slot * SIZE..][..SIZE];
         Chosen {
@@ -946,29 +963,28 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Holds outputs of many contacts against those of each: as many numbers an item as `each` says.
+    /// Compares outputs of a batch with those of each item: `each` values an item.
     fn check_items<const K: usize>(
         &self,
-        flags: &Option<Vec<i32>>,
-        n: usize,
+        items: &Items,
         given: &[Output; K],
         each: [usize; K],
         mut one: impl FnMut(usize, &Chosen, [*mut f64; K]) -> i32,
     ) {
-        for i in 0..n {
+        for (i, slot) in items.slots.iter().enumerate() {
             let mut k = 0;
             let parts = given.each_ref().map(|output| {
                 k += 1;
                 output.values().get(i * each[k - 1]..(i + 1) * each[k - 1]).unwrap_or(&[])
             });
-            if flags.as_ref().is_some_and(|flags| flags[i] == 0) {
+            let Some(slot) = *slot else {
                 let untouched = parts.iter().all(|part| all(part, |value| value.to_bits() == UNTOUCHED.to_bits()));
-                assert!(untouched, "an item that takes no part was written to");
+                assert!(untouched, "an item that is skipped was written to");
                 continue;
-            }
+            };
             let mut alone = each.map(|length| Output::new(true, length));
-            let answer = one(i, &self.item(i), alone.each_mut().map(Output::pointer));
-            assert!(answer == 0, "alone item {i} is refused by {answer}");
+            let answer = one(i, &self.item(slot), alone.each_mut().map(Output::pointer));
+            assert!(answer == 0, "alone item {i} is rejected by {answer}");
             for (part, alone) in parts.iter().zip(&alone) {
                 assert!(
                     part.is_empty() || same(part, alone.values()),
@@ -979,7 +995,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// As [`run`], for outputs of which items may be left out.
+    /// As [`run`], for outputs of which items may be skipped.
     fn run_items<const K: usize>(
         &mut self,
         name: &str,
@@ -993,85 +1009,79 @@ impl<'a> World<'a> {
             k += 1;
             Output::new(choice >> (k - 1) & 1 == 0, length)
         });
-        let answer = status(name, true, || function(outputs.each_mut().map(Output::pointer)));
+        let answer = status(name, !faults.is_arbitrary(), || function(outputs.each_mut().map(Output::pointer)));
         faults.explain(name, answer);
         if answer != 0 {
-            assert!(outputs.iter().all(Output::is_untouched), "{name} is refused and has written");
+            assert!(outputs.iter().all(Output::is_untouched), "{name} is rejected and has written");
             return None;
         }
-        Some(outputs)
+        Some(outputs).filter(|_| !faults.is_arbitrary())
     }
 
-    fn interface_complex_stiffness(&mut self) {
-        let (n, contacts, flags, faults) = self.items();
+    fn batch_complex_stiffness(&mut self) {
+        let items = self.items();
+        let n = items.n;
         let amplitude = self.coefficients(n, 1e-6);
-        let active = |i: usize| flags.as_ref().is_none_or(|flags| flags[i] != 0);
-        let faults = (0..n)
-            .filter(|&i| active(i))
-            .fold(faults, |faults, i| faults.and(World::faults_of_amplitude(amplitude.values()[i])));
-        let flag = flags.as_ref().map_or(null(), |flags| flags.as_ptr());
-        let name = "mslip_interface_complex_stiffness";
+        let faults = items
+            .active()
+            .fold(items.faults, |faults, i| faults.and(World::faults_of_amplitude(amplitude.values()[i])));
+        let (contacts, index, active) = (items.contacts, pointer(&items.index), pointer(&items.active));
+        let name = "mslip_batch_complex_stiffness";
         let given = self.run_items(name, faults, [n; 4], |[a, b, da, db]| unsafe {
-            mslip_interface_complex_stiffness(n, contacts, flag, amplitude.pointer(), a, b, da, db)
+            let amplitude = amplitude.pointer();
+            mslip_batch_complex_stiffness(n, items.n_contacts, contacts, index, active, amplitude, a, b, da, db)
         });
         if let Some(given) = given {
-            self.check_items(&flags, n, &given, [1; 4], |i, c, [a, b, da, db]| {
+            self.check_items(&items, &given, [1; 4], |i, c, [a, b, da, db]| {
                 call(true, || unsafe { mslip_complex_stiffness(c.pointer, 1, &amplitude.values()[i], a, b, da, db) })
             });
         }
     }
 
-    fn interface_masing_update(&mut self) {
-        let (n, contacts, flags, faults) = self.items();
+    fn batch_masing_update(&mut self) {
+        let items = self.items();
+        let n = items.n;
         let (_, one, state_faults) = self.state();
         let length = one.values().len();
-        // The state of a slot for each: those of the other contacts among them.
         let states = Array::of((0..n * length).map(|i| one.values()[i % length]));
         let displacement = self.coefficients(n, 1e-6);
-        let active = |i: usize| flags.as_ref().is_none_or(|flags| flags[i] != 0);
-        let any = (0..n).any(active);
-        let far = (0..n).any(|i| active(i) && !is_near(displacement.values()[i]));
-        let faults = faults
-            .and(if any { state_faults } else { Faults::default() })
-            .when(n > 0 && length == 0, Error::StateTooShort)
-            .when(far, Error::BadDisplacement)
-            .may(true, Error::StateFull);
+        let far = items.active().any(|i| !is_near(displacement.values()[i]));
+        let faults = items
+            .faults
+            .and(if items.active().next().is_some() { state_faults } else { Faults::default() })
+            .when(n > 0 && length < mslip_state_length(0), Error::StateTooShort)
+            .when(far, Error::BadDisplacement);
         let in_place = self.source.below(2) == 0;
         let (mut from, mut to) = (states.copy(), Array::new(n * length, UNTOUCHED));
-        let flag = flags.as_ref().map_or(null(), |flags| flags.as_ptr());
-        let name = "mslip_interface_masing_update";
+        let (contacts, index, active) = (items.contacts, pointer(&items.index), pointer(&items.active));
+        let name = "mslip_batch_masing_update";
         let given = self.run_items(name, faults, [n; 3], |[force, stiffness, dissipated]| unsafe {
-            let states0 = from.pointer_mut();
-            let states1 = if in_place { states0 } else { to.pointer_mut() };
-            mslip_interface_masing_update(
+            let states_old = from.pointer_mut();
+            let states_new = if in_place { states_old } else { to.pointer_mut() };
+            mslip_batch_masing_update(
                 n,
+                items.n_contacts,
                 contacts,
-                flag,
+                index,
+                active,
                 length,
-                states0,
+                states_old,
                 displacement.pointer(),
-                states1,
+                states_new,
                 force,
                 stiffness,
                 dissipated,
             )
         });
-        assert!((given.is_some() && in_place) || from.is(&states), "{name} has changed states that it was to read");
+        let may_write = in_place && (given.is_some() || faults.is_arbitrary());
+        assert!(may_write || from.is(&states), "{name} has modified states that it may only read");
         if let Some(given) = given {
             let written = if in_place { &from } else { &to };
-            self.check_items(&flags, n, &given, [1; 3], |i, c, [force, stiffness, dissipated]| {
-                let mut alone = Array::new(length, UNTOUCHED);
+            self.check_items(&items, &given, [1; 3], |i, c, [force, stiffness, dissipated]| {
+                let (mut alone, displacement) = (Array::new(length, UNTOUCHED), displacement.values()[i]);
+                let (old, new) = (one.pointer(), alone.pointer_mut());
                 let answer = call(true, || unsafe {
-                    mslip_masing_update(
-                        c.pointer,
-                        length,
-                        one.pointer(),
-                        displacement.values()[i],
-                        alone.pointer_mut(),
-                        force,
-                        stiffness,
-                        dissipated,
-                    )
+                    mslip_masing_update(c.pointer, length, old, displacement, new, force, stiffness, dissipated)
                 });
                 assert!(
                     same(alone.values(), &written.values()[i * length..][..length]),
@@ -1082,44 +1092,39 @@ impl<'a> World<'a> {
         }
     }
 
-    fn interface_harmonic_force(&mut self) {
-        let (n, contacts, flags, faults) = self.items();
+    fn batch_harmonic_force(&mut self) {
+        let items = self.items();
+        let n = items.n;
         let (workspace, one, workspace_faults) = self.workspace();
         let displacement = self.coefficients(n * one, 1e-6);
-        let active = |i: usize| flags.as_ref().is_none_or(|flags| flags[i] != 0);
-        let far = (0..n).any(|i| active(i) && !all(&displacement.values()[i * one..][..one], is_near));
-        let faults = faults.and(workspace_faults).when(far, Error::BadDisplacement);
+        let far = items.active().any(|i| !all(&displacement.values()[i * one..][..one], is_near));
+        let faults = items.faults.and(workspace_faults).when(far, Error::BadDisplacement);
         let lengths = [n * one, n * one * one, n];
-        let flag = flags.as_ref().map_or(null(), |flags| flags.as_ptr());
-        let name = "mslip_interface_harmonic_force";
+        let (contacts, index, active) = (items.contacts, pointer(&items.index), pointer(&items.active));
+        let name = "mslip_batch_harmonic_force";
         let given = self.run_items(name, faults, lengths, |[force, jacobian, dissipated]| unsafe {
-            mslip_interface_harmonic_force(
-                n,
-                contacts,
-                flag,
-                workspace,
-                displacement.pointer(),
-                force,
-                jacobian,
-                dissipated,
+            let u = displacement.pointer();
+            let n_contacts = items.n_contacts;
+            mslip_batch_harmonic_force(
+                n, n_contacts, contacts, index, active, workspace, u, force, jacobian, dissipated,
             )
         });
         if let Some(given) = given {
-            self.check_items(&flags, n, &given, [one, one * one, 1], |i, c, [force, jacobian, dissipated]| {
-                let here = displacement.values()[i * one..][..one].as_ptr();
-                call(true, || unsafe { mslip_harmonic_force(c.pointer, workspace, here, force, jacobian, dissipated) })
+            self.check_items(&items, &given, [one, one * one, 1], |i, c, [force, jacobian, dissipated]| {
+                let u = displacement.values()[i * one..][..one].as_ptr();
+                call(true, || unsafe { mslip_harmonic_force(c.pointer, workspace, u, force, jacobian, dissipated) })
             });
         }
     }
 
-    /// What cannot fail.
+    /// Functions that cannot fail.
     fn others(&mut self) {
         let [one, two] = [(); 2].map(|()| self.source.number(1.0).to_bits());
         let [harmonics, samples] = [one, two].map(|bits| bits as usize >> (bits % 64));
         let byte = self.source.byte();
         assert!(call(true, || mslip_abi_version()) == MSLIP_ABI_VERSION);
         call(true, || mslip_state_length(harmonics));
-        let length = call(true, || mslip_harmonic_workspace_length_rule(harmonics, samples, (byte % 4) as i32 - 1));
+        let length = call(true, || mslip_harmonic_workspace_length(harmonics, samples, (byte % 4) as i32 - 1));
         assert!(length == 0 || (harmonics > 0 && samples / 2 >= harmonics));
         let text = call(true, || mslip_status_text(two as i32));
         assert!(unsafe { *text } != 0);

@@ -1,16 +1,14 @@
-//! An input is a contact and a history, an amplitude, forces: what must hold for every contact is held against every other
-//! way of asking for it.
+//! An input is a contact and a history, an amplitude, or forces: properties of every contact, and agreement of all functions.
 #![no_main]
 
 use libfuzzer_sys::{Corpus, fuzz_target};
-use microslip::c_api::*;
-use microslip_fuzz::contacts::{self, Bits, Given, SIZE};
+use microslip::ffi::*;
+use microslip_fuzz::contacts::{self, Bits, Given};
 use microslip_fuzz::interface::{self, status};
 use microslip_fuzz::memory::same;
 use microslip_fuzz::source::{Scatter, Source};
 use microslip_fuzz::tell;
 use std::f64::consts::PI;
-use std::ptr::{null, null_mut};
 
 fuzz_target!(init: interface::start(), |input: &[u8]| -> Corpus {
     let mut source = Source::new(input);
@@ -158,24 +156,30 @@ impl Contact<'_> {
     }
 }
 
-fn virgin(reversals: usize) -> Vec<f64> {
+fn unloaded(reversals: usize) -> Vec<f64> {
     let mut state = vec![f64::NAN; mslip_state_length(reversals)];
     let length = state.len();
     ok("mslip_state_init", || unsafe { mslip_state_init(length, state.as_mut_ptr()) });
     state
 }
 
-/// What a state uses; what lies beyond is forgotten.
+/// The part of a state that is in use.
 fn used(state: &[f64]) -> &[f64] {
-    &state[..6 + 2 * state[1] as usize]
+    &state[..microslip_fuzz::memory::used_length(state)]
 }
 
-/// The same but for the seal, which knows a zero's sign.
-fn remembered(state: &[f64]) -> &[f64] {
-    &used(state)[1..]
+/// Bound on the error of the force by merged reversals.
+fn state_error(state: &[f64]) -> f64 {
+    let mut error = f64::NAN;
+    ok("mslip_state_error", || unsafe { mslip_state_error(state.len(), state.as_ptr(), &mut error) });
+    error
 }
 
-/// A history of steps, its mirror image, its parts, and the same at once and beside other contacts.
+fn check_state(state: &[f64]) {
+    ok("mslip_state_check", || unsafe { mslip_state_check(state.len(), state.as_ptr()) });
+}
+
+/// A history of steps, its mirror image, its parts, the same in one call, and in a state of few reversals.
 fn history(contact: &Contact, source: &mut Source) {
     let parts = source.below(4) + 1;
     let inner = (source.byte() as f64 + 0.5) / 256.0;
@@ -190,10 +194,12 @@ fn history(contact: &Contact, source: &mut Source) {
     }
     tell!("{path:?}");
     let room = path.len() + 2;
-    let [mut whole, mut mirrored, mut divided, mut at_once] = [(); 4].map(|()| virgin(room));
+    let [mut whole, mut mirrored, mut divided, mut at_once] = [(); 4].map(|()| unloaded(room));
+    let mut short = unloaded(2 + path.len() % 7);
     let (limit, first) = (contact.slip_force(), contact.initial_stiffness());
     let mut steps = Vec::new();
     let (mut before, mut last) = (0.0, 0.0);
+    let farthest = path.iter().fold(0.0_f64, |farthest, displacement| farthest.max(displacement.abs()));
     for &displacement in &path {
         let (force, stiffness, energy) = contact.step(&mut whole, displacement);
         assert!(force.abs() <= limit, "{force:e} beyond {limit:e}");
@@ -203,7 +209,15 @@ fn history(contact: &Contact, source: &mut Source) {
 
         assert!(contact.step(&mut mirrored, -displacement) == (-force, stiffness, energy), "the mirror image differs");
 
-        // To stay changes nothing.
+        let (merged, ..) = contact.step(&mut short, displacement);
+        let error = state_error(&short);
+        assert!(state_error(&whole) == 0.0 && (error > 0.0 || merged == force), "{merged:e} instead of {force:e}");
+        // Displacements far from the origin round the ranges of their branches.
+        let rounding = 4e-15 * limit + 4.0 * f64::EPSILON * farthest * first;
+        assert!((merged - force).abs() <= error + rounding, "{merged:e} instead of {force:e}, reported {error:e}");
+        check_state(&short);
+
+        // A step of zero changes nothing.
         let state = whole.clone();
         assert!(
             contact.step(&mut whole, displacement) == (force, stiffness, 0.0),
@@ -220,10 +234,10 @@ fn history(contact: &Contact, source: &mut Source) {
         let end = contact.step(&mut divided, displacement);
         assert!((end.0, end.1) == (force, stiffness), "in parts {end:?}, in one {force:e}, {stiffness:e}");
         assert!(
-            remembered(&divided) == remembered(&whole),
+            used(&divided) == used(&whole),
             "in parts the state is {:?}, in one {:?}",
-            remembered(&divided),
-            remembered(&whole)
+            used(&divided),
+            used(&whole)
         );
         // A sum of differences of energies, each to the accuracy of the loops that it is part of.
         let scale = limit * (contact.slip_displacement() + (displacement - last).abs());
@@ -258,17 +272,17 @@ fn history(contact: &Contact, source: &mut Source) {
     }
     assert!(same(used(&at_once), used(&whole)), "at once the state is another");
 
-    // Back a part of the way and forth again: a closed loop is forgotten.
+    // An inner loop is closed and erased.
     if let Some(&(force, stiffness, _)) = steps.last() {
         let state = whole.clone();
         let between = last + inner * (before - last);
         contact.step(&mut whole, between);
         let (again, tangent, _) = contact.step(&mut whole, last);
         assert!((again - force).abs() <= 1e-13 * limit, "after a loop {again:e} instead of {force:e}");
-        // In gross slip the origin is carried along, by the same way back and forth.
+        // In gross slip the offset of the initial loading curve moves back and forth.
         if force.abs() < limit && between != before {
             assert!(again == force && tangent == stiffness, "after a loop {tangent:e} instead of {stiffness:e}");
-            assert!(remembered(&whole) == remembered(&state), "a closed loop is remembered");
+            assert!(used(&whole) == used(&state), "a closed loop is not erased");
         }
     }
 }
@@ -339,7 +353,7 @@ fn cycle(contact: &Contact, source: &mut Source) {
     assert!(weaker <= real * (1.0 + 1e-12), "K' {real:e} at {small:e}, {weaker:e} at {large:e}");
 
     // Once around the loop.
-    let mut state = virgin(2);
+    let mut state = unloaded(2);
     let (force, _, up) = contact.step(&mut state, small);
     let (back, _, down) = contact.step(&mut state, -small);
     let (again, _, forth) = contact.step(&mut state, small);
@@ -392,7 +406,7 @@ fn cycle(contact: &Contact, source: &mut Source) {
     }
 }
 
-/// The harmonic force of both rules: odd; and by its definition at equal distances.
+/// The harmonic force of both rules; for uniform sampling odd, and by its definition.
 fn harmonics(contact: &Contact, source: &mut Source) {
     let (limit, slip) = (contact.slip_force(), contact.slip_displacement());
     let harmonics = source.below(4) + 1;
@@ -401,9 +415,9 @@ fn harmonics(contact: &Contact, source: &mut Source) {
     let n = 2 * harmonics + 1;
     let displacement: Vec<f64> = (0..n).map(|_| contact.draw(source)).collect();
     tell!("{harmonics} harmonics, {samples} samples, rule {rule}: {displacement:?}");
-    let mut workspace = vec![0.0; mslip_harmonic_workspace_length_rule(harmonics, samples, rule)];
-    ok("mslip_harmonic_workspace_init_rule", || unsafe {
-        mslip_harmonic_workspace_init_rule(harmonics, samples, rule, workspace.len(), workspace.as_mut_ptr())
+    let mut workspace = vec![0.0; mslip_harmonic_workspace_length(harmonics, samples, rule)];
+    ok("mslip_harmonic_workspace_init", || unsafe {
+        mslip_harmonic_workspace_init(harmonics, samples, rule, workspace.len(), workspace.as_mut_ptr())
     });
     let mut of = |displacement: &[f64]| {
         let (mut force, mut jacobian, mut dissipated) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
@@ -429,7 +443,7 @@ fn harmonics(contact: &Contact, source: &mut Source) {
     let opposite: Vec<f64> = displacement.iter().map(|u| -u).collect();
     let (minus, ..) = of(&opposite);
     let largest: f64 = displacement.iter().map(|u| u.abs()).sum();
-    if rule == MSLIP_EQUIDISTANT && largest <= 1e3 * slip {
+    if rule == MSLIP_UNIFORM_SAMPLING && largest <= 1e3 * slip {
         // Rounding of the waves, by the stiffness, and of the sums.
         let rounding = 1e-14 * (limit + contact.initial_stiffness() * largest) * samples as f64;
         for (plus, minus) in force.iter().zip(&minus) {
@@ -444,9 +458,9 @@ fn harmonics(contact: &Contact, source: &mut Source) {
     }
 }
 
-/// The second of two periods from the virgin state, step by step.
+/// The second of two periods from the unloaded state, step by step.
 fn stepped(contact: &Contact, harmonics: usize, samples: usize, displacement: &[f64]) -> (Vec<f64>, f64) {
-    let mut state = virgin(2 * samples);
+    let mut state = unloaded(2 * samples);
     let (mut force, mut energy) = (vec![0.0; 2 * harmonics + 1], 0.0);
     let wave = |order: usize, sample: usize| {
         let angle = 2.0 * PI * ((order * sample) % samples) as f64 / samples as f64;
@@ -473,7 +487,7 @@ fn stepped(contact: &Contact, harmonics: usize, samples: usize, displacement: &[
     (force, energy)
 }
 
-/// Units that are powers of 2 change no digit, and a contact made like another is the one made by itself.
+/// Units that are powers of 2 change no bit.
 fn units(given: &Given, contact: &Contact, source: &mut Source) {
     let [l, f] = [(); 2].map(|()| 2f64.powi(source.byte() as i8 as i32 / 2));
     let other = given.scaled(l, f);
@@ -496,14 +510,4 @@ fn units(given: &Given, contact: &Contact, source: &mut Source) {
     let displacement = part * contact.slip_displacement();
     let ((a, b, c), (x, y, z)) = (contact.at_displacement(displacement), scaled.at_displacement(displacement * l));
     assert!((a * f, b * f / l, c * l) == (x, y, z), "{a:e} {b:e} {c:e} and {x:e} {y:e} {z:e}");
-    if let Given::Flat(p) = &other {
-        let mut like: Bits = [0.0; SIZE];
-        ok("mslip_contact_init_like", || unsafe {
-            mslip_contact_init_like(p, contact.pointer(), like.as_mut_ptr().cast())
-        });
-        assert!(same(&like, &bits), "made like another it is another");
-        let nothing =
-            status("mslip_contact_init_like", true, || unsafe { mslip_contact_init_like(p, null(), null_mut()) });
-        assert!(nothing != 0);
-    }
 }

@@ -1,9 +1,9 @@
-//! Contacts prepared once, from the cylinder to the nearly flat, short, long, open, without friction, in wild units; so that
-//! inputs need not pay for preparing each of theirs.
+//! Contacts initialised once, from the cylinder to the nearly flat, short, long, open, without friction, in extreme units, so that
+//! inputs need not initialise their own.
 
 use crate::interface::status;
 use crate::source::Source;
-use microslip::c_api::{mslip_contact, mslip_contact_init, mslip_contact_init_elliptic};
+use microslip::ffi::{mslip_contact, mslip_contact_init, mslip_contact_init_elliptic};
 use microslip::{EllipticParameters, Material, Parameters};
 use std::sync::OnceLock;
 

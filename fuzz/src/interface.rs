@@ -1,4 +1,4 @@
-//! Calls of the interface: counted, told on request, and stopped where a floating-point exception is raised.
+//! Calls of the interface: counted, logged on request, and stopped by floating-point exceptions.
 
 use microslip::Error;
 use std::ffi::CStr;
@@ -8,8 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 static CALLS: AtomicU64 = AtomicU64::new(0);
 
-/// Once, before the first input: the number of calls is told at the end, and added to the file that MICROSLIP_FUZZ_CALLS
-/// names.
+/// Once, before the first input: the number of calls is printed at the end, and appended to the file MICROSLIP_FUZZ_CALLS.
 pub fn start() {
     extern "C" fn tell() {
         let calls = CALLS.load(Relaxed);
@@ -27,24 +26,24 @@ pub fn start() {
 }
 
 fn text(status: i32) -> &'static [u8] {
-    let text = unsafe { CStr::from_ptr(microslip::c_api::mslip_status_text(status)) };
+    let text = unsafe { CStr::from_ptr(microslip::ffi::mslip_status_text(status)) };
     assert!(text.to_bytes().len() > 1, "the status {status} has no text");
     text.to_bytes()
 }
 
-/// Whether each call is to be told: MICROSLIP_FUZZ_TELL is set.
+/// Whether each call is logged: MICROSLIP_FUZZ_TELL is set.
 pub fn tells() -> bool {
     static TELLS: OnceLock<bool> = OnceLock::new();
     *TELLS.get_or_init(|| std::env::var_os("MICROSLIP_FUZZ_TELL").is_some())
 }
 
-/// What is told of a call, if anything is.
+/// Logs a call on request.
 #[macro_export]
 macro_rules! tell {
     ($($argument:tt)*) => { if $crate::interface::tells() { eprintln!($($argument)*) } };
 }
 
-/// A call. Where it `traps`, an invalid operation, a division by zero or an overflow ends the run at the instruction.
+/// A call. If it `traps`, an invalid operation, a division by zero or an overflow ends the run at the instruction.
 pub fn call<R>(traps: bool, call: impl FnOnce() -> R) -> R {
     // One thread makes all calls.
     let calls = CALLS.load(Relaxed) + 1;
@@ -62,12 +61,12 @@ pub fn call<R>(traps: bool, call: impl FnOnce() -> R) -> R {
     result
 }
 
-/// A call that answers with a status, which must be one that the header declares.
+/// A call that returns a status, which must be one that the header declares.
 pub fn status(name: &str, traps: bool, function: impl FnOnce() -> i32) -> i32 {
     let status = call(traps, function);
     tell!("{name}: {status}");
     let declared = status == 0 || Error::ALL.iter().any(|error| error.code() == status);
-    assert!(declared, "{name} answers {status}, which the header does not declare");
+    assert!(declared, "{name} returns {status}, which the header does not declare");
     status
 }
 
@@ -84,18 +83,21 @@ fn set_exceptions(word: u32) {
 #[cfg(not(target_arch = "x86_64"))]
 fn set_exceptions(_: u32) {}
 
-/// What is wrong with a call: the statuses that may answer it.
+/// What is wrong with a call: the statuses that it may return.
 #[derive(Clone, Copy, Default)]
 pub struct Faults {
     codes: [i32; 12],
     count: usize,
-    refused: bool,
+    rejected: bool,
+    arbitrary: bool,
 }
 
 impl Faults {
-    /// A reason to refuse the call.
+    pub const NONE: Faults = Faults { codes: [0; 12], count: 0, rejected: false, arbitrary: false };
+
+    /// A reason to reject the call.
     pub fn when(mut self, wrong: bool, error: Error) -> Faults {
-        self.refused |= wrong;
+        self.rejected |= wrong;
         self.may(wrong, error)
     }
 
@@ -108,23 +110,33 @@ impl Faults {
         self
     }
 
-    /// Whether there is a reason to refuse the call.
-    pub fn refuses(&self) -> bool {
-        self.refused
+    /// Arbitrary numbers behind a valid tag: any status and any results, but no memory error and no panic.
+    pub fn arbitrary(mut self, arbitrary: bool) -> Faults {
+        self.arbitrary |= arbitrary;
+        self
+    }
+
+    pub fn is_arbitrary(&self) -> bool {
+        self.arbitrary
+    }
+
+    /// Whether there is a reason to reject the call.
+    pub fn rejects(&self) -> bool {
+        self.rejected
     }
 
     /// Those of two arguments.
     pub fn and(self, other: Faults) -> Faults {
         let codes = &other.codes[..other.count];
-        let errors = Error::ALL.into_iter().filter(|error| codes.contains(&error.code()));
+        let errors = Error::ALL.iter().copied().filter(|error| codes.contains(&error.code()));
         let both = errors.fold(self, |faults, error| faults.may(true, error));
-        Faults { refused: self.refused || other.refused, ..both }
+        Faults { rejected: self.rejected || other.rejected, arbitrary: self.arbitrary || other.arbitrary, ..both }
     }
 
-    /// A call with faults is refused by one of them, a call without is not.
+    /// A call with faults is rejected by one of them, a call without is not.
     pub fn explain(&self, name: &str, status: i32) {
         let codes = &self.codes[..self.count];
-        let explained = codes.contains(&status) || (status == 0 && !self.refused);
-        assert!(explained, "{name} answers {status}; what is wrong: {codes:?}");
+        let explained = self.arbitrary || codes.contains(&status) || (status == 0 && !self.rejected);
+        assert!(explained, "{name} returns {status}; what is wrong: {codes:?}");
     }
 }

@@ -1,7 +1,7 @@
-//! What both targets share: numbers made of bytes, guarded memory, counted calls that trap floating-point exceptions, and
-//! contacts that are prepared once.
+//! Shared by both targets: numbers made of bytes, guarded memory, counted calls that trap floating-point exceptions, and contacts
+//! that are initialised once.
 //!
-//! What is unsafe in this package are the calls of the interface: pointers are NULL, or point to as much as the call says.
+//! `unsafe` in this package are the calls of the interface: each pointer is NULL or valid for the given length.
 
 pub mod contacts;
 pub mod interface;

@@ -1,6 +1,6 @@
-//! Arrays whose ends are watched: by AddressSanitizer, which sees the end of what was allocated, or by guard words.
+//! Arrays whose ends are guarded: by AddressSanitizer, which detects the end of an allocation, or by guard words.
 
-/// Memory that nobody wrote to: no mark, no number.
+/// Uninitialised memory: neither a tag nor a number.
 pub const UNTOUCHED: f64 = f64::from_bits(0x7ff8_5ee5_5ee5_5ee5);
 
 const GUARDS: usize = if cfg!(feature = "guards") { 2 } else { 0 };
@@ -51,12 +51,18 @@ impl Array {
     }
 }
 
-/// Whether two arrays are one, bit for bit; as bytes, which the C library compares at once.
+/// Whether two arrays are equal, bit for bit.
 pub fn same(one: &[f64], two: &[f64]) -> bool {
     // Doubles are bytes without gaps.
     let bytes =
         |numbers: &[f64]| unsafe { std::slice::from_raw_parts(numbers.as_ptr().cast::<u8>(), size_of_val(numbers)) };
     bytes(one) == bytes(two)
+}
+
+/// Length of the part of a state that is in use: a header of 5 doubles, whose first holds the number of reversals in its last 40
+/// bits, and 3 for each of them.
+pub fn used_length(state: &[f64]) -> usize {
+    5 + 3 * (state[0].to_bits() & 0xff_ffff_ffff) as usize
 }
 
 impl Drop for Array {
@@ -66,19 +72,19 @@ impl Drop for Array {
     }
 }
 
-/// An output; none is not wanted.
+/// An output; `None` is not requested.
 pub struct Output(pub Option<Array>);
 
 impl Output {
-    pub fn new(wanted: bool, length: usize) -> Output {
-        Output(wanted.then(|| Array::new(length, UNTOUCHED)))
+    pub fn new(requested: bool, length: usize) -> Output {
+        Output(requested.then(|| Array::new(length, UNTOUCHED)))
     }
 
     pub fn pointer(&mut self) -> *mut f64 {
         self.0.as_mut().map_or(std::ptr::null_mut(), Array::pointer_mut)
     }
 
-    /// Nothing for an output that is not wanted.
+    /// Empty for an output that is not requested.
     pub fn values(&self) -> &[f64] {
         self.0.as_ref().map_or(&[], Array::values)
     }

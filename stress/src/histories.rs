@@ -161,7 +161,7 @@ fn exact_returns(slip: f64) -> History {
             4 => -remembered,
             5 => 2.0 * end - remembered,
             6 => slip.copysign(rng.random_range(-1.0..1.0)),
-            7 => end - memory.slid * 2.0 * slip,
+            7 => end - memory.slip_direction * 2.0 * slip,
             8 => 0.0,
             9 => -0.0,
             _ => rng.random_range(-1.0..1.0) * slip,

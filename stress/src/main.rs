@@ -1,4 +1,4 @@
-//! The memory of a contact under stress: long and hostile histories, and all that must hold on every step of them.
+//! Stress tests of the memory: long and adversarial histories, with checks on every step.
 //!
 //! Every call traps invalid operations, divisions by zero and overflows.
 //!
@@ -25,7 +25,7 @@ use std::time::Instant;
 /// Nothing, or what is wrong.
 pub type Outcome = Result<(), String>;
 
-/// What must hold, else a sentence.
+/// A condition, and the message if it does not hold.
 #[macro_export]
 macro_rules! ensure {
     ($holds:expr, $($sentence:tt)+) => {
@@ -36,14 +36,14 @@ macro_rules! ensure {
     };
 }
 
-/// What a case gets.
+/// The context of a case.
 pub struct Run {
     pub rng: ChaCha8Rng,
     bar: ProgressBar,
 }
 
 impl Run {
-    /// Tells that so many steps were done.
+    /// Reports progress by the given number of steps.
     pub fn done(&self, steps: u64) {
         self.bar.inc(steps);
     }
@@ -51,7 +51,7 @@ impl Run {
 
 type Test = Box<dyn Fn(&mut Run) -> Result<String, String> + Send + Sync>;
 
-/// One test: its name, its steps, and what it does; it answers with a remark.
+/// One test: its name, its steps, and the test itself, which returns a remark.
 pub struct Case {
     pub name: String,
     pub steps: u64,

@@ -1,4 +1,4 @@
-//! A walk through a history, on every step of which everything is checked that holds for any contact and any history.
+//! A history, with checks on every step that every contact and every history must pass.
 
 use crate::library::{Answer, Contact, State};
 use crate::memory::{Memory, Point};
@@ -8,8 +8,8 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::VecDeque;
 
-/// Rounding of a force over mu N for each branch on which it rests: the curve errs by 1.5e-15 (see the tests of the library's
-/// inverse) and is doubled, and sums round by a unit.
+/// Rounding of a force over mu N for each branch: the curve has an error of 1.5e-15 (see the tests of the interpolant) and is doubled,
+/// and sums round by a unit.
 pub const BRANCH_ROUNDING: f64 = 4e-15;
 
 /// Steps that a failure shows.
@@ -19,7 +19,7 @@ pub struct Walk<'a> {
     contact: &'a Contact,
     pub memory: Memory,
     pub state: State,
-    /// Walks through the negative of the history.
+    /// The negative of the history.
     mirrored: State,
     capacity: usize,
     pub now: Answer,
@@ -27,24 +27,24 @@ pub struct Walk<'a> {
     pub deepest: usize,
 }
 
-/// Which checks a step gets beside the cheap ones.
+/// Expensive checks of a step.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Care {
+pub struct Checks {
     /// The same displacement again.
     pub repeat: bool,
-    /// The state moves into other memory through the bytes of a file.
+    /// The state is copied through the bytes of a file.
     pub restart: bool,
-    /// The force anew by Masing's rule, and the same memory from a virgin state by the shortest path.
+    /// The force by Masing's rule, and the same memory from an unloaded state by the shortest path.
     pub relive: bool,
     /// The same step in parts.
     pub divide: bool,
 }
 
-impl Care {
+impl Checks {
     /// Each of them once in a while.
-    pub fn now_and_then(rng: &mut ChaCha8Rng) -> Care {
+    pub fn now_and_then(rng: &mut ChaCha8Rng) -> Checks {
         let dice = rng.random::<u32>();
-        Care {
+        Checks {
             repeat: dice & 7 == 0,
             restart: (dice >> 3) & 63 == 0,
             relive: (dice >> 9) & 63 == 0,
@@ -52,11 +52,11 @@ impl Care {
         }
     }
 
-    pub const ALL: Care = Care { repeat: true, restart: true, relive: true, divide: true };
+    pub const ALL: Checks = Checks { repeat: true, restart: true, relive: true, divide: true };
 }
 
 impl<'a> Walk<'a> {
-    /// A walk that may nest that many reversals.
+    /// A history that may nest the given number of reversals at first.
     pub fn new(contact: &'a Contact, capacity: usize) -> Walk<'a> {
         let state = State::new(capacity);
         Walk {
@@ -71,22 +71,22 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// One step with its checks; a failure tells the way there.
-    pub fn step(&mut self, displacement: f64, care: Care, rng: &mut ChaCha8Rng) -> Outcome {
+    /// One step with its checks; a failure reports the history.
+    pub fn step(&mut self, displacement: f64, checks: Checks, rng: &mut ChaCha8Rng) -> Outcome {
         if self.recent.len() == SHOWN {
             self.recent.pop_front();
         }
         self.recent.push_back(displacement);
         let path = self.memory.shortest_path();
-        self.checked_step(displacement, care, rng).map_err(|failure| {
+        self.checked_step(displacement, checks, rng).map_err(|failure| {
             let recent = &self.recent;
             format!("{failure}\n  remembered before the step: {path:?}\n  last displacements: {recent:?}")
         })
     }
 
-    fn checked_step(&mut self, displacement: f64, care: Care, rng: &mut ChaCha8Rng) -> Outcome {
+    fn checked_step(&mut self, displacement: f64, checks: Checks, rng: &mut ChaCha8Rng) -> Outcome {
         let contact = self.contact;
-        let (before, was, depth) = (care.divide.then(|| self.state.clone()), self.now, self.memory.depth());
+        let (before, was, depth) = (checks.divide.then(|| self.state.clone()), self.now, self.memory.depth());
         let from = self.memory.now().displacement;
         let answer = self.state.step(contact, displacement)?;
         let Answer { force, stiffness, dissipated } = answer;
@@ -100,7 +100,7 @@ impl<'a> Walk<'a> {
         ensure!(stiffness >= 0.0 && stiffness <= stiffest, "stiffness {stiffness:?}");
 
         // The memory.
-        self.memory.visit(Point { displacement, force }, self.state.slides());
+        self.memory.visit(Point { displacement, force }, self.state.slips());
         self.deepest = self.deepest.max(self.memory.depth());
         ensure!(
             self.state.depth() == self.memory.depth(),
@@ -109,8 +109,8 @@ impl<'a> Walk<'a> {
             self.memory.depth()
         );
         ensure!(self.state.displacement() == displacement, "the displacement is not kept");
-        if self.state.slides() {
-            ensure!(force == self.memory.slid * limit, "gross slip with a force of {force:?}");
+        if self.state.slips() {
+            ensure!(force == self.memory.slip_direction * limit, "gross slip with a force of {force:?}");
         }
         if let Some(old) = self.memory.returned {
             ensure!(force == old.force, "back at {displacement:?} the force is {force:?}, it was {:?}", old.force);
@@ -125,7 +125,7 @@ impl<'a> Walk<'a> {
         let rise = (force - was.force) * if displacement < from { -1.0 } else { 1.0 };
         ensure!(rise >= -rounding, "the force goes against the displacement: {rise:?}");
         ensure!(rise <= stiffest * way + rounding, "the force jumps by {rise:?} on a way of {way:?}");
-        // Where all slides is dissipated what can be.
+        // At most the energy of gross slip all the way.
         let energy_rounding = branches * BRANCH_ROUNDING * contact.slip_energy() + limit * place;
         ensure!(dissipated <= limit * way + energy_rounding, "dissipated {dissipated:?} on a way of {way:?}");
 
@@ -140,14 +140,14 @@ impl<'a> Walk<'a> {
         if let Some(before) = before {
             self.divided(before, displacement, rng)?;
         }
-        if care.repeat {
+        if checks.repeat {
             self.repeated()?;
         }
-        if care.relive {
+        if checks.relive {
             self.by_masings_rule()?;
             self.relived()?;
         }
-        if care.restart {
+        if checks.restart {
             let bytes: Vec<u8> = self.state.used().iter().flat_map(|value| value.to_le_bytes()).collect();
             self.capacity = self.memory.depth() + rng.random_range(1..=2 * self.capacity);
             let mut copy = State::new(self.capacity);
@@ -156,7 +156,7 @@ impl<'a> Walk<'a> {
             }
             self.state = copy;
         }
-        // As a host does whose state is nearly full.
+        // No reversal may be merged here.
         if self.memory.depth() + 1 >= self.capacity {
             self.capacity *= 2;
             self.state = self.state.moved(self.capacity);
@@ -181,9 +181,9 @@ impl<'a> Walk<'a> {
     /// point to the next.
     fn by_masings_rule(&self) -> Outcome {
         let (contact, points) = (self.contact, &self.memory.points);
-        let (mut force, mut stiffness) = match self.memory.slid {
+        let (mut force, mut stiffness) = match self.memory.slip_direction {
             0.0 => contact.monotonic(points[0].displacement)?,
-            slid => (slid * contact.limit(), 0.0),
+            slip_direction => (slip_direction * contact.limit(), 0.0),
         };
         for ends in points.windows(2) {
             let half = 0.5 * (ends[1].displacement - ends[0].displacement);

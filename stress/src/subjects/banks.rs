@@ -1,16 +1,17 @@
-//! The memory against a bank of 4,096 spring-sliders, whose every slider remembers by itself.
+//! The memory against a bank of 4,096 spring-sliders, each with a memory of its own: a state that holds all reversals, and one that
+//! holds four and reports the error of those it merged.
 //!
-//! A bank obeys Masing's rule with its own monotonic curve. If that errs by ε, then the force after a history that left n
-//! reversals errs by (1 + 2n) ε at most: once on the virgin curve and twice on each branch. The energy of a cycle of
-//! amplitude x, `8 ∫ M - 4 x M`, errs by 12 x ε at most, and one branch dissipates half of it.
+//! A bank obeys Masing's rule with its own monotonic curve. If that has an error of ε, then the force after a history that left n
+//! reversals has one of (1 + 2n) ε at most: once on the initial loading curve and twice on each branch. The energy of a cycle of
+//! amplitude x, `8 ∫ M - 4 x M`, has an error of 12 x ε at most, and one branch dissipates half of it.
 
 use crate::bank::{Bank, polygon_error};
 use crate::contacts::Named;
 use crate::family::{CurvePoint, elliptic_curve, flat_curve};
-use crate::library::{Contact, Given, accepted, trapped};
-use crate::walk::{BRANCH_ROUNDING, Care, Walk};
+use crate::library::{Contact, Given, State, accepted, trapped};
+use crate::walk::{BRANCH_ROUNDING, Checks, Walk};
 use crate::{Case, Run, contacts, ensure, histories};
-use microslip::c_api;
+use microslip::ffi;
 
 const SLIDERS: usize = 4096;
 
@@ -61,10 +62,10 @@ fn library_s(named: Named, steps: u64) -> Case {
     Case::new(format!("bank: {}: mslip_iwan_equivalent", named.name), steps, move |run| {
         let contact = &named.contact;
         let (mut stiffness, mut slip_force, mut error) = (vec![0.0; SLIDERS], vec![0.0; SLIDERS], 0.0);
-        // SAFETY: as long as said.
+        // SAFETY: as long as given.
         accepted(trapped(|| unsafe {
             let (stiffness, slip_force) = (stiffness.as_mut_ptr(), slip_force.as_mut_ptr());
-            c_api::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
+            ffi::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
         }))?;
         let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
         let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)).collect());
@@ -72,21 +73,21 @@ fn library_s(named: Named, steps: u64) -> Case {
     })
 }
 
-/// Leads both through a history; `error` is that of the bank's monotonic force.
+/// Advances all through a history; `error` is that of the bank's monotonic force.
 fn compare(contact: &Contact, mut bank: Bank, error: f64, steps: u64, run: &mut Run) -> Result<String, String> {
     let slip = contact.slip();
     // One kind of history after the other, but for the last two: to a bank their amplitudes are rounding.
     let mut kinds = histories::all(slip);
     kinds.truncate(kinds.len() - 2);
     let each = steps.div_ceil(kinds.len() as u64);
-    let mut walk = Walk::new(contact, 64);
+    let (mut walk, mut short) = (Walk::new(contact, 64), State::new(4));
     let (mut worst_force, mut worst_energy) = (0.0_f64, 0.0_f64);
     for step in 0..steps {
         let (name, history) = &mut kinds[(step / each) as usize];
-        // Not so far that a step is rounding to the way of it.
+        // Not so far that a step is lost in the rounding of displacements.
         let displacement = history(&walk.memory, &mut run.rng).clamp(-100.0 * slip, 100.0 * slip);
         let (depth, from) = (walk.memory.depth(), walk.memory.now().displacement);
-        walk.step(displacement, Care::default(), &mut run.rng)
+        walk.step(displacement, Checks::default(), &mut run.rng)
             .map_err(|failure| format!("step {step}: {failure}\n  {contact:?}"))?;
         let (force, energy) = bank.step(displacement);
         // A spring that sticks rounds its elongation and its way, which is at most twice as long, in each step; one that slips
@@ -100,6 +101,12 @@ fn compare(contact: &Contact, mut bank: Bank, error: f64, steps: u64, run: &mut 
             off <= bound,
             "step {step}, {name}: the force {:?} of the bank {force:?}, {bound:?} allowed\n  {contact:?}",
             walk.now.force
+        );
+        let merged = short.force_after(contact, displacement)?;
+        ensure!(
+            (merged - force).abs() <= bound + short.error(),
+            "step {step}, {name}: the force with merged reversals {merged:?}, of the bank {force:?}, {:?} reported\n  {contact:?}",
+            short.error()
         );
         // A step passes the ends of as many branches as it closes, at most of all.
         let stretches = (depth + 2) as f64;

@@ -1,9 +1,10 @@
-//! States of every size: what is full refuses and loses nothing, and what fits goes on.
+//! States of every size: the force differs from that of a state that holds all reversals by no more than the reported error, and
+//! by nothing while no reversals were merged.
 
 use crate::contacts::Named;
-use crate::library::{Answer, Contact, State, path, trapped};
-use crate::{Case, Outcome, contacts, ensure};
-use microslip::c_api::{self, MSLIP_STATE_FULL};
+use crate::library::{Answer, Contact, State, path};
+use crate::walk::BRANCH_ROUNDING;
+use crate::{Case, contacts, ensure};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
@@ -15,135 +16,87 @@ pub fn cases(spirals: u64, deep: usize) -> Vec<Case> {
     cases
 }
 
-/// Turns of ever smaller swings, each nested in the one before; `ratio` is that of their sizes.
-fn spiral(contact: &Contact, turns: usize, ratio: f64) -> Vec<f64> {
-    (0..turns as i32).map(|turn| 0.95 * contact.slip() * ratio.powi(turn) * (1 - 2 * (turn % 2)) as f64).collect()
+/// Nested loops, each the given ratio of the one before, and then displacements at random, which close some of them and open
+/// others.
+fn history(contact: &Contact, turns: usize, ratio: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    let spiral = (0..turns as i32).map(|turn| 0.95 * ratio.powi(turn) * f64::from(1 - 2 * (turn % 2)));
+    let scattered = (0..turns).map(|_| rng.random_range(-1.0..1.0));
+    spiral.chain(scattered).map(|share| share * contact.slip()).collect()
 }
 
-fn full(named: Named, spirals: u64) -> Case {
-    Case::new(format!("capacity: {}: full states", named.name), spirals, move |run| {
+fn full(named: Named, histories: u64) -> Case {
+    Case::new(format!("capacity: {}: full states", named.name), histories, move |run| {
         let contact = &named.contact;
-        for _ in 0..spirals {
-            let capacity = run.rng.random_range(0..24);
+        let mut worst = 0.0_f64;
+        for _ in 0..histories {
+            let capacity = run.rng.random_range(2..24);
             let turns = capacity + run.rng.random_range(2..10);
-            // Swings of nearly the same size, and some that end at the last digits.
-            let ratio = *[0.999, 0.9, 0.5, 0.02].get(run.rng.random_range(0..4)).unwrap_or(&0.5);
-            let walk = spiral(contact, turns, ratio);
-            refused_and_moved(contact, capacity, &walk, &mut run.rng)
-                .map_err(|failure| format!("{failure}\n  capacity {capacity}, path {walk:?}\n  {contact:?}"))?;
+            // Ranges of nearly the same size, and some near the last digits.
+            let ratio = [0.999, 0.9, 0.5, 0.02][run.rng.random_range(0..4)];
+            let history = history(contact, turns, ratio, &mut run.rng);
+            worst = bounded(contact, capacity, &history)
+                .map_err(|failure| format!("{failure}\n  capacity {capacity}, path {history:?}\n  {contact:?}"))?
+                .max(worst);
             run.done(1);
         }
-        Ok(String::new())
+        Ok(format!("reported error up to {worst:.0e} of mu N"))
     })
 }
 
-fn refused_and_moved(contact: &Contact, capacity: usize, walk: &[f64], rng: &mut ChaCha8Rng) -> Outcome {
-    let (mut short, mut long) = (State::new(capacity), State::new(walk.len()));
-    // The first step leaves the virgin curve, and every other one a reversal behind.
-    let (fits, rest) = walk.split_at(capacity + 1);
-    for displacement in fits {
-        let answers = [short.step(contact, *displacement)?, long.step(contact, *displacement)?];
-        ensure!(answers[0] == answers[1], "in a short and a long state: {answers:?}");
+/// The same history in a short and a long state; the largest reported error over mu N.
+fn bounded(contact: &Contact, capacity: usize, history: &[f64]) -> Result<f64, String> {
+    let (mut short, mut long) = (State::new(capacity), State::new(history.len()));
+    let (mut error, mut worst) = (0.0, 0.0_f64);
+    let mut forces = Vec::new();
+    for displacement in history {
+        let [found, exact] = [&mut short, &mut long].map(|state| state.step(contact, *displacement));
+        let (found, exact) = (found?, exact?);
+        let before = std::mem::replace(&mut error, short.error());
+        let difference = (found.force - exact.force).abs();
+        ensure!(error > 0.0 || difference == 0.0, "nothing was merged: {found:?}, {exact:?}");
+        ensure!(before.max(error) > 0.0 || found == exact, "nothing was merged: {found:?}, {exact:?}");
+        let rounding = BRANCH_ROUNDING * contact.limit();
+        ensure!(difference <= error + rounding, "{difference:?} off, {error:?} reported, at {displacement:?}");
+        worst = worst.max(error / contact.limit());
+        forces.push(found.force);
     }
-    ensure!(short.depth() == capacity, "{} reversals in a state for {capacity}", short.depth());
-    path_is_refused(contact, &short, rest)?;
-    step_is_refused(contact, &short, rest[0])?;
-
-    // Towards where the branch goes there is room, and from there the way round is refused as well.
-    let mut forth = short.clone();
-    let last = walk[capacity];
-    forth.step(contact, last * (1.0 + 1e-6))?;
-    step_is_refused(contact, &forth, rest[0])?;
-
-    // The whole path at once is refused, too, and leaves nothing.
-    path_is_refused(contact, &State::new(capacity), walk)?;
-
-    // It goes on in a longer state, as if it had always been one; and in one just long enough, from there back.
-    let mut moved = short.moved(walk.len());
-    for displacement in rest {
-        let answers = [moved.step(contact, *displacement)?, long.step(contact, *displacement)?];
-        ensure!(answers[0] == answers[1] && moved.bits() == long.bits(), "after the move: {answers:?}");
-    }
-    let mut tight = long.moved(long.depth());
-    let outwards = rng.random_range(0..walk.len());
-    // Beyond a turn every loop nested in it closes.
-    for displacement in [walk[outwards], 1.5 * walk[0], -1.5 * walk[0]] {
-        let answers = [tight.step(contact, displacement)?, long.step(contact, displacement)?];
-        ensure!(answers[0] == answers[1] && tight.bits() == long.bits(), "unwound: {answers:?}");
-    }
-    Ok(())
-}
-
-/// A path that does not fit is refused as a whole; the state keeps every bit.
-fn path_is_refused(contact: &Contact, state: &State, walk: &[f64]) -> Outcome {
-    let bits = |state: &State| state.0.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+    ensure!(long.error() == 0.0, "an error in a state that holds all reversals");
+    // In one call.
     for kept in [true, false] {
-        let mut here = state.clone();
-        let status = path(contact, &mut here, walk, [true, true, true], kept).err();
-        ensure!(status == Some(MSLIP_STATE_FULL), "a path too deep: {status:?}");
-        ensure!(bits(&here) == bits(state), "a path that was refused has written");
+        let mut state = State::new(capacity);
+        let outputs = path(contact, &mut state, history, [true, false, false], kept)?;
+        ensure!(outputs[0].as_ref() == Some(&forces), "in one call: {outputs:?}, step by step {forces:?}");
+        ensure!(!kept || state.bits() == short.bits(), "in one call: {:?}, {:?}", state.used(), short.used());
     }
-    Ok(())
+    // Gross slip erases the memory.
+    let answers = [short.step(contact, 3.0 * contact.slip())?.force, long.step(contact, 3.0 * contact.slip())?.force];
+    ensure!(answers[0] == answers[1] && short.bits() == long.bits() && short.error() == 0.0, "after gross slip");
+    Ok(worst)
 }
 
-/// A step that does not fit writes neither state nor outputs.
-fn step_is_refused(contact: &Contact, state: &State, displacement: f64) -> Outcome {
-    const UNWRITTEN: f64 = -7.0e77;
-    let mut outputs = [UNWRITTEN; 3];
-    let mut target = State(vec![UNWRITTEN; state.0.len()]);
-    let [force, stiffness, dissipated] = &mut outputs;
-    // SAFETY: as long as said.
-    let status = trapped(|| unsafe {
-        c_api::mslip_masing_update(
-            contact.as_c(),
-            state.0.len(),
-            state.0.as_ptr(),
-            displacement,
-            target.0.as_mut_ptr(),
-            force,
-            stiffness,
-            dissipated,
-        )
-    });
-    ensure!(status == MSLIP_STATE_FULL, "a step too deep: {status}");
-    ensure!(
-        outputs == [UNWRITTEN; 3] && target.0.iter().all(|value| *value == UNWRITTEN),
-        "a refused step has written"
-    );
-    Ok(())
-}
-
-/// Hundreds of thousands of reversals within each other, and out again: no force is lost on the way.
+/// Hundreds of thousands of nested reversals, and out again: the force is exact.
 fn deeply_nested(named: Named, turns: usize) -> Case {
     Case::new(format!("capacity: {}: {turns} reversals", named.name), turns as u64, move |run| {
         let contact = &named.contact;
-        // Swings shrink by the same length each, so that all of them are far above rounding.
+        // Ranges decrease by the same length each, so that all of them are far above rounding.
         let size = |turn: usize| 0.9 * contact.slip() * (turns - turn) as f64 / turns as f64;
         let inwards: Vec<f64> = (0..turns).map(|turn| if turn % 2 == 0 { size(turn) } else { -size(turn) }).collect();
-        // With room for the turns of the way out, too: a path that does not fit is tried out in less memory.
-        let mut state = State::new(2 * turns);
-        let Ok(path_inwards) = path(contact, &mut state, &inwards, [true, false, false], true) else {
-            return Err("the spiral does not fit".to_owned());
-        };
-        let forces = path_inwards.outputs[0].clone().unwrap_or_default();
+        let mut state = State::new(turns);
+        let [forces, ..] = path(contact, &mut state, &inwards, [true, false, false], true)?;
+        let forces = forces.unwrap_or_default();
         ensure!(state.depth() == turns - 1, "{} reversals", state.depth());
         // Back out, over every reversal in turn: there the force is what it was, to the bit.
         let outwards: Vec<f64> = inwards.iter().rev().skip(1).copied().collect();
-        let Ok(path_outwards) = path(contact, &mut state, &outwards, [true, false, false], true) else {
-            return Err("the way out does not fit".to_owned());
-        };
-        let back = path_outwards.outputs[0].clone().unwrap_or_default();
-        for (place, (force, before)) in back.iter().zip(forces.iter().rev().skip(1)).enumerate() {
+        let [back, ..] = path(contact, &mut state, &outwards, [true, false, false], true)?;
+        for (place, (force, before)) in back.unwrap_or_default().iter().zip(forces.iter().rev().skip(1)).enumerate() {
             ensure!(force == before, "reversal {}: {before:?}, then {force:?}\n  {contact:?}", turns - 1 - place);
         }
         ensure!(state.depth() == 0, "{} reversals are left", state.depth());
         let answer: Answer = state.step(contact, 0.95 * contact.slip())?;
+        let unloaded = State::new(0).step(contact, 0.95 * contact.slip())?;
         ensure!(
-            answer
-                == State::new(0)
-                    .step(contact, 0.95 * contact.slip())
-                    .map(|virgin| Answer { dissipated: answer.dissipated, ..virgin })?,
-            "the virgin curve is left: {answer:?}"
+            answer == Answer { dissipated: answer.dissipated, ..unloaded },
+            "off the initial loading curve: {answer:?}"
         );
         run.done(turns as u64);
         Ok(String::new())

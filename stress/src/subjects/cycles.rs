@@ -42,7 +42,7 @@ fn cycling(named: Named, amplitude: f64, inner: Inner, cycles: u64) -> Case {
         let contact = &named.contact;
         let end = amplitude * contact.slip();
         let mut state = State::new(8);
-        // The virgin curve, and one cycle from which the steady one starts.
+        // The initial loading curve, and one cycle from which the steady one starts.
         for displacement in [end, -end] {
             state.force_after(contact, displacement)?;
         }
@@ -85,8 +85,8 @@ fn turns(inner: Inner, side: f64, run: &mut Run) -> impl Iterator<Item = f64> + 
     turns.into_iter().take(count)
 }
 
-/// Cycles that slide on each time by the same way, a billion times that of gross slip in the end: the loop is the same to the bit
-/// wherever it lies. Displacements are multiples of a power of 2, so that their differences are exact.
+/// Cycles with gross slip in one direction, up to a billion times the displacement of gross slip: the loop is the same to the bit
+/// everywhere. Displacements are multiples of a power of 2, so that their differences are exact.
 fn ratchet(named: Named, cycles: u64) -> Case {
     Case::new(format!("cycles: {}: ratchet", named.name), cycles, move |run| {
         let contact = &named.contact;

@@ -27,7 +27,11 @@ fn work(contact: &Contact, state: &State, memory: &Memory, displacement: f64) ->
     let first = memory.points[0].displacement;
     // Branches end at reversals, at the mirror point of the first, and where gross slip starts.
     let slip = contact.slip();
-    let starts = if memory.slid == 0.0 { [-first, direction * slip] } else { [first - memory.slid * 2.0 * slip; 2] };
+    let starts = if memory.slip_direction == 0.0 {
+        [-first, direction * slip]
+    } else {
+        [first - memory.slip_direction * 2.0 * slip; 2]
+    };
     let reversals = memory.points.iter().map(|point| point.displacement);
     let mut places: Vec<f64> = reversals.chain(starts).filter(ahead).chain([displacement]).collect();
     places.sort_by(|a, b| (direction * a).total_cmp(&(direction * b)));
@@ -135,6 +139,6 @@ fn hanging(named: Named, loops: u64) -> Case {
 /// One step; what it dissipates.
 fn go(contact: &Contact, state: &mut State, memory: &mut Memory, displacement: f64) -> Result<f64, String> {
     let answer = state.step(contact, displacement)?;
-    memory.visit(Point { displacement, force: answer.force }, state.slides());
+    memory.visit(Point { displacement, force: answer.force }, state.slips());
     Ok(answer.dissipated)
 }

@@ -1,17 +1,17 @@
-//! The same history through every entrance: step by step, as a path in one call or in pieces, with any outputs wanted, and
-//! many contacts at once. Every number has the same bits.
+//! The same history step by step, as a path in one call or in pieces, with any outputs, and as a batch. All results have the same
+//! bits.
 
 use crate::contacts::Named;
 use crate::library::{State, accepted, path, trapped};
 use crate::memory::{Memory, Point};
 use crate::{Case, contacts, ensure, histories};
-use microslip::c_api::{self, mslip_contact};
+use microslip::ffi::{self, mslip_contact};
 use rand::Rng;
 use rand::seq::SliceRandom;
 use std::ptr::null;
 
-/// Steps of a piece, and reversals that a state holds.
-const PIECE: usize = 200;
+/// Steps of a piece, and reversals that a state holds: not more than the copy in which a path runs whose state is discarded.
+const PIECE: usize = 100;
 
 pub fn cases(pieces: u64) -> Vec<Case> {
     let mut cases = Vec::new();
@@ -41,13 +41,13 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
             while displacements.len() < PIECE && single.depth() + 1 < PIECE {
                 let displacement = history(&memory, &mut run.rng);
                 let answer = single.step(contact, displacement)?;
-                memory.visit(Point { displacement, force: answer.force }, single.slides());
+                memory.visit(Point { displacement, force: answer.force }, single.slips());
                 displacements.push(displacement);
                 answers[0].push(answer.force);
                 answers[1].push(answer.stiffness);
                 answers[2].push(answer.dissipated);
             }
-            let wanted: [bool; 3] = run.rng.random();
+            let requested: [bool; 3] = run.rng.random();
             let kept = run.rng.random_bool(0.9);
             // One call, or two that share the path.
             let cut = if run.rng.random() { run.rng.random_range(0..=displacements.len()) } else { 0 };
@@ -55,16 +55,15 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
             let mut found = [const { Vec::new() }; 3];
             for (part, kept) in [(&displacements[..cut], true), (&displacements[cut..], kept)] {
                 let before = state.clone();
-                let outputs =
-                    path(contact, &mut state, part, wanted, kept).map_err(|status| format!("status {status}"))?;
-                for (found, output) in found.iter_mut().zip(outputs.outputs) {
+                let outputs = path(contact, &mut state, part, requested, kept)?;
+                for (found, output) in found.iter_mut().zip(outputs) {
                     found.extend(output.unwrap_or_default());
                 }
                 ensure!(kept || state == before, "a state that is not kept has changed");
             }
-            for ((wanted, found), expected) in wanted.iter().zip(&found).zip(&answers) {
+            for ((requested, found), expected) in requested.iter().zip(&found).zip(&answers) {
                 ensure!(
-                    !wanted || found == expected,
+                    !requested || found == expected,
                     "piece {piece} from {:?} along {displacements:?}: {found:?}, step by step {expected:?}\n  {contact:?}",
                     start.used()
                 );
@@ -83,16 +82,17 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
     })
 }
 
-/// All contacts at once, some of them skipped in each call.
+/// All contacts as a batch, by their index, some of them skipped in each call.
 fn many_contacts(steps: u64) -> Case {
-    Case::new("interface: all contacts at once".to_owned(), steps, move |run| {
+    Case::new("batch: all contacts at once".to_owned(), steps, move |run| {
         let mut contacts = contacts::all();
         contacts.shuffle(&mut run.rng);
         let n = contacts.len();
-        let together: Vec<mslip_contact> = contacts.iter().map(|named| named.contact.copied()).collect();
-        let virgin = State::new(PIECE);
-        let length = virgin.0.len();
-        let (mut singles, mut states) = (vec![virgin.clone(); n], virgin.0.repeat(n));
+        let together: Vec<mslip_contact> = contacts.iter().rev().map(|named| named.contact.copied()).collect();
+        let index: Vec<i32> = (0..n as i32).rev().collect();
+        let unloaded = State::new(PIECE);
+        let length = unloaded.0.len();
+        let (mut singles, mut states) = (vec![unloaded.clone(); n], unloaded.0.repeat(n));
         let mut histories: Vec<histories::History> = contacts
             .iter()
             .map(|named| {
@@ -117,8 +117,7 @@ fn many_contacts(steps: u64) -> Case {
                 if active[i] != 0 {
                     displacement[i] = histories[i](&memories[i], &mut run.rng);
                     let answer = singles[i].step(contact, displacement[i])?;
-                    memories[i]
-                        .visit(Point { displacement: displacement[i], force: answer.force }, singles[i].slides());
+                    memories[i].visit(Point { displacement: displacement[i], force: answer.force }, singles[i].slips());
                     expected[i] = [answer.force, answer.stiffness, answer.dissipated];
                 }
             }
@@ -127,12 +126,14 @@ fn many_contacts(steps: u64) -> Case {
             let [force, stiffness, dissipated] = outputs.each_mut().map(|output| output.as_mut_ptr());
             let all_active = active.iter().all(|flag| *flag != 0);
             let flags = if all_active { null() } else { active.as_ptr() };
-            let (items, state) = (together.as_ptr(), states.as_mut_ptr());
-            // SAFETY: as long as said.
+            let state = states.as_mut_ptr();
+            // SAFETY: as long as given.
             accepted(trapped(|| unsafe {
-                c_api::mslip_interface_masing_update(
+                ffi::mslip_batch_masing_update(
                     n,
-                    items,
+                    n,
+                    together.as_ptr(),
+                    index.as_ptr(),
                     flags,
                     length,
                     state,

@@ -1,6 +1,6 @@
 //! Long walks: every contact through every kind of history, everything checked on each step.
 
-use crate::walk::{Care, Walk};
+use crate::walk::{Checks, Walk};
 use crate::{Case, contacts, histories};
 
 /// Steps between two reports of progress.
@@ -22,8 +22,8 @@ pub fn cases(steps: u64) -> Vec<Case> {
                 let mut walk = Walk::new(contact, 4);
                 for number in 0..steps {
                     let displacement = history(&walk.memory, &mut run.rng);
-                    let care = if number < WATCHED { Care::ALL } else { Care::now_and_then(&mut run.rng) };
-                    walk.step(displacement, care, &mut run.rng)
+                    let checks = if number < WATCHED { Checks::ALL } else { Checks::now_and_then(&mut run.rng) };
+                    walk.step(displacement, checks, &mut run.rng)
                         .map_err(|failure| format!("step {number}: {failure}\n  {contact:?}"))?;
                     if number % BATCH == BATCH - 1 {
                         run.done(BATCH);
