@@ -203,11 +203,7 @@ fn random_histories() {
                     1 => low + share * (displacement - low).max(0.0),
                     _ => (displacement + 0.5 * scattered.next()).clamp(-1.0, 1.0),
                 };
-                if step % 2 == 0 {
-                    high = target
-                } else {
-                    low = target
-                }
+                (low, high) = if step % 2 == 0 { (low, target) } else { (target, high) };
                 if scattered.below(30) == 0 {
                     (low, high) = (-1.0, 1.0);
                 }

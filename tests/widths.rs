@@ -125,11 +125,10 @@ fn the_harmonic_force_has_the_same_bits() {
                 let run = |through_c: bool| {
                     let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
                     let (workspace, length) = (memory.as_mut_ptr(), memory.len());
-                    // SAFETY: arrays of the given lengths.
-                    assert_eq!(
-                        unsafe { mslip_harmonic_workspace_init(harmonics, samples, number, length, workspace) },
-                        0
-                    );
+                    // SAFETY: an array of the given length.
+                    let status =
+                        unsafe { mslip_harmonic_workspace_init(harmonics, samples, number, length, workspace) };
+                    assert_eq!(status, 0);
                     let (mut force, mut jacobian, mut energy) = (vec![0.0; n], vec![0.0; n * n], 0.0);
                     if through_c {
                         let (f, j) = (force.as_mut_ptr(), jacobian.as_mut_ptr());

@@ -269,16 +269,16 @@ impl Given {
         }))
     }
 
-    /// The library's sentence, after the flag or the file it is about.
+    /// The library's message, after the flag or the file of the parameter that it names.
     fn blame(&self, error: Error, file: Option<&Path>) -> Refusal {
-        let sentence = error.to_string();
-        let name = sentence.split(' ').next().unwrap_or_default();
+        let message = error.to_string();
+        let is_named = |name: &str| message.split(' ').any(|word| word == name);
         let mut flags: Vec<_> = self.numbers().map(|(name, value)| (name, Vec::from_iter(value))).into();
         flags.extend([("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())]);
-        match (flags.iter().find(|(known, values)| *known == name && !values.is_empty()), file) {
+        match (flags.iter().find(|(name, values)| is_named(name) && !values.is_empty()), file) {
             (Some((name, values)), _) => Refusal::of_flag(&flag(name), list(values), error),
             (None, Some(path)) => Refusal::in_file(path, error),
-            (None, None) => Refusal::Input(sentence),
+            (None, None) => Refusal::Input(message),
         }
     }
 }
