@@ -281,7 +281,8 @@ int32_t mslip_slip(const struct mslip_contact *contact,
                    double *damage);
 
 // Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick half-width [m] at
-// force[n] [N]. The compliance at mu N is infinite for a cylinder and an elliptical contact.
+// force[n] [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and the stick half-width is that of
+// the flat, a.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
@@ -294,7 +295,8 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      double *stick_half_width);
 
 // Inverse of the monotonic curve, odd in the displacement: force [N], stiffness [N/m] and stick half-width [m] at
-// displacement[n] [m]. Beyond slip_displacement the force stays at mu N, and stiffness and stick half-width are 0.
+// displacement[n] [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N, and stiffness
+// and stick half-width are 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
 //

@@ -69,7 +69,7 @@ fn unloaded(reversals: usize) -> Vec<f64> {
 /// Advances a state; force and stiffness.
 fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> [f64; 2] {
     let step = masing::step(contact, state, displacement);
-    step.write(contact, state);
+    step.write(state);
     [step.force(), step.stiffness()]
 }
 

@@ -272,7 +272,7 @@ fn histories() {
         let (_, contact) = &contacts[row["contact"] as usize];
         let (step, dissipated) = masing::step_with_energy(contact, &state, row["displacement"]);
         assert!(dissipated >= 0.0);
-        step.write(contact, &mut state);
+        step.write(&mut state);
         let place = format!("history {history} contact {}", row["contact"]);
         force.check(&place, step.force(), row["T"], contact.slip_force);
     }

@@ -168,7 +168,7 @@ impl ContactForce for Stepped<'_> {
             for row in &rows {
                 let place: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
                 let step = masing::step(self.contact, &state, place);
-                step.write(self.contact, &mut state);
+                step.write(&mut state);
                 if period == 2 {
                     sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
                 }

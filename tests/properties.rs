@@ -75,7 +75,7 @@ impl<'a> Stepper<'a> {
     fn step(&mut self, displacement: f64) -> (f64, f64, f64) {
         let displacement = displacement * self.contact.slip_displacement;
         let (step, dissipated) = masing::step_with_energy(self.contact, &self.state, displacement);
-        step.write(self.contact, &mut self.state);
+        step.write(&mut self.state);
         (step.force(), step.stiffness(), dissipated)
     }
 }

@@ -373,7 +373,7 @@ pub fn history(arguments: &History, described: Described) -> Outcome<Answer> {
         let (step, dissipated) = step_with_energy(contact, &state, displacement);
         points.push((displacement, step.force()));
         rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
-        step.write(contact, &mut state);
+        step.write(&mut state);
     }
     let mut options = format!(" --displacements {}", quoted(&arguments.displacements.to_string_lossy()));
     if let Some(column) = &arguments.column {

@@ -181,7 +181,7 @@ impl Case {
         for displacement in displacements {
             let displacement = displacement * self.displacement_unit();
             let step = masing::step(&self.contact, &state, displacement);
-            step.write(&self.contact, &mut state);
+            step.write(&mut state);
         }
         state
     }

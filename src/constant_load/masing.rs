@@ -5,7 +5,7 @@
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::CurveEvaluator;
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, Transition, push};
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::law::{Evaluator, Point, Response};
@@ -55,6 +55,8 @@ pub struct Step {
     depth: usize,
     /// Whether the newest of them is the point at which it starts.
     reversed: bool,
+    /// Makes room for that point in a full state.
+    merge: Option<Merge>,
     initial: InitialCurve,
     start: Point,
     end: Point,
@@ -77,7 +79,7 @@ pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     let memory = state::memory(state);
     let transition = memory.locate(contact, displacement, |_| {});
-    Step::new(contact, &memory, &transition, displacement)
+    Step::new(contact, &memory, &transition, displacement, state.len())
 }
 
 /// The same, and the energy \[J\] dissipated by the step, not negative.
@@ -88,22 +90,43 @@ pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> 
     let mut energy = Dissipation::new(contact);
     let transition = memory.locate(contact, displacement, |segment| energy.add(segment));
     let dissipated = if displacement == memory.now.displacement { 0.0 } else { energy.total() };
-    (Step::new(contact, &memory, &transition, displacement), dissipated)
+    (Step::new(contact, &memory, &transition, displacement, state.len()), dissipated)
 }
 
 impl Step {
     #[inline(always)]
-    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64) -> Step {
+    fn new(
+        contact: &Contact,
+        memory: &Memory,
+        transition: &Transition,
+        displacement: f64,
+        state_length: usize,
+    ) -> Step {
         let Transition { branch, reversed } = *transition;
         let Response { force, stiffness } = branch.response(contact, displacement);
-        Step {
+        let initial = memory.initial.after(contact, &branch, displacement);
+        let step = Step {
             depth: branch.depth,
             reversed,
-            initial: memory.initial.after(contact, &branch, displacement),
+            merge: None,
+            initial,
             start: memory.now,
             end: Point { displacement, force },
             stiffness,
-        }
+        };
+        if reversed && branch.depth > state::capacity(state_length) { step.merged(contact, memory) } else { step }
+    }
+
+    /// The step in a full state, in which the point at which it starts is to be stored.
+    #[cold]
+    #[inline(never)]
+    fn merged(mut self, contact: &Contact, memory: &Memory) -> Step {
+        let merge = Merge::new(contact, self.initial.offset, memory.reversals, self.start.displacement);
+        let limit = contact.slip_force;
+        self.merge = Some(merge);
+        self.start.force = (self.start.force + merge.shift).clamp(-limit, limit);
+        self.end.force = (self.end.force + merge.shift).clamp(-limit, limit);
+        self
     }
 
     /// Tangential force \[N\] after the step.
@@ -122,11 +145,16 @@ impl Step {
 
     /// Writes the step into the state from which it was found, or into a copy of that.
     #[inline(always)]
-    pub fn write(&self, contact: &Contact, state: &mut [f64]) {
+    pub fn write(&self, state: &mut [f64]) {
         let mut depth = self.depth;
         if self.reversed {
             let reversals = state::reversals_mut(state);
-            depth = push(contact, self.initial.offset, reversals, depth - 1, self.start);
+            if let Some(merge) = self.merge {
+                depth = merge.apply(self.initial.offset, reversals) + 1;
+            }
+            if let Some(place) = reversals.get_mut(depth - 1) {
+                *place = [self.start.displacement, self.start.force, 0.0];
+            }
         }
         state::write_header(state, depth, self.initial, self.end);
     }
@@ -169,7 +197,7 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         } else {
             step(contact, state, displacement)
         };
-        step.write(contact, state);
+        step.write(state);
         set(&mut force, i, step.force());
         set(&mut stiffness, i, step.stiffness());
     }
@@ -228,7 +256,7 @@ mod tests {
         let mut force = f64::NAN;
         for displacement in path {
             let step = step(contact, state, displacement * contact.slip_displacement);
-            step.write(contact, state);
+            step.write(state);
             force = step.force();
         }
         force
@@ -321,12 +349,12 @@ mod tests {
             // Up to gross slip and beyond, from the initial state.
             let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
             let first = step(&contact, &state, target);
-            first.write(&contact, &mut state);
+            first.write(&mut state);
             let (again, energy) = step_with_energy(&contact, &state, target);
             assert_eq!(energy, 0.0);
             assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
             let before = state.clone();
-            again.write(&contact, &mut state);
+            again.write(&mut state);
             assert_eq!(state, before);
         }
     }
@@ -371,7 +399,7 @@ mod tests {
                 for target in [-0.3 * amplitude, -amplitude, amplitude] {
                     let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
                     sum += energy;
-                    step.write(&contact, &mut state);
+                    step.write(&mut state);
                 }
                 let expected = contact.dissipated_energy(force).unwrap();
                 // The largest contribution is the rounding error of the force near gross slip, relative to the distance of 1e-4.
@@ -383,7 +411,7 @@ mod tests {
                 for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
                     let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
                     inner += energy;
-                    step.write(&contact, &mut state);
+                    step.write(&mut state);
                 }
                 let expected = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
                 assert!((inner / expected - 1.0).abs() < 1e-13, "{amplitude} {inner} {expected}");
@@ -432,7 +460,7 @@ mod tests {
             let mut state = unloaded(3);
             let forces = [(); 3].map(|()| {
                 let step = step(&contact, &state, displacement);
-                step.write(&contact, &mut state);
+                step.write(&mut state);
                 step.force()
             });
             assert_eq!(forces, [contact.slip_force.copysign(displacement); 3]);

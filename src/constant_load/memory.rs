@@ -234,19 +234,29 @@ impl Branch {
     }
 }
 
-/// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least; the depth after it. A full stack is merged
-/// first.
+/// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least. A full stack is merged first. Returns the depth
+/// after it, and by how much the merge has shifted the force.
 #[inline(always)]
-pub(crate) fn push(contact: &Contact, offset: f64, reversals: &mut [Reversal], depth: usize, newest: Point) -> usize {
-    let newest = [newest.displacement, newest.force, 0.0];
-    let depth = if depth < reversals.len() { depth } else { merge(contact, offset, reversals, newest) };
-    if let Some(place) = reversals.get_mut(depth) {
-        *place = newest;
+pub(crate) fn push(
+    contact: &Contact,
+    offset: f64,
+    reversals: &mut [Reversal],
+    depth: usize,
+    newest: Point,
+) -> (usize, f64) {
+    let (mut depth, mut shift) = (depth, 0.0);
+    if depth >= reversals.len() {
+        let merge = Merge::new(contact, offset, reversals, newest.displacement);
+        depth = merge.apply(offset, reversals);
+        shift = merge.shift;
     }
-    depth + 1
+    if let Some(place) = reversals.get_mut(depth) {
+        *place = [newest.displacement, newest.force + shift, 0.0];
+    }
+    (depth + 1, shift)
 }
 
-/// Merges away the pair of neighbouring reversals of a full stack whose removal changes later forces least; the depth after it.
+/// The removal of a pair of neighbouring reversals from a full stack, to make room for one more.
 ///
 /// Let the pair (2, 3) be removed between its neighbours 1 and 4, with the ranges A, B, C from 1 to 2, 2 to 3 and 3 to 4, and let
 /// `F(x) = 2 T(x/2)` be the branch curve. In the equivalent bank of spring-sliders the two memories differ by slider forces of one
@@ -256,48 +266,78 @@ pub(crate) fn push(contact: &Contact, offset: f64, reversals: &mut [Reversal], d
 /// [F(B) - F(C)] - [F(A) - F(A - B + C)]  >= 0,
 /// ```
 ///
-/// and under any later motion each of them can only shrink, until the loop of reversal 1 is closed. So this sum, with the errors
-/// of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on. The branch that leaves 2 is gone
-/// with its error. The mirror point of the oldest reversal serves as the one before it: both describe the same memory.
-#[cold]
-#[inline(never)]
-fn merge(contact: &Contact, offset: f64, reversals: &mut [Reversal], newest: Reversal) -> usize {
-    let range = |[from, ..]: Reversal, [to, ..]: Reversal| (to - from).abs();
-    let mirror = |[displacement, force, _]: Reversal| [2.0 * offset - displacement, -force, 0.0];
-    // A few roundings of forces of up to mu N.
-    let rounding = 16.0 * f64::EPSILON * contact.slip_force;
-    let count = reversals.len();
-    let at = |i: usize| reversals.get(i).copied().unwrap_or(newest);
-    let (mut pair, mut least) = (0, f64::INFINITY);
-    let mut before = mirror(at(0));
-    for i in 0..count.saturating_sub(1) {
-        let (a, b, c) = (range(before, at(i)), range(at(i), at(i + 1)), range(at(i + 1), at(i + 2)));
-        let [inner, outer] =
-            [(b, c), (a, (a - (b - c)).max(0.0))].map(|(long, short)| branch_force_between(contact, short, long));
-        let change = inner - outer;
-        let error = before[2] + at(i + 1)[2] + if change > 0.0 { change } else { 0.0 } + rounding;
-        if error < least {
-            (pair, least) = (i, error);
-        }
-        before = at(i);
-    }
-    if pair == 0 {
-        if let Some(oldest) = reversals.first_mut() {
-            let [displacement, force, _] = mirror(*oldest);
-            *oldest = [displacement, force, least];
-        }
-        return remove(reversals, 1, 1);
-    }
-    if let Some([.., error]) = reversals.get_mut(pair - 1) {
-        *error = least;
-    }
-    remove(reversals, pair, 2)
+/// by which all forces from 4 on are shifted. Under any later motion each of them can only shrink, until the loop of reversal 1 is
+/// closed. So this sum, with the errors of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on.
+/// The branch that leaves 2 is gone with its error. The mirror point of the oldest reversal serves as the one before it: both describe
+/// the same memory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Merge {
+    /// Index of the first reversal of the pair.
+    pair: usize,
+    /// Error of the branch that leaves the reversal before the pair.
+    error: f64,
+    /// Change of all later forces.
+    pub shift: f64,
 }
 
-/// `F(long) - F(short)` of the branch curve.
-fn branch_force_between(contact: &Contact, short: f64, long: f64) -> f64 {
-    let [short, long] = [short, long].map(|range| contact.response_at(0.5 * range).force);
-    2.0 * (long - short)
+/// The mirror point of the oldest reversal on the initial loading curve. It is rounded outwards: its own mirror point encloses all
+/// other reversals.
+fn mirror(offset: f64, [displacement, force, _]: Reversal) -> Reversal {
+    let mirrored = 2.0 * offset - displacement;
+    let exact = 2.0 * offset - mirrored == displacement;
+    let rounding = if exact { 0.0 } else { 4.0 * f64::EPSILON * (offset.abs() + displacement.abs()) };
+    [mirrored + if mirrored < displacement { -rounding } else { rounding }, -force, 0.0]
+}
+
+impl Merge {
+    /// The pair after whose removal the bound on the error is smallest, if a reversal at `newest` is to be stored next.
+    #[cold]
+    #[inline(never)]
+    pub fn new(contact: &Contact, offset: f64, reversals: &[Reversal], newest: f64) -> Merge {
+        let range = |[from, ..]: Reversal, [to, ..]: Reversal| (to - from).abs();
+        // A few roundings of forces of up to mu N, and of the mirror point.
+        let mirrored = contact.initial_stiffness * (offset.abs() + reversals.first().map_or(0.0, |[d, ..]| d.abs()));
+        let rounding = 16.0 * f64::EPSILON * (contact.slip_force + mirrored);
+        let at = |i: usize| reversals.get(i).copied().unwrap_or([newest, 0.0, 0.0]);
+        let sums = error_sums(reversals);
+        let (mut best, mut least) = (Merge { pair: 0, error: 0.0, shift: 0.0 }, [f64::INFINITY; 2]);
+        let mut before = mirror(offset, at(0));
+        for pair in 0..reversals.len().saturating_sub(1) {
+            let [one, two, next] = [pair, pair + 1, pair + 2].map(at);
+            let (a, b, c) = (range(before, one), range(one, two), range(two, next));
+            let [inner, outer] =
+                [(b, c), (a, (a - (b - c)).max(0.0))].map(|(long, short)| branch_force_between(contact, short, long));
+            let change = if inner > outer { inner - outer } else { 0.0 };
+            // The branch that leaves `one` has the other direction, and its error ends.
+            let (same, other) = (sums[(pair + 1) % 2] + change + rounding, sums[pair % 2] - one[2]);
+            let bound = [if same > other { same } else { other }, same + other];
+            if bound < least {
+                let shift = if one[0] < before[0] { -change } else { change };
+                (best, least) = (Merge { pair, error: before[2] + two[2] + change + rounding, shift }, bound);
+            }
+            before = one;
+        }
+        best
+    }
+
+    /// Removes the pair from the stack; the depth after it.
+    pub fn apply(&self, offset: f64, reversals: &mut [Reversal]) -> usize {
+        let Merge { pair, error, shift } = *self;
+        for [_, force, _] in reversals.iter_mut().skip(pair + 2) {
+            *force += shift;
+        }
+        if pair > 0 {
+            if let Some([.., previous]) = reversals.get_mut(pair - 1) {
+                *previous = error;
+            }
+            return remove(reversals, pair, 2);
+        }
+        if let Some(oldest) = reversals.first_mut() {
+            let [displacement, force, _] = mirror(offset, *oldest);
+            *oldest = [displacement, force, error];
+        }
+        remove(reversals, 1, 1)
+    }
 }
 
 /// Removes reversals from a full stack, from one on; the depth after it.
@@ -312,13 +352,24 @@ fn remove(reversals: &mut [Reversal], from: usize, count: usize) -> usize {
     to
 }
 
+/// `F(long) - F(short)` of the branch curve.
+fn branch_force_between(contact: &Contact, short: f64, long: f64) -> f64 {
+    let [short, long] = [short, long].map(|range| contact.response_at(0.5 * range).force);
+    2.0 * (long - short)
+}
+
 /// Bound on the error \[N\] of the force that merged reversals cause: errors of branches of one direction add up, and those of
 /// the two directions have opposite signs.
 pub(crate) fn force_error(reversals: &[Reversal]) -> f64 {
+    let [one, other] = error_sums(reversals);
+    if one > other { one } else { other }
+}
+
+/// Sums of the errors of the branches of either direction.
+fn error_sums(reversals: &[Reversal]) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for (number, [.., error]) in reversals.iter().enumerate() {
         sums[number % 2] += error;
     }
-    let [one, other] = sums;
-    if one > other { one } else { other }
+    sums
 }

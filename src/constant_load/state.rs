@@ -42,6 +42,12 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Number of reversals that a state holds.
+#[inline(always)]
+pub(crate) fn capacity(state_length: usize) -> usize {
+    state_length.saturating_sub(HEADER) / PER_REVERSAL
+}
+
 /// Checks what every call checks of a state: its length, its tag, and the number of reversals.
 ///
 /// # Errors
@@ -88,14 +94,17 @@ pub(crate) fn read(state: &[f64]) -> Result<Memory<'_>, Error> {
 pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) {
     let memory = memory(from);
     let reversals = reversals_mut(to);
-    let mut depth = 0;
+    let (mut depth, mut shift) = (0, 0.0);
     for &[displacement, force, error] in memory.reversals {
-        depth = push(contact, memory.initial.offset, reversals, depth, Point { displacement, force });
+        let reversal = Point { displacement, force: force + shift };
+        let (pushed, change) = push(contact, memory.initial.offset, reversals, depth, reversal);
+        (depth, shift) = (pushed, shift + change);
         if let Some([.., copied]) = reversals.get_mut(depth - 1) {
             *copied = error;
         }
     }
-    write_header(to, depth, memory.initial, memory.now);
+    let now = Point { force: memory.now.force + shift, ..memory.now };
+    write_header(to, depth, memory.initial, now);
 }
 
 /// The reversals of a state, used or not.

@@ -91,7 +91,7 @@ impl<'c> Law for SteadyState<'c, '_> {
     fn reverse(&mut self, at: Point, direction: f64) -> bool {
         let has_room = self.depth < self.reversals.len();
         if has_room {
-            self.depth = push(self.contact, self.initial.offset, self.reversals, self.depth, at);
+            (self.depth, _) = push(self.contact, self.initial.offset, self.reversals, self.depth, at);
             self.branch = self.memory(at).branch(self.contact, self.depth, direction);
         }
         has_room

@@ -135,7 +135,7 @@ pub(super) unsafe fn update(
     unsafe {
         if dissipated.is_null() {
             let step = masing::step(contact, slice::from_raw_parts(state_old, state_length), displacement);
-            write_step(contact, &step, state_length, state_old, state_new, outputs);
+            write_step(&step, state_length, state_old, state_new, outputs);
         } else {
             update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
         }
@@ -157,7 +157,7 @@ unsafe fn update_with_energy(
     unsafe {
         let state = slice::from_raw_parts(state_old, state_length);
         let (step, energy) = masing::step_with_energy(contact, state, displacement);
-        write_step(contact, &step, state_length, state_old, state_new, outputs);
+        write_step(&step, state_length, state_old, state_new, outputs);
         let [_, _, dissipated] = outputs;
         write(dissipated, energy);
     }
@@ -169,7 +169,6 @@ unsafe fn update_with_energy(
 /// As for [`update`].
 #[inline(always)]
 unsafe fn write_step(
-    contact: &Contact,
     step: &Step,
     state_length: usize,
     state_old: *const f64,
@@ -182,7 +181,7 @@ unsafe fn write_step(
             if !ptr::eq(state_old, state_new) {
                 ptr::copy(state_old, state_new, state_length);
             }
-            step.write(contact, slice::from_raw_parts_mut(state_new, state_length));
+            step.write(slice::from_raw_parts_mut(state_new, state_length));
         }
         write(force, step.force());
         write(stiffness, step.stiffness());
