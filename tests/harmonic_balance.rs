@@ -386,7 +386,7 @@ impl TimeIntegration {
                     }
                     u -= error / (1.0 + compliance * found.stiffness());
                 };
-                found.write(&case.contact, &mut state);
+                found.write(&mut state);
                 force = found.force();
                 a = a_free - inverse.column(case.touching) * force;
                 x = x_free + &a * (0.25 * h * h);
