@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The monotonic curve, hysteresis and energies follow from N and S alone (Jäger 1998; Ciavarella 1998), without the geometry.
-//! Under a constant load only the sizes below the present one are involved: its [`stick_zone`]s.
+//! Under a constant load only the sizes below the present one are involved: its stick zones.
 
 pub(crate) mod hertz_ellipse;
 pub(crate) mod rounded_flat;

@@ -125,7 +125,7 @@ pub(crate) fn write_header(state: &mut [f64], depth: usize, initial: InitialCurv
 /// Validates a state in full: all values are finite, and the reversals are nested. For states from outside the process.
 ///
 /// # Errors
-/// Those of [`read`]; `BadState` for what no history leads to.
+/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     let Memory { initial: InitialCurve { offset, slip_direction }, now, reversals } = read(state)?;
     let header = [now.displacement, now.force, offset, slip_direction];
@@ -155,7 +155,7 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
 /// erased the memory.
 ///
 /// # Errors
-/// Those of [`read`].
+/// `StateTooShort`, `BadState`.
 pub fn state_error(state: &[f64]) -> Result<f64, Error> {
     Ok(force_error(read(state)?.reversals))
 }
