@@ -123,9 +123,13 @@ impl Step {
     fn merged(mut self, contact: &Contact, memory: &Memory) -> Step {
         let merge = Merge::new(contact, self.initial.offset, memory.reversals, self.start.displacement);
         let limit = contact.slip_force;
+        let shifted = |force: f64| {
+            let force = force + merge.shift;
+            let force = if force > limit { limit } else { force };
+            if force < -limit { -limit } else { force }
+        };
+        (self.start.force, self.end.force) = (shifted(self.start.force), shifted(self.end.force));
         self.merge = Some(merge);
-        self.start.force = (self.start.force + merge.shift).clamp(-limit, limit);
-        self.end.force = (self.end.force + merge.shift).clamp(-limit, limit);
         self
     }
 
