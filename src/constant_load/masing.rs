@@ -77,12 +77,23 @@ pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
 #[must_use]
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
-    let memory = state::memory(state);
-    let transition = memory.locate(contact, displacement, |_| {});
-    Step::new(contact, &memory, &transition, displacement, state.len())
+    if state::is_full(state) {
+        step_with_energy(contact, state, displacement).0
+    } else {
+        step_with_room(contact, state, displacement)
+    }
 }
 
-/// The same, and the energy \[J\] dissipated by the step, not negative.
+/// The same for a state that is not full. Kept apart from full states: a step that may have to be changed would live in memory.
+#[must_use]
+#[inline(always)]
+pub fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+    let memory = state::memory(state);
+    let transition = memory.locate(contact, displacement, |_| {});
+    Step::new(contact, &memory, &transition, displacement)
+}
+
+/// The step, and the energy \[J\] that it dissipates, not negative.
 #[must_use]
 #[inline(never)]
 pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
@@ -90,31 +101,25 @@ pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> 
     let mut energy = Dissipation::new(contact);
     let transition = memory.locate(contact, displacement, |segment| energy.add(segment));
     let dissipated = if displacement == memory.now.displacement { 0.0 } else { energy.total() };
-    (Step::new(contact, &memory, &transition, displacement, state.len()), dissipated)
+    let step = Step::new(contact, &memory, &transition, displacement);
+    let stores_in_full = transition.reversed && state::is_full(state);
+    (if stores_in_full { step.merged(contact, &memory) } else { step }, dissipated)
 }
 
 impl Step {
     #[inline(always)]
-    fn new(
-        contact: &Contact,
-        memory: &Memory,
-        transition: &Transition,
-        displacement: f64,
-        state_length: usize,
-    ) -> Step {
+    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64) -> Step {
         let Transition { branch, reversed } = *transition;
         let Response { force, stiffness } = branch.response(contact, displacement);
-        let initial = memory.initial.after(contact, &branch, displacement);
-        let step = Step {
+        Step {
             depth: branch.depth,
             reversed,
             merge: None,
-            initial,
+            initial: memory.initial.after(contact, &branch, displacement),
             start: memory.now,
             end: Point { displacement, force },
             stiffness,
-        };
-        if reversed && branch.depth > state::capacity(state_length) { step.merged(contact, memory) } else { step }
+        }
     }
 
     /// The step in a full state, in which the point at which it starts is to be stored.
@@ -194,16 +199,19 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         }
     };
     for (i, &displacement) in path.iter().enumerate() {
-        let step = if dissipated.is_some() {
-            let (step, energy) = step_with_energy(contact, state, displacement);
-            set(&mut dissipated, i, energy);
-            step
+        let (values, energy) = if dissipated.is_none() && !state::is_full(state) {
+            let step = step_with_room(contact, state, displacement);
+            step.write(state);
+            ([step.force(), step.stiffness()], 0.0)
         } else {
-            step(contact, state, displacement)
+            let (step, energy) = step_with_energy(contact, state, displacement);
+            step.write(state);
+            ([step.force(), step.stiffness()], energy)
         };
-        step.write(state);
-        set(&mut force, i, step.force());
-        set(&mut stiffness, i, step.stiffness());
+        let [step_force, step_stiffness] = values;
+        set(&mut force, i, step_force);
+        set(&mut stiffness, i, step_stiffness);
+        set(&mut dissipated, i, energy);
     }
 }
 

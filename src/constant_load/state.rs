@@ -42,10 +42,11 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Number of reversals that a state holds.
+/// Whether a state whose header was checked holds as many reversals as fit.
 #[inline(always)]
-pub(crate) fn capacity(state_length: usize) -> usize {
-    state_length.saturating_sub(HEADER) / PER_REVERSAL
+pub(crate) fn is_full(state: &[f64]) -> bool {
+    let depth = Kind::State.count(state.first().copied().unwrap_or(0.0)).unwrap_or(0);
+    HEADER + PER_REVERSAL * (depth + 1) > state.len()
 }
 
 /// Checks what every call checks of a state: its length, its tag, and the number of reversals.

@@ -133,8 +133,9 @@ pub(super) unsafe fn update(
     let [_, _, dissipated] = outputs;
     // SAFETY: by the function's contract.
     unsafe {
-        if dissipated.is_null() {
-            let step = masing::step(contact, slice::from_raw_parts(state_old, state_length), displacement);
+        let state = slice::from_raw_parts(state_old, state_length);
+        if dissipated.is_null() && !state::is_full(state) {
+            let step = masing::step_with_room(contact, state, displacement);
             write_step(&step, state_length, state_old, state_new, outputs);
         } else {
             update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
