@@ -67,7 +67,9 @@ static void call_singly(const function *f)
         call.scalar = *at;
         CHECK(single->call() == MSLIP_OK);
         ++call.contacts;
-        call.state0 += f->takes & TAKES_STATE ? STATE : 0;
+        if (f->takes & TAKES_STATE) {
+            call.state0 += STATE;
+        }
         for (int k = 0; k < BUFFERS; ++k) {
             const size_t length = buffer_length(f, k) / ITEMS;
             if (length > 0) {
