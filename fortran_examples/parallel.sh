@@ -80,7 +80,7 @@ rejects_other_cases() {
 }
 
 fewer_threads() {
-    ! OMP_THREAD_LIMIT=1 build/contact_threads 100 2 2> "$work/output" && grep '2 threads are not available' "$work/said"
+    ! OMP_THREAD_LIMIT=1 build/contact_threads 100 2 2> "$work/output" && grep '2 threads are not available' "$work/output"
 }
 
 # If the launcher does not end the ranks that wait for one that has ended: 1 is the status of the program, not of timeout.
