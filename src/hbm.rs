@@ -28,7 +28,7 @@ mod workspace;
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
-use workspace::{HEADER, WorkspaceLayout};
+use workspace::{TAGS, WorkspaceLayout};
 
 /// Quadrature rule for the integrals over a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl Rule {
 
     /// The rule of a workspace, from its tag.
     #[inline(always)]
-    fn of_workspace([tag, ..]: &[f64; HEADER]) -> Rule {
+    fn of_workspace([tag, ..]: &[f64; TAGS]) -> Rule {
         if event_driven::Layout::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
     }
 }
@@ -74,7 +74,7 @@ impl Rule {
 ///
 /// # Errors
 /// `BadWorkspace` if uninitialised.
-pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
+pub fn workspace_extent(header: &[f64; TAGS]) -> Result<usize, Error> {
     match Rule::of_workspace(header) {
         Rule::UniformSampling => uniform_sampling::Layout::read(header).map(|layout| layout.length()),
         Rule::EventDriven => event_driven::Layout::read(header).map(|layout| layout.length()),
@@ -85,7 +85,7 @@ pub fn workspace_extent(header: &[f64; HEADER]) -> Result<usize, Error> {
 ///
 /// # Errors
 /// `BadWorkspace` if uninitialised.
-pub fn workspace_size(header: &[f64; HEADER]) -> Result<(usize, usize, Rule), Error> {
+pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize, Rule), Error> {
     let rule = Rule::of_workspace(header);
     let size = match rule {
         Rule::UniformSampling => uniform_sampling::Layout::read(header)?.size(),

@@ -149,21 +149,21 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
 /// Header of a workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for four doubles.
+/// `pointer` is NULL or valid for two doubles.
 #[inline(always)]
-pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 4], Error> {
+pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 2], Error> {
     check_alignment(pointer)?;
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, and valid for four doubles by the function's contract.
-    Ok(unsafe { pointer.cast::<[f64; 4]>().read() })
+    // SAFETY: aligned, and valid for two doubles by the function's contract.
+    Ok(unsafe { pointer.cast::<[f64; 2]>().read() })
 }
 
 /// An initialised workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for four doubles, and for the whole workspace if these are the header of one.
+/// `pointer` is NULL or valid for two doubles, and for the whole workspace if these are the header of one.
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     // SAFETY: by the function's contract.

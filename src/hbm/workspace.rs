@@ -9,7 +9,10 @@
 use crate::error::Error;
 use crate::tag::Kind;
 
-/// Length of the header: two tags, padded so that the tables have the alignment of the workspace.
+/// Tags at the beginning.
+pub(super) const TAGS: usize = 2;
+
+/// Doubles before the tables: the tags, padded so that the tables keep the alignment of the workspace.
 pub(super) const HEADER: usize = 4;
 
 /// Doubles in blocks of four.
@@ -92,7 +95,7 @@ pub(super) trait WorkspaceLayout: Sized {
     /// # Errors
     /// `BadWorkspace` if uninitialised.
     #[inline(always)]
-    fn read(&[first, second, ..]: &[f64; HEADER]) -> Result<Self, Error> {
+    fn read(&[first, second]: &[f64; TAGS]) -> Result<Self, Error> {
         let (harmonics, samples) = (Self::KIND.count(first), Kind::Samples.count(second));
         Self::new(harmonics.ok_or(Error::BadWorkspace)?, samples.ok_or(Error::BadWorkspace)?)
             .map_err(|_| Error::BadWorkspace)
@@ -105,7 +108,7 @@ pub(super) trait WorkspaceLayout: Sized {
     #[inline(always)]
     fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
-        let layout = Self::read(header)?;
+        let layout = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
         let used = layout.length().saturating_sub(HEADER);
         Ok((layout, Parts(buffers.get_mut(..used).ok_or(Error::BadWorkspace)?)))
     }
