@@ -24,9 +24,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Version of the library that this header belongs to.
+// Version of the library that this header belongs to: major.
 #define MSLIP_VERSION_MAJOR 0
+// Version of the library: minor.
 #define MSLIP_VERSION_MINOR 1
+// Version of the library: patch.
 #define MSLIP_VERSION_PATCH 0
 
 // a required pointer is NULL

@@ -116,9 +116,11 @@ fn outsiders(bindings: &Bindings) -> Vec<String> {
 /// The package's version, as macros: this crate and the library share one version.
 fn version_macros() -> String {
     format!(
-        "\n// Version of the library that this header belongs to.\n\
+        "\n// Version of the library that this header belongs to: major.\n\
          #define MSLIP_VERSION_MAJOR {}\n\
+         // Version of the library: minor.\n\
          #define MSLIP_VERSION_MINOR {}\n\
+         // Version of the library: patch.\n\
          #define MSLIP_VERSION_PATCH {}",
         env!("CARGO_PKG_VERSION_MAJOR"),
         env!("CARGO_PKG_VERSION_MINOR"),
