@@ -33,7 +33,7 @@ const fn bound(
 #[rustfmt::skip]
 pub const BOUNDS: &[Bound] = &[
     bound("composite_modulus", 3.0, "value", "0",
-        "every contact", "1-ν² as a product loses nothing: seven roundings"),
+        "every contact", "1-ν² as a product is free of cancellation: seven roundings"),
     bound("half_width", 5.0, "value", "0",
         "every contact", "w from Halley's iteration to rounding, a hypotenuse, and the rounding of E* and N/L"),
     bound("slip_force", 0.5, "value", "0",
@@ -69,7 +69,7 @@ pub const BOUNDS: &[Bound] = &[
     bound("masing_force", 8.0, "sum of the sizes of its terms", "1/Λ",
         "any history", "each reversal adds a term of the curve"),
     bound("masing_stiffness", 12.0, "value", "that of `stiffness`",
-        "any history", "that of the branch; within some ε of gross slip between the exact values beside it"),
+        "any history", "that of the branch; within some ε of gross slip between the exact values next to it"),
     bound("masing_dissipated", 512.0, "sum of its terms; 4 mu N times the farthest displacement if that slips", "3/Λ",
         "any history", "differences of the energy of cycles"),
     bound("masing_shear", 128.0, "sum of the sizes of its terms", "(x/abs(x-c) + 1/Λ)(1 + τ h'') + x/(b-x)",

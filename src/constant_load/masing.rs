@@ -78,7 +78,7 @@ pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     if state::is_full(state) {
-        step_with_energy(contact, state, displacement).0
+        step_in_full_state(contact, state, displacement)
     } else {
         step_with_room(contact, state, displacement)
     }
@@ -91,6 +91,16 @@ pub fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> St
     let memory = state::memory(state);
     let transition = memory.locate(contact, displacement, |_| {});
     Step::new(contact, &memory, &transition, displacement)
+}
+
+/// The same for a full state, in which a step that reverses merges two reversals.
+#[must_use]
+#[inline(never)]
+pub fn step_in_full_state(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+    let memory = state::memory(state);
+    let transition = memory.locate(contact, displacement, |_| {});
+    let step = Step::new(contact, &memory, &transition, displacement);
+    if transition.reversed { step.merged(contact, &memory) } else { step }
 }
 
 /// The step, and the energy \[J\] that it dissipates, not negative.
@@ -201,6 +211,10 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
     for (i, &displacement) in path.iter().enumerate() {
         let (values, energy) = if dissipated.is_none() && !state::is_full(state) {
             let step = step_with_room(contact, state, displacement);
+            step.write(state);
+            ([step.force(), step.stiffness()], 0.0)
+        } else if dissipated.is_none() {
+            let step = step_in_full_state(contact, state, displacement);
             step.write(state);
             ([step.force(), step.stiffness()], 0.0)
         } else {

@@ -137,6 +137,9 @@ pub(super) unsafe fn update(
         if dissipated.is_null() && !state::is_full(state) {
             let step = masing::step_with_room(contact, state, displacement);
             write_step(&step, state_length, state_old, state_new, outputs);
+        } else if dissipated.is_null() {
+            let step = masing::step_in_full_state(contact, state, displacement);
+            write_step(&step, state_length, state_old, state_new, outputs);
         } else {
             update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
         }
