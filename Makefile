@@ -28,14 +28,14 @@ $(archive): $(sources)
 	$(CARGO) build --release --locked --package microslip --target-dir target
 	@touch $@
 
-dist/lib/libmicroslip.a: $(archive) scripts/localise.sh
-	scripts/localise.sh $< $@
+dist/lib/libmicroslip.a: $(archive) tools/localise.sh
+	tools/localise.sh $< $@
 
 ## shared: build the shared library besides
 shared: dist/$(shared)
 
-dist/$(shared): dist/lib/libmicroslip.a include/microslip.h scripts/shared.sh
-	scripts/shared.sh $< include/microslip.h $@
+dist/$(shared): dist/lib/libmicroslip.a include/microslip.h tools/shared.sh
+	tools/shared.sh $< include/microslip.h $@
 
 dist/include/%: include/%
 	@mkdir -p $(@D)
@@ -71,70 +71,70 @@ demo: demo-dependencies all
 	$(MAKE) -C fortran_examples demo PREFIX=../dist
 
 demo-dependencies:
-	@scripts/dependencies.sh demo
+	@tools/dependencies.sh demo
 
 ## parallel: contacts shared by OpenMP threads and a sweep shared by MPI ranks, and whether they give the same bits
 parallel: all
-	@scripts/dependencies.sh mpi
+	@tools/dependencies.sh mpi
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
 ## test: every test, in Rust, C, C++ and Fortran
 test:
-	scripts/test.sh
+	tools/test.sh
 
 ## coverage: which lines of src/ the tests run; 98 % at least
 coverage:
-	scripts/coverage.sh
+	tools/coverage.sh
 
 ## miri: the C interface under Miri, which finds undefined behaviour
 miri:
-	scripts/miri.sh
+	tools/miri.sh
 
 ## audit: licences, duplicates and sources of the dependencies, and advisories against them
 audit:
-	scripts/audit.sh
+	tools/audit.sh
 
 ## accuracy: every output against multi-precision, an hour of processor time; POINTS=1e6 for less than the 1e7 of each
 accuracy:
-	@scripts/dependencies.sh accuracy
-	$(CARGO) run --release --locked --manifest-path accuracy/Cargo.toml --target-dir target/accuracy -- \
+	@tools/dependencies.sh accuracy
+	$(CARGO) run --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package accuracy -- \
 		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
 
 ## instructions: count the instructions of each call, and compare them with the record and with each other
 instructions: counting-dependencies all
-	instruction_counts/run.sh dist
+	benches/instruction_counts/run.sh dist
 
 ## instructions-record: record the instructions of each call
 instructions-record: counting-dependencies all
-	instruction_counts/run.sh --record dist
+	benches/instruction_counts/run.sh --record dist
 
 counting-dependencies:
-	@scripts/dependencies.sh counting
+	@tools/dependencies.sh counting
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
-	@scripts/dependencies.sh bench
-	$(MAKE) -C bench run PREFIX=../dist QUICK=$(QUICK)
+	@tools/dependencies.sh bench
+	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
 ## figures: compute and draw the figures of the paper, and check its claims, into docs/
 figures:
-	@scripts/dependencies.sh figures
-	$(CARGO) run --quiet --release --locked --package figures
-	figures/draw.sh
+	@tools/dependencies.sh figures
+	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package paper
+	verification/paper/draw.sh
 
-## host: build CalculiX with the law as one of its elements, and compare what it finds, into host_examples/ (some minutes)
+## host: build CalculiX with the law as one of its elements, and compare what it finds, into examples/ (some minutes)
 host: all
-	@scripts/dependencies.sh host
-	host_examples/calculix/run.sh dist
+	@tools/dependencies.sh host
+	examples/calculix/run.sh dist
 
 ## stress: long and hostile histories of the memory, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
 stress:
-	$(CARGO) run --quiet --release --locked --package stress -- $(ARGUMENTS)
+	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)
 
 ## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
 fuzz:
-	@scripts/dependencies.sh fuzz
-	scripts/fuzz.sh
+	@tools/dependencies.sh fuzz
+	tools/fuzz.sh
 
 ## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
 header:
@@ -142,19 +142,19 @@ header:
 
 ## docs: the reference of the interfaces in C and Fortran, and of the Rust functions, into target/docs
 docs:
-	@scripts/dependencies.sh docs
-	scripts/docs.sh
+	@tools/dependencies.sh docs
+	tools/docs.sh
 
 ## dist: the source as target/microslip-VERSION.tar.gz, which builds without a network
 dist:
-	scripts/tarball.sh target/microslip-$(version).tar.gz
+	tools/tarball.sh target/microslip-$(version).tar.gz
 
 ## clean: remove everything that was built
 clean:
-	rm -rf dist target fuzz/target
+	rm -rf dist target verification/fuzz/target
 	$(MAKE) -C fortran_examples clean
-	$(MAKE) -C bench clean
-	rm -rf host_examples/calculix/build
+	$(MAKE) -C benches clean
+	rm -rf examples/calculix/build
 
 ## help: list the targets
 help:

@@ -5,7 +5,7 @@ set -eu
 # As root and with more ranks than cores, for this is a test; in containers, where a process may not read another's memory.
 : "${MPIRUN:=mpirun --allow-run-as-root --oversubscribe --bind-to none --mca btl_vader_single_copy_mechanism none}"
 export OPENBLAS_NUM_THREADS=1
-. "$(dirname "$0")/../scripts/checks.sh"
+. "$(dirname "$0")/../tools/checks.sh"
 
 # sweep RANKS DIRECTORY [CASE...]: each rank leaves its process id beside the results.
 sweep() {

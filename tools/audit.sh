@@ -1,0 +1,29 @@
+#!/bin/sh
+# audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with
+# deny.toml, for each workspace of this repository. cargo-deny is installed into target/tools where there is none,
+# which takes minutes.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}"
+PATH=$PATH:$PWD/target/tools/bin
+
+command -v cargo-deny > /dev/null 2>&1 ||
+    "$CARGO" install --quiet --locked --root target/tools --target-dir target/tools/build cargo-deny
+
+. tools/checks.sh
+
+subjects='licenses bans sources'
+if cargo-deny fetch db > /dev/null 2>&1; then
+    subjects="$subjects advisories"
+else
+    echo 'The database of advisories cannot be reached: advisories and withdrawn versions are NOT checked.'
+fi
+for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
+    grep -q '^\[workspace\]' "$manifest" || continue # a member is checked with its workspace
+    for subject in $subjects; do
+        check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --locked --config deny.toml check "$subject"
+    done
+done
+
+counts

@@ -1,0 +1,48 @@
+#!/bin/sh
+# docs.sh: the references of the C interface, the Fortran module and the Rust functions, into target/docs. What has no
+# comment, and what is not understood, is an error. FORD comes from PyPI, into target/tools.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}"
+MSLIP_VERSION=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+export MSLIP_VERSION
+out=target/docs
+ford=target/tools/ford
+. tools/checks.sh
+
+fortran() {
+    $ford/bin/python -c 'import ford' 2> /dev/null ||
+        { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13; } || return 1
+    $ford/bin/python docs/reference/fortran.py docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
+    ! grep 'Warning' "$work/ford"
+}
+
+rust() {
+    RUSTDOCFLAGS='-D warnings' $CARGO doc --quiet --no-deps --locked --package microslip --target-dir target/docs/rust-build &&
+        cp -R $out/rust-build/doc $out/rust
+}
+
+rm -rf $out
+mkdir -p $out
+check 'C: every function has its reference' doxygen docs/reference/Doxyfile
+check 'Fortran: every procedure has its reference' fortran
+check 'Rust: every item has its reference' rust
+rm -rf $out/rust-build
+
+cat > $out/index.html << END
+<!DOCTYPE html>
+<html lang="en">
+<head><meta charset="utf-8"><title>microslip $MSLIP_VERSION</title></head>
+<body>
+<h1>microslip $MSLIP_VERSION</h1>
+<ul>
+<li><a href="c/index.html">The C interface</a></li>
+<li><a href="fortran/index.html">The Fortran module</a></li>
+<li><a href="rust/microslip/index.html">The Rust functions</a></li>
+</ul>
+</body>
+</html>
+END
+
+counts

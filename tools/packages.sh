@@ -1,0 +1,158 @@
+#!/bin/sh
+# packages.sh: test every way to use the library from another project. A source tarball is built without a network and
+# installed; clients in C and in Fortran are built with each build tool.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}" "${CC:=gcc}" "${FC:=gfortran}" "${NM:=nm}"
+export CARGO CC FC
+unset MAKEFLAGS MFLAGS MAKELEVEL # not those of a make that runs this script
+
+. tools/checks.sh
+
+version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
+clients=$PWD/packaging/clients
+tree=$work/microslip-$version
+static=$work/static
+
+# Cargo has the crates of the tarball only, and no network if the system permits that.
+mkdir "$work/cargo"
+offline() {
+    CARGO_HOME="$work/cargo" CARGO_NET_OFFLINE=true $isolated "$@"
+}
+isolated=
+if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
+
+tools/tarball.sh "$tree.tar.gz"
+tar -xzf "$tree.tar.gz" -C "$work"
+check 'the tarball can be built and installed without a network' offline make -C "$tree" install PREFIX="$static"
+[ "$failed" -eq 0 ] || { counts; exit; }
+
+# The version is the same in all files.
+check 'version of fpm.toml' grep -qx "version = \"$version\"" fpm.toml
+check 'version of CITATION.cff' grep -qx "version: $version" CITATION.cff
+check 'CHANGELOG.md has this version' grep -q "^## \[$version\]" CHANGELOG.md
+
+# The tarball.
+reproducible() {
+    tools/tarball.sh "$work/again/microslip-$version.tar.gz" && cmp "$work/again/microslip-$version.tar.gz" "$tree.tar.gz"
+}
+check 'the tarball is reproducible' reproducible
+locked() { # LOCK-FILE: its packages with version and checksum
+    awk '/^name = |^version = "/ { line = line $0 } /^checksum = / { print line, $0; line = "" } /^$/ { line = "" }' \
+        "$1" | sort
+}
+same_crates() {
+    locked Cargo.lock > "$work/ours" && locked "$tree/Cargo.lock" > "$work/theirs" && [ -s "$work/theirs" ] &&
+        [ -z "$(comm -13 "$work/ours" "$work/theirs")" ]
+}
+check 'the crates of the tarball are those of Cargo.lock' same_crates
+
+# Exactly these files are installed.
+installed_files() { # PREFIX FILE...
+    (cd "$1" && find . ! -type d | sort) > "$work/installed" && printf './%s\n' "$@" | sed 1d | sort | diff - "$work/installed"
+}
+files="include/microslip.f90 include/microslip.h lib/cmake/microslip/microslip-config-version.cmake
+lib/cmake/microslip/microslip-config.cmake lib/libmicroslip.a lib/pkgconfig/microslip.pc"
+# shellcheck disable=SC2086  # a list, split on purpose
+check 'installed files' installed_files "$static" $files
+
+# Clients of an installed copy.
+needs() { # PROGRAM: the shared library of microslip that it loads, if any
+    readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(libmicroslip.*\)\]/\1/p'
+}
+make_client() { # PREFIX SHARED-LIBRARY
+    rm -rf "$work/clients" && cp -R "$clients" "$work/clients" && make -C "$work/clients/make" PREFIX="$1" FC="$FC" CC="$CC" &&
+        "$work/clients/make/client_c" && "$work/clients/make/client_fortran" && [ "$(needs "$work/clients/make/client_c")" = "$2" ]
+}
+check 'make' make_client "$static" ''
+# shellcheck disable=SC2046  # flags are a list
+pkg_config_client() { # PREFIX
+    export PKG_CONFIG_PATH="$1/lib/pkgconfig" && mkdir -p "$work/pkg" &&
+        [ "$(pkg-config --modversion microslip)" = "$version" ] &&
+        $CC "$clients/client.c" -o "$work/pkg/client_c" $(pkg-config --cflags --libs --static microslip) &&
+        $FC -J "$work/pkg" "$1/include/microslip.f90" "$clients/client.f90" -o "$work/pkg/client_fortran" \
+            $(pkg-config --libs --static microslip) &&
+        LD_LIBRARY_PATH=$1/lib "$work/pkg/client_c" && LD_LIBRARY_PATH=$1/lib "$work/pkg/client_fortran"
+}
+check 'pkg-config' pkg_config_client "$static"
+readme_program() { # LANGUAGE COMPILER PREFIX SHARED-LIBRARY: the program in README.md, built with the commands in README.md
+    rm -rf "$work/readme" && tools/snippets.sh README.md "$work/readme" &&
+        mv "$work"/readme/snippet_*."$1" "$work/readme/first_contact.$1" &&
+        { echo 'set -e'; grep -E "^(export PKG_CONFIG_PATH=|$2 )" README.md; } > "$work/readme/build.sh" &&
+        (cd "$work/readme" && PREFIX=$3 sh build.sh && ./a.out) && [ "$(needs "$work/readme/a.out")" = "$4" ]
+}
+check 'README: gcc' readme_program c gcc "$static" ''
+check 'README: gfortran' readme_program f90 gfortran "$static" ''
+cmake_client() { # DIRECTORY NUMBER-OF-CLIENTS OPTION...; the name of the directory has a blank, which must not matter
+    build=$work/cmake/$1
+    number=$2
+    shift 2
+    cmake -S "$clients/cmake" -B "$build" -DCMAKE_Fortran_COMPILER="$FC" "$@" && offline cmake --build "$build" &&
+        (cd "$build" && ctest --output-on-failure | tee ctest.log) && grep -q "tests passed.* out of $number\$" "$build/ctest.log"
+}
+for generator in Ninja 'Unix Makefiles'; do
+    check "CMake: find_package, $generator" cmake_client "find package, $generator" 3 -G "$generator" -DCMAKE_PREFIX_PATH="$static"
+done
+check 'CMake: find_package, one Fortran target' cmake_client "one Fortran target" 2 -DFORTRAN_CLIENTS=1 \
+    -DCMAKE_PREFIX_PATH="$static"
+check 'CMake: find_package, no Fortran compiler' cmake_client "C only" 1 -DFORTRAN_CLIENTS=0 -DCMAKE_Fortran_COMPILER=false \
+    -DCMAKE_PREFIX_PATH="$static"
+
+# Clients that build the library as part of their own build. All but FetchContent, which tests the defaults, share the target
+# directory of cargo with the tarball, so that it compiles once.
+for generator in Ninja 'Unix Makefiles'; do
+    check "CMake: add_subdirectory, $generator" cmake_client "add subdirectory, $generator" 3 -G "$generator" \
+        -DMICROSLIP_SOURCE="$tree" -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
+done
+check 'CMake: add_subdirectory, no Fortran compiler' cmake_client "C only, add subdirectory" 1 -DFORTRAN_CLIENTS=0 \
+    -DCMAKE_Fortran_COMPILER=false -DMICROSLIP_SOURCE="$tree" -DMICROSLIP_CARGO_TARGET_DIR="$tree/target"
+check 'CMake: FetchContent' cmake_client "fetch content" 3 -DMICROSLIP_URL="$tree.tar.gz"
+meson_client() {
+    mkdir -p "$work/meson/subprojects" && cp "$clients/client.c" "$clients/client.f90" "$clients/meson/meson.build" "$work/meson" &&
+        ln -s "$tree" "$work/meson/subprojects/microslip" &&
+        meson setup "$work/meson build" "$work/meson" "-Dmicroslip:cargo_target_dir=$tree/target" &&
+        meson test -C "$work/meson build" --print-errorlogs
+}
+check 'Meson: subproject' meson_client
+
+# The shared library. Clients find it at run time by their rpath.
+shared=$work/shared
+so=libmicroslip.so.$abi
+check 'the shared library can be installed' offline make -C "$tree" install PREFIX="$shared" SHARED=1
+# shellcheck disable=SC2086
+check 'installed files, with the shared library' installed_files "$shared" $files "lib/$so" lib/libmicroslip.so
+check 'its soname has the ABI version' \
+    sh -c "readelf -d '$shared/lib/libmicroslip.so' | grep -q 'SONAME.*\[$so\]'"
+exports() {
+    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sed "s/\$/@@MSLIP_$abi/" |
+        sort > "$work/declared"
+    $NM -D --defined-only "$shared/lib/$so" | awk '$2 != "A" { print $3 }' | sort | diff "$work/declared" -
+}
+check 'it exports the functions of the header, with the ABI version' exports
+loads_libc_and_libm() {
+    readelf -d "$shared/lib/$so" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' > "$work/needed" &&
+        ! grep -vE '^(libm|libc|ld-linux.*)\.so\.' "$work/needed"
+}
+check 'it loads only the C and the mathematical library' loads_libc_and_libm
+shared_client() {
+    pkg_config_client "$shared" && [ "$(needs "$work/pkg/client_c")" = "$so" ] && [ "$(needs "$work/pkg/client_fortran")" = "$so" ]
+}
+check 'pkg-config, shared library' shared_client
+check 'make, shared library' make_client "$shared" "$so"
+check 'README: gcc, shared library' readme_program c gcc "$shared" "$so"
+check 'README: gfortran, shared library' readme_program f90 gfortran "$shared" "$so"
+examples() { # a relative prefix, seen from the directory of the examples
+    cp -R fortran_examples "$work/examples" && make -C "$work/examples" clean &&
+        make -C "$work/examples" short PREFIX=../shared &&
+        (cd / && "$work/examples/build/first_contact") && [ "$(needs "$work/examples/build/forced_response")" = "$so" ]
+}
+check 'Fortran examples, shared library' examples
+check 'CMake: clients of both libraries' cmake_client "both libraries" 4 -DCMAKE_PREFIX_PATH="$shared"
+uninstall() {
+    make -C "$tree" uninstall PREFIX="$shared" && [ -z "$(find "$shared" ! -type d)" ]
+}
+check 'uninstall removes all files' uninstall
+
+counts

@@ -1,0 +1,135 @@
+//! What is generated from the Rust source: the C header, blocks of the Fortran module, and the names that they declare.
+
+mod fortran;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use cbindgen::{Bindings, Builder, Config};
+
+const HEADER: &str = "include/microslip.h";
+const MODULE: &str = "include/microslip.f90";
+const INCLUDE_GUARD: &str = "MICROSLIP_H";
+
+/// The directory of the library's package.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// Path of the header in the repository.
+pub fn header_path() -> PathBuf {
+    root().join(HEADER)
+}
+
+/// The text that the header should have.
+pub fn header() -> String {
+    // In the source, brackets are escaped because they would be links, and sections have headings.
+    let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ");
+    // Excluded items have left blank lines.
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
+    lines.join("\n") + "\n"
+}
+
+/// The functions of the interface, in the order of the source.
+pub fn symbols() -> Vec<String> {
+    bindings().dynamic_symbols_names().map(str::to_owned).collect()
+}
+
+/// The generated files, as paths in the repository, with the texts that they should have.
+fn generated() -> Result<[(&'static str, String); 2], String> {
+    let header = header();
+    let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
+    Ok([(HEADER, header), (MODULE, module)])
+}
+
+/// Writes the header and the generated blocks of the Fortran module.
+pub fn write_header() -> Result<(), String> {
+    for (file, text) in generated()? {
+        // A file that is not written keeps its time, and nothing is built again.
+        if read(file).ok().as_ref() != Some(&text) {
+            fs::write(root().join(file), text).map_err(|e| format!("{file}: {e}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Compares the committed header and Fortran module with the source; the error is a message for a person.
+pub fn check_header() -> Result<(), String> {
+    let mut stale = Vec::new();
+    for (file, text) in generated()? {
+        let committed = read(file)?;
+        if committed != text {
+            let line = committed.lines().zip(text.lines()).take_while(|(old, new)| old == new).count() + 1;
+            stale.push(format!("{file} is stale from line {line}: run `make header` and commit the result"));
+        }
+    }
+    if stale.is_empty() { Ok(()) } else { Err(stale.join("\n")) }
+}
+
+fn read(file: &str) -> Result<String, String> {
+    fs::read_to_string(root().join(file)).map_err(|e| format!("{file}: {e}"))
+}
+
+fn text_of(bindings: &Bindings) -> String {
+    let mut text = Vec::new();
+    bindings.write(&mut text);
+    String::from_utf8(text).expect("cbindgen writes UTF-8")
+}
+
+fn bindings() -> Bindings {
+    let mut config = Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml");
+    config.include_guard = Some(INCLUDE_GUARD.to_owned());
+    config.after_includes = Some(version_macros() + &status_codes());
+    // cbindgen includes whatever is public and could be C: items of the interface carry its prefix. Excluding an item can
+    // expose others that only it had covered.
+    loop {
+        let bindings = generate(&config);
+        let outsiders = outsiders(&bindings);
+        if outsiders.is_empty() {
+            return bindings;
+        }
+        config.export.exclude.extend(outsiders);
+    }
+}
+
+fn generate(config: &Config) -> Bindings {
+    Builder::new()
+        .with_crate(root())
+        .with_config(config.clone())
+        .generate()
+        .unwrap_or_else(|e| panic!("no header can be generated from the source: {e}"))
+}
+
+/// The constants, types and functions without the prefix of the interface.
+fn outsiders(bindings: &Bindings) -> Vec<String> {
+    let text = text_of(bindings);
+    let declared = ["#define ", "typedef struct ", "enum "].into_iter().flat_map(|start| {
+        let rest = text.lines().filter_map(move |line| line.strip_prefix(start));
+        rest.filter_map(|rest| rest.split_ascii_whitespace().next())
+    });
+    let functions = bindings.dynamic_symbols_names();
+    let ours = |name: &str| name.to_ascii_lowercase().starts_with("mslip_") || name == INCLUDE_GUARD;
+    declared.chain(functions).filter(|name| !ours(name)).map(str::to_owned).collect()
+}
+
+/// The package's version, as macros: this crate and the library share one version.
+fn version_macros() -> String {
+    format!(
+        "\n// Version of the library that this header belongs to: major.\n\
+         #define MSLIP_VERSION_MAJOR {}\n\
+         // Version of the library: minor.\n\
+         #define MSLIP_VERSION_MINOR {}\n\
+         // Version of the library: patch.\n\
+         #define MSLIP_VERSION_PATCH {}",
+        env!("CARGO_PKG_VERSION_MAJOR"),
+        env!("CARGO_PKG_VERSION_MINOR"),
+        env!("CARGO_PKG_VERSION_PATCH")
+    )
+}
+
+/// The status codes, from the library's own table: the macro that defines them is not expanded by cbindgen.
+fn status_codes() -> String {
+    let code = |error: &microslip::Error| format!("\n\n// {error}\n#define {} {}", error.constant(), error.code());
+    microslip::Error::ALL.iter().map(code).collect()
+}
