@@ -17,7 +17,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions instructions-record \
-	counting-dependencies figures host stress fuzz header docs dist clean help
+	counting-dependencies figures host stress fuzz check parallel header docs dist clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -75,14 +75,18 @@ demo-dependencies:
 
 ## parallel: contacts shared by OpenMP threads and a sweep shared by MPI ranks, and whether they give the same bits
 parallel: all
-	@tools/dependencies.sh mpi
+	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
-## test: every test, in Rust, C, C++ and Fortran
+## test: the daily tests, in Rust, C, C++ and Fortran: at most four minutes, installation of packages included
 test:
 	tools/test.sh
 
-## coverage: which lines of src/ the tests run; 98 % at least
+## check: all other tests: lints, sanitizers, embedding, fuzzing, Miri, coverage, packages, stress, audit
+check:
+	tools/check.sh
+
+## coverage: lines of src/ that the tests run; 98 % at least
 coverage:
 	tools/coverage.sh
 
@@ -90,7 +94,7 @@ coverage:
 miri:
 	tools/miri.sh
 
-## audit: licences, duplicates and sources of the dependencies, and advisories against them
+## audit: licences, duplicates, sources and advisories of the dependencies
 audit:
 	tools/audit.sh
 
@@ -109,7 +113,7 @@ instructions-record: counting-dependencies all
 	benches/instruction_counts/run.sh --record dist
 
 counting-dependencies:
-	@tools/dependencies.sh counting
+	@tools/dependencies.sh instructions
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all

@@ -1,0 +1,78 @@
+#!/bin/sh
+# check.sh: what `make test` leaves out: lints, sanitizers, applications of every kind, fuzzing, Miri, coverage, packages, long histories, audit.
+set -eu
+cd "$(dirname "$0")/.."
+. tools/steps.sh
+
+step 'packages' tools/dependencies.sh check
+
+# in_verification COMMAND PACKAGE ARGUMENT...
+in_verification() {
+    command=$1 package=$2
+    shift 2
+    "$CARGO" "$command" --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package "$package" -- "$@"
+}
+
+fortran_module() {
+    # shellcheck disable=SC2086
+    mkdir -p "$work/module" && $FC $1 -c "$prefix/include/microslip.f90" -J "$work/module" -o "$work/module/microslip.o"
+}
+
+# fortran_program PROGRAM FLAGS
+fortran_program() {
+    rm -rf "$work/fortran" && mkdir "$work/fortran" &&
+        build "$FC $2 -J $work/fortran $prefix/include/microslip.f90 tests/fortran/checks.f90" "tests/fortran/$1.f90" "$work/fortran/test" &&
+        "$work/fortran/test"
+}
+
+calculix_results() {
+    mkdir -p "$work/calculix" &&
+        build "$FC -J $work/calculix $prefix/include/microslip.f90" examples/calculix/compare.f90 "$work/calculix/compare" -llapack -lblas &&
+        "$work/calculix/compare" examples/calculix/results
+}
+
+uninstall() {
+    cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
+}
+
+rust() {
+    for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
+        step "formatting: $manifest" "$CARGO" fmt --all --manifest-path "$manifest" --check
+    done
+    step 'lints: Rust' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+    step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
+    step 'coverage: 98 % of the lines of src/' tools/coverage.sh
+    step 'Miri' tools/miri.sh
+    step 'paper: figures and claims' in_verification run paper --check
+    step 'stress: adversarial histories' in_verification run stress --scale 0.02
+    step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --release --locked --test bounded_memory
+    step 'references of the interfaces' tools/docs.sh
+    step 'audit' tools/audit.sh
+}
+
+installed() {
+    for group in arithmetic compilers links sanitizers valgrind threads process stack; do
+        step "archive in an application: $group" verification/embedding/embedding.sh "$prefix" "$group"
+    done
+    wide='-fdefault-real-8 -fdefault-integer-8'
+    for kinds in '' "$wide" -fno-automatic; do
+        for standard in f2008 f2018; do
+            step "Fortran module: $standard $kinds" fortran_module "-std=$standard -Wall -Wextra -pedantic -Werror $kinds"
+        done
+        for program in test_microslip bad_input; do
+            step "Fortran: $program $kinds" fortran_program "$program" "$kinds"
+        done
+    done
+    step 'fuzzing, bounded' tools/fuzz.sh --check
+    step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
+    step 'packages: fpm' tools/fpm.sh "$prefix"
+    step 'CalculiX: its results are those of the library' calculix_results
+    step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
+    step 'instruction counts' make instructions
+    step 'benchmark, quick' make bench QUICK=1
+    step 'uninstall leaves no file' uninstall
+}
+
+step 'library: build, install, move' install_and_move
+together rust installed
+summary

@@ -1,0 +1,79 @@
+# shellcheck shell=sh
+# steps.sh, to be sourced by test.sh and check.sh: `step` runs a command, `together` runs functions side by side, `summary` ends the script.
+
+: "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}"
+export CARGO CC CXX FC
+unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that runs the script, not of those that it runs
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+: > "$work/counts"
+
+# step NAME COMMAND...: counts the tests that the command reports (cargo's "test result:" or "N passed, N failed"), or itself as one; exit
+# status 77 means that what it needs cannot be installed. Functions as commands join their commands by &&: a failure does not end the shell there.
+step() {
+    step=$1
+    shift
+    log=$(mktemp "$work/log.XXXXXX")
+    status=0
+    begun=$(date +%s)
+    "$@" > "$log" 2>&1 || status=$?
+    seconds=$(($(date +%s) - begun))
+    if [ "$status" -eq 77 ]; then
+        printf '%-72s SKIPPED: %s\n' "$step" "$(tail -n 1 "$log")"
+        return
+    fi
+    # Failing Rust tests print what the programs that they run have counted: only cargo's own counts are taken.
+    awk -v status="$status" '
+        /^test result: /                 { tests += $4; failures += $6; ++results }
+        /^[0-9]+ passed, [0-9]+ failed$/ { passed += $1; failed += $3; ++counts }
+        END {
+            if (results) { passed = tests; failed = failures } else if (!counts) passed = !status
+            if (!failed && (status || !passed)) failed = 1
+            print passed + 0, failed + 0
+        }' "$log" > "$log.counts"
+    read -r good bad < "$log.counts"
+    echo "$good $bad" >> "$work/counts"
+    if [ "$bad" -eq 0 ]; then
+        printf '%-72s %s passed, %s s\n' "$step" "$good" "$seconds"
+    else
+        printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"
+        sed 's/^/    /' "$log"
+    fi
+}
+
+# together FUNCTION...: at the same time; what each prints stays together.
+together() {
+    for function in "$@"; do
+        "$function" > "$work/$function.out" 2>&1 &
+    done
+    wait
+    for function in "$@"; do
+        cat "$work/$function.out"
+    done
+}
+
+summary() {
+    awk '{ passed += $1; failed += $2 } END { printf "%d passed, %d failed\n", passed, failed; exit failed > 0 || passed == 0 }' "$work/counts"
+}
+
+# Installed elsewhere, then moved: no file may depend on its place.
+install_and_move() {
+    make install PREFIX=/opt/microslip DESTDIR="$work/stage" && mv "$work/stage/opt/microslip" "$prefix"
+}
+
+# What a client passes to its compiler.
+flags() {
+    pkg-config --cflags --libs --static microslip
+}
+
+# build COMPILER-AND-FLAGS SOURCE PROGRAM [LIBRARY...]
+build() {
+    compiler=$1 source=$2 program=$3
+    shift 3
+    # shellcheck disable=SC2046,SC2086  # flags are lists
+    $compiler "$source" -o "$program" $(flags) "$@"
+}
+
+prefix=$work/moved
+export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
