@@ -115,8 +115,8 @@ pub(super) fn harmonic_force_dispatched(
 /// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
 /// integrals; it converges more slowly than the force.
 ///
-/// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly. For
-/// displacements measured from another position, pass c0 minus the unloaded position.
+/// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly.
+/// For displacements measured from another position, pass c0 minus the unloaded position.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///
