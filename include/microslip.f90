@@ -918,7 +918,8 @@ contains
       !! `MSLIP_OK`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES`, `MSLIP_BAD_RULE` or `MSLIP_WORKSPACE_TOO_SHORT`.
     integer(mslip_int), intent(in), optional :: rule
       !! `MSLIP_UNIFORM_SAMPLING` (the default): uniformly spaced samples from t = 0. `MSLIP_EVENT_DRIVEN`: about as many
-      !! Gauss-Legendre nodes between the events (reversals, loop closures, onset of gross slip); far more accurate.
+      !! Gauss-Legendre nodes between the events (reversals, loop closures, onset of gross slip), more accurate: 16 (H+1) nodes
+      !! have worst measured errors of 1e-7 of mu N in the force and 1e-4 of the initial stiffness in the Jacobian.
 
     status = c_harmonic_workspace_init(harmonics, samples, rule_or_default(rule), size(workspace, kind=mslip_size), &
       address_of(workspace))
@@ -953,7 +954,8 @@ contains
 
   subroutine mslip_harmonic_force(contact, workspace, displacement, status, force, jacobian, dissipated)
     !! Fourier coefficients of the force under a periodic displacement in the steady state, the second of two periods from the
-    !! unloaded state, by the rule of the workspace.
+    !! unloaded state, by the rule of the workspace. The contact is unloaded at displacement 0, so the mean force depends on the
+    !! mean displacement unless the motion slips grossly.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace; it decides H.
     real(mslip_real), intent(in) :: displacement(:)  !! 2H+1 coefficients of the displacement [m].
@@ -1130,15 +1132,15 @@ contains
   end subroutine mslip_jenkins_equivalent
 
   subroutine mslip_iwan_equivalent(contact, stiffness, slip_force, status, force_error)
-    !! The n >= 1 parallel spring-sliders (Iwan model) with the smallest error of the monotonic force; they follow any
-    !! load history as the contact does. All values are 0 for an open contact.
+    !! The n >= 1 parallel spring-sliders (Iwan model) with the smallest maximum error of the monotonic force. After m nested
+    !! reversals the error is at most (1 + 2m) `force_error`. All values are 0 for an open contact.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: stiffness(:)  !! Stiffness of each spring [N/m].
     real(mslip_real), intent(inout), target, contiguous :: slip_force(:)
       !! Slip force of each slider [N]; the sum is `slip_force` of the contact.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target :: force_error
-      !! Largest error of the monotonic force, relative to `slip_force` of the contact.
+      !! Maximum error of the force on the monotonic curve, relative to `slip_force` of the contact.
 
     status = MSLIP_BAD_ARRAY_SIZE
     if (size(slip_force) == size(stiffness)) status = c_iwan_equivalent(contact, size(stiffness, kind=mslip_size), &

@@ -435,8 +435,9 @@ int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
                                  double *slip_force);
 
 // Iwan model of n parallel Jenkins elements that approximates the monotonic curve with the smallest maximum error: stiffness[n]
-// [N/m], slip_force[n] [N] of sum mu N, and force_error, the maximum error of the force divided by mu N. All are 0 if
-// mu N = 0.
+// [N/m], slip_force[n] [N] of sum mu N, and force_error, the maximum error of the force on the monotonic curve divided by
+// mu N. After m nested reversals the error is at most (1 + 2m) force_error; measured: 3 in loops, 10 to 15 in random histories.
+// All are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
 //
@@ -457,8 +458,9 @@ size_t mslip_harmonic_workspace_length(size_t harmonics,
 //
 // MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
 // MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
-// nodes per period between them, at least 8 between two events; its error decreases exponentially, and the energy is exact. It
-// searches for reversals on a grid of at least `samples` and 16 H instants.
+// nodes per period between them, at least 8 between two events. Its error decreases exponentially, more slowly for more harmonics:
+// 16 (H+1) nodes have worst measured errors of 1e-7 of mu N in the force and 1e-4 of the initial stiffness in the Jacobian; the
+// energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 //
 // Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
@@ -485,7 +487,10 @@ int32_t mslip_harmonic_workspace_size(const double *workspace,
 //
 // With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
 // equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
-// integrals, as accurate as the force.
+// integrals; it converges more slowly than the force.
+//
+// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly.
+// For displacements measured from another position, pass c0 minus the unloaded position.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //

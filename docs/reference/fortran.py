@@ -1,5 +1,5 @@
-"""The reference of the Fortran module: runs FORD, and fails where something public has no comment. FORD's own warnings of that
-go for everything, the functions of C behind the module among it, so they are left off in favour of this."""
+"""Reference of the Fortran module: runs FORD, and fails if a public entity has no comment. FORD's own warnings of missing comments
+would include the private interfaces to C, so they are off."""
 
 import sys
 
@@ -8,7 +8,7 @@ import ford.fortran_project
 
 
 def undocumented(module):
-    """The names of what is public, of its arguments, results and components, as far as these have no comment."""
+    """Names of the public entities, their arguments, results and components that have no comment."""
 
     def of_procedure(procedure, name):
         if not procedure.doc_list:
@@ -37,7 +37,7 @@ def undocumented(module):
 
 
 class Project(ford.fortran_project.Project):
-    """FORD's project, looked at when it is known what is public."""
+    """FORD's project, checked as soon as visibility is resolved."""
 
     def correlate(self):
         super().correlate()

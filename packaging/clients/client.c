@@ -1,4 +1,4 @@
-/* A client in C: does the header agree with the library that was linked, and does the library compute? */
+/* Client in C: checks that header and library agree, and computes a force. */
 #include <microslip.h>
 #include <stdio.h>
 #include <string.h>

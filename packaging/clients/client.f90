@@ -1,4 +1,4 @@
-! A client in Fortran: does the module agree with the library that was linked, and does the library compute?
+! Client in Fortran: checks that module and library agree, and computes a force.
 program client
   use microslip
   implicit none

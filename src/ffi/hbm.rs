@@ -29,8 +29,9 @@ pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: si
 ///
 /// MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
 /// MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
-/// nodes per period between them, at least 8 between two events; its error decreases exponentially, and the energy is exact. It
-/// searches for reversals on a grid of at least `samples` and 16 H instants.
+/// nodes per period between them, at least 8 between two events. Its error decreases exponentially, more slowly for more harmonics:
+/// 16 (H+1) nodes have worst measured errors of 1e-7 of mu N in the force and 1e-4 of the initial stiffness in the Jacobian; the
+/// energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
@@ -112,7 +113,10 @@ pub(super) fn harmonic_force_dispatched(
 ///
 /// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
 /// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
-/// integrals, as accurate as the force.
+/// integrals; it converges more slowly than the force.
+///
+/// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly.
+/// For displacements measured from another position, pass c0 minus the unloaded position.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///
