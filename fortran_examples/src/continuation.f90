@@ -47,13 +47,7 @@ contains
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
     if (.not. converged) call fail('no harmonic balance found at the first frequency, '//hertz(omega))
-    call append()
-    call set_scale()
-    previous = 0.0_wp
-    previous(m * contacts + 1) = direction
-    call path_tangent()
-
-    step = 0.1_wp * max_step
+    call start_path()
     do while (direction * (omega - omega_to) < 0.0_wp)
       call advance()
       if (converged) then
@@ -62,11 +56,30 @@ contains
         if (iterations >= many_steps) step = 0.6_wp * step
       else
         step = 0.4_wp * step
-        if (step < min_step) call fail('the continuation stops at '//hertz(omega)//': step too small')
       end if
+      if (step < min_step .or. direction * (omega - omega_from) < 0.0_wp) call jump()
     end do
 
   contains
+
+    !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
+    !> no tangent leads on, or the one that is found leads back.
+    subroutine jump()
+      omega = direction * maxval(direction * path%omega(:path%points)) + (omega_to - omega_from) / (10 * steps_over_range)
+      call solve_from_rest(problem, omega, u, point, converged)
+      if (.not. converged) call fail('no harmonic balance found at '//hertz(omega))
+      call start_path()
+    end subroutine jump
+
+    !> The first point of the path, or that after a jump.
+    subroutine start_path()
+      call append()
+      call set_scale()
+      previous = 0.0_wp
+      previous(m * contacts + 1) = direction
+      call path_tangent()
+      step = 0.1_wp * max_step
+    end subroutine start_path
 
     subroutine append()
       if (path%points == max_points) then
