@@ -59,20 +59,25 @@ contains
 
   contains
 
-    !> A misspelt group would otherwise be ignored.
+    !> A misspelt group, or a last one without its end, would otherwise be ignored.
     subroutine check_group_names()
       character(len=*), parameter :: known = ' output model excitation contact harmonic_balance sweep points time_integration '
       character(len=512) :: line
+      logical :: open
       integer :: first
 
+      open = .false.
       do
         read (unit, '(a)', iostat=status) line
         if (status /= 0) exit
+        if (adjustl(line) == '/') open = .false.
         first = index(line, '&')
         if (first == 0 .or. len_trim(line(:max(first, 1) - 1)) > 0) cycle
         group = line(first + 1:first + scan(line(first + 1:)//' ', ' /,!') - 1)
         call require(index(known, ' '//trim(group)//' ') > 0, 'unknown; known are'//known)
+        open = .true.
       end do
+      call require(.not. open, 'a line "/" must end it')
     end subroutine check_group_names
 
     subroutine require(condition, problem)
