@@ -164,7 +164,7 @@ contains
         f = force(j, contact) / data%contacts(contact)%count
         write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
           csv([2.0_wp * pi * i / loop_points, u(j, contact), f, &
-               u(j, contact) - f / problem%contacts%sliders(contact)%stiffness])
+               u(j, contact) - f / max(problem%contacts%sliders(contact)%stiffness, tiny(f))])
       end do
     end do
   end subroutine write_loops
