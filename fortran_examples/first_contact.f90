@@ -1,5 +1,5 @@
 program first_contact
-  ! Prepare a contact, and ask what it does under a displacement of half a micrometre.
+  ! A flat contact with rounded edges in harmonic motion with an amplitude of half a micrometre.
   use microslip
   implicit none
 
@@ -16,6 +16,7 @@ program first_contact
     friction_coefficient=0.5_wp, material=[mslip_material(2.0e11_wp, 0.3_wp), mslip_material(2.0e11_wp, 0.3_wp)])
   allocate (workspace(mslip_harmonic_workspace_length(harmonics, samples)))
 
+  ! Once for each contact, then any of the other calls. Every call returns a status.
   call mslip_contact_init(p, contact, status)
   if (status == MSLIP_OK) call mslip_complex_stiffness(contact, amplitude, status, k_real, k_imag)
   if (status == MSLIP_OK) call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)

@@ -29,7 +29,6 @@ doxygen         check docs                                            : command 
 python3-venv    check docs                                            : command python3 -c "import ensurepip"
 openmpi-bin     check parallel                                        : command mpirun
 libopenmpi-dev  check parallel                                        : command mpifort
-zlib1g-dev      check parallel                                        : library z
 dpkg-dev        host                                                  : command dpkg-source
 libspooles-dev  host                                                  : library spooles
 libarpack2-dev  host                                                  : library arpack

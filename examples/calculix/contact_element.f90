@@ -13,9 +13,9 @@
 !   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
 !   direction of sliding
 !
-! A displacement of the second node against the first along the direction (a unit vector is made of it) is positive. State
-! variables: 1 force on the second node's mover, 2 displacement, 3 energy dissipated so far, 4... the state of the law.
-! The direction does not rotate with the structure.
+! The displacement is that of the second node relative to the first in the direction of sliding, which is normalised and does not
+! rotate with the structure. State variables: 1 force, positive with the displacement, 2 displacement, 3 energy dissipated so far,
+! 4... the state of the law.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -28,8 +28,8 @@ module contact_element
 
 contains
 
-  !> The contact of the element's material. It is initialised in every call, in 20 us, and nothing is kept between calls, which
-  !> CalculiX makes from several threads.
+  !> The contact of the element's material. It is initialised in every call, in 20 us: CalculiX calls from several threads, and
+  !> nothing is kept between calls.
   subroutine prepare(element, kind_and_count, constants, contact)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
@@ -37,7 +37,7 @@ contains
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    if (kind_and_count /= -109) call fail(element, 'its material is to be a *USER MATERIAL with 9 constants')
+    if (kind_and_count /= -109) call fail(element, 'its material must be a *USER MATERIAL with 9 constants')
     call mslip_parameters_default(p)
     p%flat_half_width = constants(1)
     p%edge_radius = constants(2)
@@ -56,7 +56,7 @@ contains
     real(wp) :: d(3)
 
     d = properties(property + 1:property + 3)
-    if (.not. norm2(d) > 0) call fail(element, 'its *USER SECTION is to give a direction')
+    if (.not. norm2(d) > 0) call fail(element, 'its *USER SECTION must have a direction')
     d = d/norm2(d)
   end function direction
 
@@ -75,7 +75,7 @@ contains
 
     status = MSLIP_OK
     state = before(printed + 1:)
-    if (all(abs(state) <= 0)) then  ! CalculiX begins with zeros
+    if (all(abs(state) <= 0)) then  ! initial state variables of CalculiX
       if (abs(start) > 0) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
         'have state variables only if the model has a *CONTACT PAIR)')
       call mslip_state_init(state, status)
@@ -100,7 +100,7 @@ contains
 
 end module contact_element
 
-!> Called in every iteration: nodal forces, state, and the stiffness, which is handed to e_c3d_u1 in xstiff.
+!> Called in every iteration: nodal forces, state, and the stiffness, which is passed to e_c3d_u1 in xstiff.
 subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhcon, nrhcon, alcon, nalcon, alzero, &
     ielmat, ielorien, norien, orab, ntmat_, t0, t1, ithermal, prestr, iprestr, eme, iperturb, fn, iout, qa, vold, &
     nmethod, veold, dtime, time, ttime, plicon, nplicon, plkcon, nplkcon, xstateini, xstiff, xstate, npmat_, matname, &
@@ -109,14 +109,14 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   use contact_element
   use microslip, only: mslip_contact
   implicit none
-  ! What is used: node numbers of element i from kon(ipkon(i) + 1); displacements of this iteration, v, of the one before,
-  ! vold, and at the start of the increment, vini; constants of the material; properties of the section; state variables
-  ! at the start (xstateini) and the end (xstate) of the increment.
+  ! Used: node numbers of element i from kon(ipkon(i) + 1); displacements of this iteration, v, of the previous one, vold, and at
+  ! the start of the increment, vini; constants of the material; properties of the section; state variables at the start
+  ! (xstateini) and the end (xstate) of the increment.
   integer :: mi(*), ncmat_, ntmat_, nstate_, kon(*), ipkon(*), nelcon(2, *), ielmat(mi(3), *), iperturb(*), nmethod, icmd
   integer :: calcul_fn, calcul_qa, nal, i, ielprop(*)
   real(wp) :: v(0:mi(2), *), vold(0:mi(2), *), vini(0:mi(2), *), fn(0:mi(2), *), elcon(0:ncmat_, ntmat_, *), qa(*), prop(*)
   real(wp) :: xstateini(nstate_, mi(1), *), xstate(nstate_, mi(1), *), xstiff(27, mi(1), *)
-  ! What is not.
+  ! Not used.
   character(len=8) :: lakon(*)
   character(len=80) :: matname(*)
   integer :: ne, nrhcon(*), nalcon(*), ielorien(*), norien, ithermal(*), iprestr, iout, nplicon(*), nplkcon(*), npmat_
@@ -137,15 +137,15 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   if (iperturb(1) >= 2) then
     call update(i, contact, slide(v), slide(vini), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
     if (.not. accepted) then
-      qa(3) = 0.25_wp  ! asks for an increment of a quarter
+      qa(3) = 0.25_wp  ! requests a quarter of the increment
       return
     end if
     force = xstate(1, 1, i)
   else
-    ! Linear and independent of the load history: small vibrations about any state begin with the initial stiffness. So does any
-    ! branch in the first iteration of a step whose supports move (-1), in which the force of the change alone is required.
+    ! Small vibrations about any state have the initial stiffness. So has the first iteration of a step with moving supports (-1),
+    ! which requires the change of the force alone.
     if (nmethod == 1 .and. iperturb(1) /= -1) &
-      call fail(i, 'the step is linear, as CalculiX takes one after *FREQUENCY unless it has NLGEOM')
+      call fail(i, 'the step is linear; after *FREQUENCY a static step needs NLGEOM')
     stiffness = contact%initial_stiffness
     force = stiffness*slide(v)
     if (iperturb(1) == -1) force = force - stiffness*slide(vold)
@@ -163,7 +163,7 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
 
 contains
 
-  !> Displacement of the second node against the first.
+  !> Displacement of the second node relative to the first.
   function slide(nodal)
     real(wp), intent(in) :: nodal(0:mi(2), *)
     real(wp) :: slide
@@ -184,7 +184,7 @@ subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nele
   implicit none
   integer :: nelem, mi(*), ielprop(*)
   real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*)
-  ! What is not used.
+  ! Not used.
   character(len=8) :: lakonl
   character(len=20) :: sideload(*)
   character(len=80) :: matname(*)
@@ -205,7 +205,7 @@ subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nele
   ff(1:6) = 0
 end subroutine e_c3d_u1
 
-!> Stresses and other fields at nodes: the contact has none, and leaves those of the elements around it alone.
+!> Stresses and other fields at nodes: the contact has none.
 subroutine extrapolate_u1(yi, yn, ipkon, inum, kon, lakon, nfield, nk, ne, mi, ndim, orab, ielorien, co, iorienloc, cflag, &
     vold, force, ielmat, thicke, ielprop, prop, i)
   use contact_element, only: wp

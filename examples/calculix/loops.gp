@@ -1,4 +1,4 @@
-# What CalculiX found, on the curves of the library: `compare` writes these into build/jobs.
+# Results of CalculiX, and the curves of the library that `compare` writes into build/jobs.
 set datafile separator ','
 set datafile columnheaders
 set encoding utf8

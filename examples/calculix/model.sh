@@ -2,16 +2,16 @@
 # model.sh: writes the input of CalculiX into the working directory. Millimetres, newtons, tonnes, seconds.
 #
 # A blade of 120 x 40 x 6, clamped at x = 0, is bent by a force in z at its tip. At x = 20, in the middle of its lower
-# face, it rubs in z on a node that is held. 12 x 2 x 1 elements with incompatible modes.
+# face, a contact in z connects it to a fixed node. 12 x 2 x 1 elements with incompatible modes.
 #
 #   blade.inp      mesh, contact, supports: included by the others
-#   law.inp        the contact's numbers: a, R, L, N, mu, E1, nu1, E2, nu2
-#   static.inp     loads back and forth, a step each, in increments that CalculiX chooses
+#   law.inp        constants of the contact: a, R, L, N, mu, E1, nu1, E2, nu2
+#   static.inp     cyclic loads, a step each, in increments that CalculiX chooses
 #   resumed.inp    the last three of these steps, from a restart file of the fourth
 #   dynamic.inp    a force of constant frequency between the first resonances of the sliding and of the sticking blade
 #   frequency.inp  natural frequencies of the sticking blade
-#   matrices.inp   stiffness and mass of the blade alone, for who wants to compute the same
-#   *_load.csv     the force at the tip over time, linear between
+#   matrices.inp   stiffness and mass of the blade alone, for compare.f90
+#   *_load.csv     force at the tip over time, linear in between
 set -eu
 
 # Columns: x, then y, then z.
@@ -48,7 +48,7 @@ root, 1, 3
 5000, 1, 3
 END
 
-# 44 state variables: 3 to be read, and a state that holds 12 reversals exactly.
+# 44 state variables: 3 results, and a state that holds 12 reversals exactly.
 cat > blade.inp << 'END'
 *INCLUDE, INPUT=blade_alone.inp
 *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
@@ -63,7 +63,7 @@ cat > blade.inp << 'END'
 *INCLUDE, INPUT=for_restart.inp
 END
 
-# A pair that never meets: CalculiX 2.20 writes state variables to a restart file only if there is a contact of its own.
+# An open contact pair: without one, CalculiX 2.20 writes no state variables to a restart file.
 cat > for_restart.inp << 'END'
 *SURFACE, NAME=end, TYPE=ELEMENT
 12, S2
@@ -76,8 +76,7 @@ cat > for_restart.inp << 'END'
 held, end
 END
 
-# Newton's method goes on until residuals and corrections are 1e-9 of forces and displacements: CalculiX is content with
-# 5e-3 and 1e-2, which would hide the differences that are looked for.
+# Tolerances of residuals and corrections: the defaults, 5e-3 and 1e-2, would hide the differences to be found.
 controls='*CONTROLS, PARAMETERS=FIELD
 1.e-9, 1.e-9'
 output='*NODE PRINT, NSET=tip
@@ -87,13 +86,13 @@ SDV'
 tip='*NSET, NSET=tip
 113'
 
-# step LOAD: to this load.
+# step LOAD: a static step to this load.
 step() {
     printf '%s\n' '*STEP, INC=500' '*STATIC' '0.3, 1., 1.e-5, 0.3' "$controls" '*RESTART, WRITE' \
         '*CLOAD' "113, 3, $1." "$output" '*END STEP'
 }
 
-# From nothing beyond gross slip, back, and small loops within it; and from the end of the fourth step once more.
+# Gross slip in both directions and small loops; and again from the end of the fourth step.
 {
     printf '%s\n' '*INCLUDE, INPUT=blade.inp' "$tip"
     for load in 75 -75 50 -35 45 -75 75; do step "$load"; done

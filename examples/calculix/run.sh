@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the
-# models, and compares what it finds with the library. PREFIX is where microslip is installed. Everything is made in
-# build/; the tables and the picture of results/ are written anew.
+# run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the models,
+# compares the results with the library, and rewrites tables and figure in results/. PREFIX is the installation of microslip;
+# everything else is in build/.
 set -eu
 
 prefix=$(cd "${1:?usage: run.sh PREFIX}" && pwd)
@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 : "${FC:=gfortran}" "${CC:=gcc}" "${GNUPLOT:=gnuplot}"
 mkdir -p build results
 
-# The source, whatever release of Debian this is: apt asks for it by name and checks its signature, from a list of its own.
+# The source package on any Debian release: apt verifies its signature, with a source list of its own.
 source=build/calculix-ccx-2.20/ccx_2.20/src
 if [ ! -d "$source" ]; then
     apt=$PWD/build/apt
@@ -22,13 +22,13 @@ if [ ! -d "$source" ]; then
     (cd build && apt-get "$@" source calculix-ccx=2.20-1)
 fi
 
-# All of CalculiX as an archive, by its own makefile.
+# CalculiX as an archive, by its own makefile.
 flags='-w -O1'
 make -C "$source" ccx_2.20.a CC="$CC" FC="$FC" FFLAGS="$flags -fallow-argument-mismatch" \
     CFLAGS="$flags -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1" > build/make.log 2>&1 ||
     { tail -n 20 build/make.log; exit 1; }
 
-# Linked before the archive, the routines of U1 are ours.
+# Linked before the archive, these routines replace those of U1.
 strict='-std=f2008 -Wall -Wextra -pedantic -Wno-unused-dummy-argument'
 (
     cd build
@@ -73,12 +73,11 @@ cp law.inp ../../results/
 
 tail -n +2 resumed.csv > resumed.tail
 tail -n "$(wc -l < resumed.tail)" ../../results/static.csv | cmp - resumed.tail ||
-    { echo 'After a restart the results of CalculiX differ.'; exit 1; }
+    { echo 'The results after a restart differ.'; exit 1; }
 rejected=$(awk '$3 ~ /U$/' static.sta | wc -l)
-[ "$rejected" -gt 0 ] || { echo 'No increment was rejected: rejected increments are not tested.'; exit 1; }
-echo "increments rejected: $rejected; after a restart: the same digits"
+[ "$rejected" -gt 0 ] || { echo 'No increment was rejected: that case is not tested.'; exit 1; }
+echo "rejected increments: $rejected; the results after a restart are equal"
 
 cd ../..
 build/compare results build/jobs
 "$GNUPLOT" loops.gp
-sha256sum contact_element.f90 model.sh loops.gp results/*.csv results/law.inp > results/made.sha256

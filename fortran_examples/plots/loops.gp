@@ -1,5 +1,5 @@
-# Hysteresis loops over one period of the resonance peak. Below, the displacement is less that of a contact that sticks
-# everywhere, force / initial stiffness: what is left is slip, which a spring-slider has none of before gross slip.
+# Hysteresis loops over one period of the resonance peak. Below, minus the displacement of a contact that sticks everywhere,
+# force / initial stiffness: the slip part, which is zero for a spring-slider before gross slip.
 load 'plots/style.gp'
 name = 'loops'
 wide = 1060

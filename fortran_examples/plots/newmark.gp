@@ -12,26 +12,16 @@ set style line 31 lc rgb '#0072B2' lw 1.8 dt 1     pt 7 ps 0.9
 set style line 32 lc rgb '#D55E00' lw 1.8 dt (8,4) pt 5 ps 0.9
 set style line 33 lc rgb '#222222' lw 1.6 dt (2,3) pt 9 ps 1.0
 
-# Columns of panels: the two cases; above, the middle one of their three frequencies.
-cases = 'newmark newmark_optimum'
-table(case)     = sprintf('results/%s_comparison.csv', case)
-waveforms(case) = sprintf('results/%s_waveforms.csv', case)
+# The two groups &time_integration of cylinder.nml; above, the middle one of their three frequencies.
+differences = 'results/cylinder_comparison.csv'
+array normal_force[2] = [250, 7]
+array frequency[6] = [464.0, 464.6, 465.6, 420, 425, 430]
 
-# Normal forces and frequencies of the cases, in their order.
-array normal_force[2]
-array frequency[6]
-do for [c=1:2] {
-  stats table(word(cases, c)) using 'load_factor' nooutput
-  normal_force[c] = STATS_max
-  do for [i=1:3] {
-    stats table(word(cases, c)) using ($0 == 7*(i-1) ? column('frequency_hz') : NaN) nooutput
-    frequency[3*(c-1) + i] = STATS_max
-  }
-}
 same(a, b) = abs(a - b) < 1e-6 * abs(b)
-wave(source, harmonics, f, value) = (strcol('source') eq source && column('harmonics') == harmonics \
-  && (source eq 'time_integration' || column('points') > 128) && same(column('frequency_hz'), f) ? value : NaN)
-row(f, value) = (same(column('frequency_hz'), f) && column('samples') > 128 ? value : NaN)
+# The balance of the case itself, with 128 samples, is not shown.
+wave(harmonics) = (column('harmonics') == harmonics && column('points') != 128 && same(column('frequency_hz'), f) \
+  ? micro(column('contact_displacement_m')) : NaN)
+row(f) = (same(column('frequency_hz'), f) && column('samples') != 128 ? column('response_difference') : NaN)
 
 do for [extension in 'svg png'] {
   @set_terminal
@@ -47,16 +37,10 @@ do for [extension in 'svg png'] {
     set xtics 0, 90, 360
     set yrange [*:*]
     set offsets 0, 0, graph 0.35, graph 0.05
-    if (c == 1) { set key top left Left reverse samplen 3 maxrows 2 } else { unset key }
-    plot waveforms(word(cases, c)) \
-           using (57.29578*column('phase_rad')):(wave('time_integration', 0, f, micro(column('contact_displacement_m')))) \
-           with lines ls 21 title 'Newmark', \
-         '' using (57.29578*column('phase_rad')):(wave('balance', 1, f, micro(column('contact_displacement_m')))) \
-           with lines ls 22 title '1 harmonic', \
-         '' using (57.29578*column('phase_rad')):(wave('balance', 5, f, micro(column('contact_displacement_m')))) \
-           with lines ls 23 title '5 harmonics', \
-         '' using (57.29578*column('phase_rad')):(wave('balance', 25, f, micro(column('contact_displacement_m')))) \
-           with lines ls 24 title '25 harmonics'
+    if (c == 1) { set key top left Left reverse samplen 2 maxrows 2 } else { unset key }
+    plot for [i=1:4] 'results/cylinder_waveforms.csv' \
+      using (57.29578*column('phase_rad')):(wave(word('0 1 5 25', i) + 0)) \
+      with lines ls 20+i title word('Newmark "1 harmonic" "5 harmonics" "25 harmonics"', i)
   }
   set offsets 0, 0, 0, 0
   set logscale y
@@ -69,8 +53,7 @@ do for [extension in 'svg png'] {
     set title sprintf('damper at %g N', normal_force[c])
     set yrange [3e-5:1]
     set key top right Left reverse samplen 3
-    plot for [i=1:3] table(word(cases, c)) \
-      using 'harmonics':(row(frequency[3*(c-1) + i], column('response_difference'))) \
+    plot for [i=1:3] differences using 'harmonics':(row(frequency[3*(c-1) + i])) \
       with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
   }
   unset multiplot

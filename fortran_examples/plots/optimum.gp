@@ -1,4 +1,4 @@
-# Resonance peak against the normal force of the damper, the classical optimum, and how far the laws are apart.
+# Resonance peak against the normal force of the damper, and the ratio of the laws.
 load 'plots/style.gp'
 name = 'optimum'
 wide = 1120
@@ -10,7 +10,7 @@ set xlabel 'normal force of the damper (N)'
 set xrange [0.2:5000]
 peaks(law) = sprintf('results/%s_peaks.csv', law)
 
-# Peaks of the spring-slider by the number of the load, for the right panel; before any range hides some.
+# Peaks of the spring-slider by the number of the load, for the right panel; before any range is set.
 stats peaks('spring_slider') using (column('load')) nooutput
 array slider_peak[STATS_records]
 stats peaks('spring_slider') using (slider_peak[int(column('load'))] = column('peak_m')) nooutput
@@ -18,7 +18,7 @@ relative(dummy) = column('peak_m') / slider_peak[int(column('load'))]
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 1, 2 margins 0.075, 0.985, 0.14, 0.965 spacing 0.085, 0
+  set multiplot layout 1, 2 margins 0.085, 0.985, 0.14, 0.965 spacing 0.09, 0
   set logscale y
   set yrange [1:2000]
   set ylabel 'resonance peak at the blade tip (µm)'

@@ -14,7 +14,7 @@ set style line 15 lc rgb colours[5] dt (8,3,2,3) lw 1.8
 set style line 16 lc rgb colours[6] dt (4,2) lw 1.8
 set style line 17 lc rgb colours[7] dt 1 lw 2.2
 
-# The normal forces, for the key; before any range is set, which would hide some.
+# The normal forces, for the key; before any range is set, which would exclude some.
 stats 'results/cylinder_peaks.csv' using 'damper_normal_force_N' nooutput
 loads = STATS_records
 array normal_force[loads]

@@ -1,5 +1,5 @@
 # Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito, viridis); lines differ in dash,
-# width and mark too, so that they can be told apart in grey.
+# width and mark too, so that they are distinct in grey.
 set datafile separator ','
 set datafile missing 'nan'
 set datafile columnheaders

@@ -1,106 +1,241 @@
-!> Writes the reduced model of two blades, or holds the files of an earlier run against it.
+!> Two neighbouring titanium blades as finite elements, reduced to the degrees of freedom of contacts and excitation.
 !>
-!>     blade_model write DIRECTORY
-!>     blade_model check DIRECTORY
+!>     blade_model write|check DIRECTORY       the model files, or whether they are those of this program
+!>
+!> Each blade is a Timoshenko beam that bends in the circumferential direction. Its foot sits in a dovetail slot: the
+!> flanks, pressed together by the centrifugal force, carry the deflection w in their normal direction (a stiff
+!> spring) and part of the rocking of the foot (a spring: the pressure moves along the flanks). The rest of the rocking
+!> is carried by friction: a rotation theta of the foot slides the two flanks, a lever r away from the axis of the
+!> blade, by +r theta and -r theta. By symmetry both flanks have the same loop, so one coordinate, r theta, serves both.
+!>
+!> The platform is a rigid mass 30 mm above the foot. The damper is pressed against the undersides of the two platforms
+!> and seated in the second one, so that it slides on the first. At the damper an underside moves by w - e theta, with e the
+!> distance from the axis of the platform to its underside.
 program blade_model
-  use blade_pair, only: build_blade_pair, full_blade, reduced_blade
-  use dense_algebra, only: symmetric_modes
-  use kinds, only: name_length, path_length, pi, wp
-  use linear_structure, only: read_structure, structure, write_dof_map
-  use matrix_market, only: write_symmetric_matrix
-  use messages, only: fail, progress, text
+  use basics, only: argument, fail, name_length, open_table, pi, progress, text, wp
+  use dense_algebra, only: solve, symmetric_modes
+  use linear_structure, only: read_matrix, write_matrix
   implicit none
 
-  ! Matrices are compared entry by entry, relative to the diagonal. Another LAPACK moves the modes by its rounding
-  ! error times the condition of the stiffness matrix, about 1e-16 * 1e6.
-  real(wp), parameter :: tolerance = 1.0e-9_wp
-  ! A reduction that moves a natural frequency of interest by more than this is of no use.
-  real(wp), parameter :: reduction_tolerance = 1.0e-3_wp
-  integer, parameter :: frequencies_of_interest = 4
+  character(len=*), parameter :: usage = 'blade_model write|check DIRECTORY'
+  real(wp), parameter :: young_modulus = 114.0e9_wp       ! Ti-6Al-4V, Pa
+  real(wp), parameter :: poisson_ratio = 0.32_wp
+  real(wp), parameter :: density = 4430.0_wp              ! kg/m3
+  real(wp), parameter :: blade_length = 0.120_wp          ! m
+  real(wp), parameter :: blade_width = 0.040_wp
+  real(wp), parameter :: blade_thickness = 0.006_wp
+  integer, parameter :: elements = 24, n = 2 * (elements + 1)
+  integer, parameter :: platform_node = 6                 ! 30 mm above the foot, node 0
 
-  character(len=path_length) :: mode, directory
-  real(wp), allocatable :: mass(:,:), damping(:,:), stiffness(:,:)
-  character(len=name_length), allocatable :: names(:)
+  real(wp), parameter :: foot_stiffness = 5.0e8_wp        ! flanks in their normal direction, N/m
+  real(wp), parameter :: rocking_stiffness = 2.0e4_wp     ! rocking not carried by friction, N m/rad
+  real(wp), parameter :: flank_lever = 0.008_wp           ! r, m
+  real(wp), parameter :: platform_mass = 0.012_wp         ! kg
+  real(wp), parameter :: platform_inertia = 4.0e-7_wp     ! kg m2
+  real(wp), parameter :: underside_distance = 0.003_wp    ! e, m
 
-  if (command_argument_count() /= 2) call fail('usage: blade_model write|check DIRECTORY')
-  call get_command_argument(1, mode)
-  call get_command_argument(2, directory)
+  real(wp), parameter :: mistuning = 0.005_wp             ! of the stiffness of the second blade
+  real(wp), parameter :: damping_ratio = 1.0e-3_wp        ! material and air, in all modes
+  integer, parameter :: modes_kept = 8                    ! of each blade, with its boundary fixed
+  character(len=8), parameter :: boundary_name(3) = ['root    ', 'platform', 'tip     ']
+  integer, parameter :: boundary(3) = [2, 2 * platform_node + 1, 2 * elements + 1]      ! rotation, deflection, deflection
+  integer, parameter :: reduced = size(boundary) + modes_kept
 
-  call build_blade_pair(mass, damping, stiffness, names)
-  call check_reduction()
-  select case (mode)
+  ! Largest change of a natural frequency by the reduction, and of an entry of the matrices, relative to the diagonal: another
+  ! LAPACK changes the modes by its rounding error times the condition of the stiffness matrix, about 1e-16 * 1e6.
+  real(wp), parameter :: reduction_tolerance = 1.0e-3_wp, file_tolerance = 1.0e-9_wp
+
+  real(wp), dimension(2 * reduced, 2 * reduced) :: mass, damping, stiffness
+  real(wp) :: blade_mass(n, n), blade_stiffness(n, n)
+  character(len=:), allocatable :: prefix
+  integer :: blade, first, last, unit, i
+
+  mass = 0.0_wp
+  damping = 0.0_wp
+  stiffness = 0.0_wp
+  do blade = 1, 2
+    first = (blade - 1) * reduced + 1
+    last = blade * reduced
+    call assemble(young_modulus * merge(1.0_wp, 1.0_wp + mistuning, blade == 1), blade_mass, blade_stiffness)
+    call reduce(blade_mass, blade_stiffness, mass(first:last, first:last), stiffness(first:last, first:last))
+    damping(first:last, first:last) = modal_damping(mass(first:last, first:last), stiffness(first:last, first:last))
+    call check_reduction()
+  end do
+
+  prefix = trim(argument(2, usage))//'/blades_'
+  select case (argument(1, usage))
   case ('write')
-    call write_files(trim(directory)//'/blades')
+    call write_matrix(prefix//'mass.mtx', 'mass of two blades, kg', mass)
+    call write_matrix(prefix//'damping.mtx', 'damping of two blades, N s/m', damping)
+    call write_matrix(prefix//'stiffness.mtx', 'stiffness of two blades, contacts open, N/m', stiffness)
+    unit = open_table(prefix//'dof.txt', '# degrees of freedom of two blades; modes are mass-normalised')
+    do blade = 1, 2
+      do i = 1, reduced
+        write (unit, '(4a)') text(i + (blade - 1) * reduced), ' ', trim(dof_name(i)), '_'//text(blade)
+      end do
+    end do
+    close (unit)
   case ('check')
-    call check_files(trim(directory)//'/blades')
+    call compare('mass', mass)
+    call compare('damping', damping)
+    call compare('stiffness', stiffness)
   case default
-    call fail('first argument "'//trim(mode)//'": must be write or check')
+    call fail('usage: '//usage)
   end select
 
 contains
 
+  pure function dof_name(i) result(name)
+    integer, intent(in) :: i
+    character(len=name_length) :: name
+
+    name = boundary_name(min(i, size(boundary)))
+    if (i > size(boundary)) name = 'mode_'//text(i - size(boundary))
+  end function dof_name
+
+  !> Stiffness and mass of one Timoshenko element, (deflection, rotation) at both nodes. Its interpolation satisfies the static
+  !> equations exactly (Friedman and Kosmatka, Computers and Structures 47, 1993), so that thin beams do not lock.
+  pure subroutine beam_element(modulus, l, k, m)
+    real(wp), intent(in) :: modulus, l
+    real(wp), intent(out) :: k(4, 4), m(4, 4)
+    ! Gauss points and weights on [0, 1]: the mass has polynomials of degree 6.
+    real(wp), parameter :: inner = sqrt(3.0_wp / 7.0_wp - 2.0_wp / 7.0_wp * sqrt(1.2_wp))
+    real(wp), parameter :: outer = sqrt(3.0_wp / 7.0_wp + 2.0_wp / 7.0_wp * sqrt(1.2_wp))
+    real(wp), parameter :: point(4) = 0.5_wp * (1.0_wp + [-outer, -inner, inner, outer])
+    real(wp), parameter :: inner_weight = (18.0_wp + sqrt(30.0_wp)) / 72.0_wp
+    real(wp), parameter :: weight(4) = [0.5_wp - inner_weight, inner_weight, inner_weight, 0.5_wp - inner_weight]
+    real(wp), parameter :: area = blade_width * blade_thickness, second_moment = area * blade_thickness**2 / 12.0_wp
+    real(wp) :: bending, shear, deflection(4), rotation(4), x
+    integer :: g, i
+
+    bending = modulus * second_moment
+    shear = 12.0_wp * bending / (5.0_wp / 6.0_wp * modulus / (2.0_wp * (1.0_wp + poisson_ratio)) * area * l**2)
+    k = reshape([12.0_wp,    6.0_wp * l,             -12.0_wp,    6.0_wp * l, &
+                 6.0_wp * l, (4.0_wp + shear) * l**2, -6.0_wp * l, (2.0_wp - shear) * l**2, &
+                 -12.0_wp,   -6.0_wp * l,            12.0_wp,     -6.0_wp * l, &
+                 6.0_wp * l, (2.0_wp - shear) * l**2, -6.0_wp * l, (4.0_wp + shear) * l**2], [4, 4])
+    k = k * bending / (l**3 * (1.0_wp + shear))
+
+    m = 0.0_wp
+    do g = 1, size(point)
+      x = point(g)
+      deflection = [1.0_wp - 3.0_wp * x**2 + 2.0_wp * x**3 + shear * (1.0_wp - x), &
+                    l * (x - 2.0_wp * x**2 + x**3 + 0.5_wp * shear * (x - x**2)), &
+                    3.0_wp * x**2 - 2.0_wp * x**3 + shear * x, &
+                    l * (-x**2 + x**3 + 0.5_wp * shear * (x**2 - x))] / (1.0_wp + shear)
+      rotation = [6.0_wp / l * (x**2 - x), &
+                  1.0_wp - 4.0_wp * x + 3.0_wp * x**2 + shear * (1.0_wp - x), &
+                  6.0_wp / l * (x - x**2), &
+                  3.0_wp * x**2 - 2.0_wp * x + shear * x] / (1.0_wp + shear)
+      do i = 1, 4
+        m(:, i) = m(:, i) + weight(g) * l * density * (area * deflection * deflection(i) &
+                                                       + second_moment * rotation * rotation(i))
+      end do
+    end do
+  end subroutine beam_element
+
+  !> All degrees of freedom of one blade, deflection and rotation of nodes 0, 1, ...; the rotation of the foot is replaced by
+  !> the sliding of the flanks, and the deflection of the platform by that of its underside.
+  subroutine assemble(modulus, m, k)
+    real(wp), intent(in) :: modulus
+    real(wp), intent(out) :: m(n, n), k(n, n)
+    real(wp) :: element_stiffness(4, 4), element_mass(4, 4), change(n, n)
+    integer :: d, i
+
+    call beam_element(modulus, blade_length / elements, element_stiffness, element_mass)
+    m = 0.0_wp
+    k = 0.0_wp
+    do d = 1, n - 3, 2
+      k(d:d + 3, d:d + 3) = k(d:d + 3, d:d + 3) + element_stiffness
+      m(d:d + 3, d:d + 3) = m(d:d + 3, d:d + 3) + element_mass
+    end do
+    associate (platform => boundary(2))
+      k(1, 1) = k(1, 1) + foot_stiffness
+      k(2, 2) = k(2, 2) + rocking_stiffness
+      m(platform, platform) = m(platform, platform) + platform_mass
+      m(platform + 1, platform + 1) = m(platform + 1, platform + 1) + platform_inertia
+      change = 0.0_wp
+      do i = 1, n
+        change(i, i) = 1.0_wp
+      end do
+      change(2, 2) = 1.0_wp / flank_lever
+      change(platform, platform + 1) = underside_distance
+    end associate
+    m = matmul(transpose(change), matmul(m, change))
+    k = matmul(transpose(change), matmul(k, change))
+  end subroutine assemble
+
+  !> Reduction to the boundary, which stays physical, and modes with the boundary fixed (Craig and Bampton, AIAA Journal 6,
+  !> 1968).
+  subroutine reduce(m, k, reduced_mass, reduced_stiffness)
+    real(wp), intent(in) :: m(n, n), k(n, n)
+    real(wp), intent(out) :: reduced_mass(reduced, reduced), reduced_stiffness(reduced, reduced)
+    real(wp) :: basis(n, reduced), static(n - size(boundary), size(boundary)), factor(n - size(boundary), n - size(boundary))
+    real(wp) :: modes(n - size(boundary), n - size(boundary)), omega(n - size(boundary))
+    integer :: interior(n - size(boundary)), i
+
+    interior = pack([(i, i=1, n)], [(all(boundary /= i), i=1, n)])
+    ! Static deflections of the interior under unit displacements of the boundary.
+    factor = k(interior, interior)
+    static = -k(interior, boundary)
+    call solve(factor, static)
+    call symmetric_modes(k(interior, interior), m(interior, interior), omega, modes)
+
+    basis = 0.0_wp
+    do i = 1, size(boundary)
+      basis(boundary(i), i) = 1.0_wp
+    end do
+    basis(interior, :size(boundary)) = static
+    do i = 1, modes_kept
+      ! The sign of a mode is arbitrary; a fixed choice makes the files independent of the LAPACK.
+      basis(interior, size(boundary) + i) = sign(1.0_wp, sum(modes(:, i))) * modes(:, i)
+    end do
+    reduced_mass = matmul(transpose(basis), matmul(m, basis))
+    reduced_stiffness = matmul(transpose(basis), matmul(k, basis))
+    reduced_mass = 0.5_wp * (reduced_mass + transpose(reduced_mass))
+    reduced_stiffness = 0.5_wp * (reduced_stiffness + transpose(reduced_stiffness))
+  end subroutine reduce
+
+  !> The same damping ratio in all modes of the blade with open contacts: D = M Phi diag(2 zeta omega) Phi^T M.
+  function modal_damping(m, k) result(d)
+    real(wp), intent(in) :: m(:,:), k(:,:)
+    real(wp) :: d(size(m, 1), size(m, 1)), omega(size(m, 1)), modes(size(m, 1), size(m, 1)), scaled(size(m, 1), size(m, 1))
+    integer :: i
+
+    call symmetric_modes(k, m, omega, modes)
+    modes = matmul(m, modes)
+    do i = 1, size(omega)
+      scaled(:, i) = 2.0_wp * damping_ratio * omega(i) * modes(:, i)
+    end do
+    d = matmul(scaled, transpose(modes))
+    d = 0.5_wp * (d + transpose(d))
+  end function modal_damping
+
   !> Natural frequencies of the reduced blade against those of all its elements, with open contacts.
   subroutine check_reduction()
-    real(wp), allocatable :: m(:,:), k(:,:), full(:), reduced(:), modes(:,:)
-    integer :: blade, i
+    real(wp) :: full(n), few(reduced), modes(n, n)
+    integer :: i
 
-    do blade = 1, 2
-      call full_blade(blade, m, k)
-      allocate (full(size(m, 1)), modes(size(m, 1), size(m, 1)))
-      call symmetric_modes(k, m, full, modes)
-      deallocate (modes)
-      call reduced_blade(blade, m, k)
-      allocate (reduced(size(m, 1)), modes(size(m, 1), size(m, 1)))
-      call symmetric_modes(k, m, reduced, modes)
-      do i = 1, frequencies_of_interest
-        call progress('blade '//text(blade)//', mode '//text(i)//', contacts open: '// &
-                      text(full(i) / (2.0_wp * pi), '(f10.2)')//' Hz, reduced '// &
-                      text(reduced(i) / (2.0_wp * pi), '(f10.2)')//' Hz')
-        if (abs(reduced(i) / full(i) - 1.0_wp) > reduction_tolerance) then
-          call fail('the reduction moves natural frequency '//text(i)//' by more than '// &
-                    text(reduction_tolerance)//': keep more modes')
-        end if
-      end do
-      deallocate (full, reduced, modes)
+    call symmetric_modes(blade_stiffness, blade_mass, full, modes)
+    call symmetric_modes(stiffness(first:last, first:last), mass(first:last, first:last), few, modes(:reduced, :reduced))
+    do i = 1, 4
+      call progress('blade '//text(blade)//', mode '//text(i)//', contacts open: '//text(full(i) / (2.0_wp * pi), '(f10.2)')// &
+                    ' Hz, reduced '//text(few(i) / (2.0_wp * pi), '(f10.2)')//' Hz')
+      if (abs(few(i) / full(i) - 1.0_wp) > reduction_tolerance) call fail('the reduction needs more modes')
     end do
   end subroutine check_reduction
 
-  subroutine write_files(prefix)
-    character(len=*), intent(in) :: prefix
-
-    call write_symmetric_matrix(prefix//'_mass.mtx', 'mass of two blades, kg', mass)
-    call write_symmetric_matrix(prefix//'_damping.mtx', 'damping of two blades, N s/m', damping)
-    call write_symmetric_matrix(prefix//'_stiffness.mtx', 'stiffness of two blades, contacts open, N/m', stiffness)
-    call write_dof_map(prefix//'_dof.txt', 'degrees of freedom of two blades; modes are mass-normalised', names)
-    call progress('wrote '//prefix//'_{mass,damping,stiffness}.mtx and '//prefix//'_dof.txt')
-  end subroutine write_files
-
-  subroutine check_files(prefix)
-    character(len=*), intent(in) :: prefix
-    type(structure) :: stored
-
-    call read_structure(prefix//'_mass.mtx', prefix//'_damping.mtx', prefix//'_stiffness.mtx', &
-                        prefix//'_dof.txt', stored)
-    if (size(stored%dof_name) /= size(names)) then
-      call fail(prefix//'_dof.txt: '//text(size(names))//' degrees of freedom expected')
-    end if
-    if (any(stored%dof_name /= names)) call fail(prefix//'_dof.txt: names differ from the model')
-    call compare(prefix//'_mass.mtx', stored%mass, mass)
-    call compare(prefix//'_damping.mtx', stored%damping, damping)
-    call compare(prefix//'_stiffness.mtx', stored%stiffness, stiffness)
-    call progress('the files '//prefix//'_* agree with the model')
-  end subroutine check_files
-
-  subroutine compare(path, found, expected)
-    character(len=*), intent(in) :: path
-    real(wp), intent(in) :: found(:,:), expected(:,:)
+  subroutine compare(name, expected)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: expected(:,:)
+    real(wp), allocatable :: stored(:,:)
     integer :: i, j
 
+    call read_matrix(prefix//name//'.mtx', size(expected, 1), stored)
     do j = 1, size(expected, 2)
       do i = 1, size(expected, 1)
-        if (.not. abs(found(i, j) - expected(i, j)) <= tolerance * sqrt(expected(i, i) * expected(j, j))) then
-          call fail(path//': row '//text(i)//', column '//text(j)//' is '//text(found(i, j), '(es24.16)')// &
-                    ', the model gives '//text(expected(i, j), '(es24.16)'))
+        if (.not. abs(stored(i, j) - expected(i, j)) <= file_tolerance * sqrt(expected(i, i) * expected(j, j))) then
+          call fail(prefix//name//'.mtx: row '//text(i)//', column '//text(j)//' differs: run "blade_model write"')
         end if
       end do
     end do

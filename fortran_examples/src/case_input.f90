@@ -1,56 +1,52 @@
-!> A case: a file of namelist groups. Every group and variable is described in cases/README.md.
+!> A case: a file of namelist groups (cases/README.md), and the harmonic balance that it describes.
 module case_input
+  use basics, only: fail, name_length, path_length, pi, text, wp
   use friction_contacts, only: contact_input, law_microslip, law_slider
-  use kinds, only: name_length, path_length, wp
+  use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
-  use messages, only: fail, text
-  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP, mslip_parameters_default
+  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP
   implicit none
   private
-  public :: read_case
+  public :: read_case, prepare_problem
 
-  integer, parameter, public :: max_list_size = 64
-  ! What a variable holds that a case has not set; below the range of every variable.
-  real(wp), parameter :: unset = -huge(1.0_wp)
+  integer, parameter :: max_list_size = 64
+  real(wp), parameter :: unset = -huge(1.0_wp)             !! a variable that is not in the file
+
+  !> A group &time_integration.
+  type, public :: integration_input
+    real(wp), allocatable :: frequencies(:)                !! Hz
+    integer, allocatable :: harmonics(:)                   !! of the balances to compare with
+    real(wp) :: load_factor = 1.0_wp, steady_tolerance = 1.0e-5_wp, allowed_difference = huge(1.0_wp)
+    integer :: samples = 1024, steps_per_period = 1024, max_periods = 1000
+  end type integration_input
 
   type, public :: case_data
-    character(len=path_length) :: file = ' '
-    character(len=name_length) :: name = ' '               !! of the case; output files start with it
+    character(len=name_length) :: name = ' '               !! output files start with it
     type(structure) :: model
     type(contact_input), allocatable :: contacts(:)
-    real(wp), allocatable :: load_factors(:)
     integer, allocatable :: excited_dof(:)
     real(wp), allocatable :: excitation_amplitude(:), excitation_phase(:)   !! N, degrees
     integer :: response_dof = 0
-    integer :: harmonics = 0, samples = 0
-    real(wp) :: tolerance = 0.0_wp
-    real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp     !! Hz; both 0: no sweep
-    real(wp), allocatable :: frequencies(:)                        !! Hz, for coefficients at single frequencies
-    real(wp), allocatable :: integration_frequencies(:)            !! Hz, for time integration
-    integer, allocatable :: integration_harmonics(:)
-    real(wp) :: integration_load_factor = 1.0_wp
-    integer :: integration_samples = 0, steps_per_period = 0, max_periods = 0
-    real(wp) :: steady_tolerance = 0.0_wp, allowed_difference = 0.0_wp
+    integer :: harmonics = 5, samples = 128
+    real(wp) :: tolerance = 1.0e-9_wp
+    real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp             !! Hz, of &sweep
+    real(wp), allocatable :: load_factors(:)                               !! of &sweep; empty without the group
+    real(wp), allocatable :: frequencies(:)                                !! Hz, of &points; empty without the group
+    type(integration_input), allocatable :: integrations(:)
   end type case_data
-
-  character(len=*), parameter :: known_groups(8) = [character(len=16) :: 'output', 'model', 'excitation', 'contact', &
-                                                    'harmonic_balance', 'sweep', 'points', 'time_integration']
 
 contains
 
   subroutine read_case(path, data)
     character(len=*), intent(in) :: path
     type(case_data), intent(out) :: data
-    character(len=name_length), allocatable :: group(:)
-    integer, allocatable :: group_line(:)
     character(len=512) :: message
+    character(len=name_length) :: group
     integer :: unit, status
 
-    data%file = path
     open (newunit=unit, file=path, status='old', action='read', iostat=status, iomsg=message)
     if (status /= 0) call fail(trim(path)//': cannot be opened: '//trim(message))
-    call find_groups(path, unit, group, group_line)
-
+    call check_group_names()
     call read_output()
     call read_model()
     call read_excitation()
@@ -63,51 +59,57 @@ contains
 
   contains
 
-    !> Goes to the start of the file and tells whether the group is there; `status` must be checked after reading.
-    logical function present_group(name)
-      character(len=*), intent(in) :: name
+    !> A misspelt group, or a last one without its end, would otherwise be ignored.
+    subroutine check_group_names()
+      character(len=*), parameter :: known = ' output model excitation contact harmonic_balance sweep points time_integration '
+      character(len=512) :: line
+      logical :: open
+      integer :: first
 
-      present_group = any(group == name)
-      rewind (unit)
-    end function present_group
-
-    subroutine need_group(name)
-      character(len=*), intent(in) :: name
-      if (.not. present_group(name)) call fail(trim(path)//': the group &'//name//' is missing')
-    end subroutine need_group
-
-    subroutine check_read(name, occurrence)
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: occurrence
-      if (status /= 0) call refuse(name, occurrence, trim(message))
-    end subroutine check_read
-
-    !> Ends the program: which group, where it starts, what is wrong.
-    subroutine refuse(name, occurrence, what)
-      character(len=*), intent(in) :: name, what
-      integer, intent(in) :: occurrence
-      integer :: i, seen
-
-      seen = 0
-      do i = 1, size(group)
-        if (group(i) == name) seen = seen + 1
-        if (seen == occurrence) exit
+      open = .false.
+      do
+        read (unit, '(a)', iostat=status) line
+        if (status /= 0) exit
+        if (adjustl(line) == '/') open = .false.
+        first = index(line, '&')
+        if (first == 0 .or. len_trim(line(:max(first, 1) - 1)) > 0) cycle
+        group = line(first + 1:first + scan(line(first + 1:)//' ', ' /,!') - 1)
+        call require(index(known, ' '//trim(group)//' ') > 0, 'unknown; known are'//known)
+        open = .true.
       end do
-      i = min(i, size(group))
-      call fail(trim(path)//', group &'//name//' at line '//text(group_line(i))//': '//what)
-    end subroutine refuse
+      call require(.not. open, 'a line "/" must end it')
+    end subroutine check_group_names
+
+    subroutine require(condition, problem)
+      logical, intent(in) :: condition
+      character(len=*), intent(in) :: problem
+
+      if (.not. condition) call fail(trim(path)//', group &'//trim(group)//': '//problem)
+    end subroutine require
+
+    !> Whether `status` of a read statement is that of a group; the end of the file is an error for a required group.
+    logical function found(required)
+      logical, intent(in) :: required
+
+      found = .not. is_iostat_end(status)
+      call require(status == 0 .or. (.not. found .and. .not. required), trim(message))
+    end function found
+
+    subroutine start(name)
+      character(len=*), intent(in) :: name
+
+      group = name
+      rewind (unit)
+    end subroutine start
 
     subroutine read_output()
       character(len=name_length) :: name
       namelist /output/ name
 
       name = ' '
-      call need_group('output')
+      call start('output')
       read (unit, nml=output, iostat=status, iomsg=message)
-      call check_read('output', 1)
-      if (len_trim(name) == 0 .or. scan(trim(name), ' /') > 0) then
-        call refuse('output', 1, 'name must be a word without "/"')
-      end if
+      if (found(.true.)) call require(len_trim(name) > 0 .and. scan(trim(name), ' /') == 0, 'name must be a word without "/"')
       data%name = name
     end subroutine read_output
 
@@ -119,13 +121,9 @@ contains
       damping = ' '
       stiffness = ' '
       dof_map = ' '
-      call need_group('model')
+      call start('model')
       read (unit, nml=model, iostat=status, iomsg=message)
-      call check_read('model', 1)
-      if (any([character(len=path_length) :: mass, damping, stiffness, dof_map] == ' ')) then
-        call refuse('model', 1, 'mass, damping, stiffness and dof_map must name files')
-      end if
-      call read_structure(trim(mass), trim(damping), trim(stiffness), trim(dof_map), data%model)
+      if (found(.true.)) call read_structure(mass, damping, stiffness, dof_map, data%model)
     end subroutine read_model
 
     subroutine read_excitation()
@@ -137,94 +135,68 @@ contains
       amplitude = unset
       phase = 0.0_wp
       response_dof = -1
-      call need_group('excitation')
+      call start('excitation')
       read (unit, nml=excitation, iostat=status, iomsg=message)
-      call check_read('excitation', 1)
       n = count(dof /= -1)
-      if (n == 0) call refuse('excitation', 1, 'dof is missing')
-      call check_dof('excitation', 1, 'dof', dof(:n), 1)
-      call check_dof('excitation', 1, 'response_dof', [response_dof], 1)
-      if (any(amplitude(:n) <= unset)) then
-        call refuse('excitation', 1, 'amplitude must be a number for each dof')
-      end if
-      if (all(amplitude(:n) <= 0.0_wp)) call refuse('excitation', 1, 'one amplitude must be > 0')
+      if (found(.true.)) call require(n > 0 .and. all(amplitude(:n) > unset), 'dof and amplitude must be given')
+      call check_dof([dof(:n), response_dof], 1)
       data%excited_dof = dof(:n)
       data%excitation_amplitude = amplitude(:n)
       data%excitation_phase = phase(:n)
       data%response_dof = response_dof
     end subroutine read_excitation
 
+    !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law, displacement_reference
-      integer :: dof(2), count, i
+      integer :: dof(2), count
       logical :: load_varied
-      real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient
-      real(wp) :: young_modulus(2), poisson_ratio(2), spring_stiffness
+      real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
+      type(contact_input) :: c
       namelist /contact/ name, law, dof, count, load_varied, flat_half_width, edge_radius, length, normal_force, &
-        friction_coefficient, young_modulus, poisson_ratio, displacement_reference, spring_stiffness
+        friction_coefficient, young_modulus, poisson_ratio, displacement_reference
 
-      call need_group('contact')
-      allocate (data%contacts(number_of('contact')))
-      do i = 1, size(data%contacts)
+      law = ' '
+      displacement_reference = 'centre point'
+      count = 1
+      load_varied = .true.
+      flat_half_width = unset
+      edge_radius = unset
+      length = unset
+      normal_force = unset
+      friction_coefficient = unset
+      young_modulus = unset
+      poisson_ratio = unset
+      call start('contact')
+      allocate (data%contacts(0))
+      do
         name = ' '
-        law = ' '
-        displacement_reference = 'centre point'
         dof = -1
-        count = 1
-        load_varied = .true.
-        flat_half_width = unset
-        edge_radius = unset
-        length = unset
-        normal_force = unset
-        friction_coefficient = unset
-        young_modulus = unset
-        poisson_ratio = unset
-        spring_stiffness = 0.0_wp
         read (unit, nml=contact, iostat=status, iomsg=message)
-        call check_read('contact', i)
-
-        if (len_trim(name) == 0) call refuse('contact', i, 'name is missing')
-        if (any(data%contacts(:i - 1)%name == name)) call refuse('contact', i, 'the name '//trim(name)//' occurs twice')
-        if (law /= law_microslip .and. law /= law_slider) then
-          call refuse('contact', i, 'law = "'//trim(law)//'": must be "'//law_microslip//'" or "'//law_slider//'"')
-        end if
-        call check_dof('contact', i, 'dof', dof, 0)
-        if (dof(1) == dof(2)) call refuse('contact', i, 'dof must be two different degrees of freedom; 0 is the ground')
-        if (count < 1) call refuse('contact', i, 'count = '//text(count)//': must be 1 or more')
-        if (.not. spring_stiffness >= 0.0_wp) then
-          call refuse('contact', i, 'spring_stiffness = '//text(spring_stiffness)// &
-                      ': must be > 0, or 0 for the initial stiffness of the microslip law')
-        end if
-        ! With a stiffness given, a spring-slider asks the library nothing that would check these.
-        if (.not. normal_force >= 0.0_wp) call refuse('contact', i, 'normal_force must be given and >= 0')
-        if (.not. friction_coefficient >= 0.0_wp) then
-          call refuse('contact', i, 'friction_coefficient must be given and >= 0')
-        end if
-
-        associate (c => data%contacts(i))
-          c%name = name
-          c%law = law
-          c%dof = dof
-          c%count = count
-          c%load_varied = load_varied
-          c%spring_stiffness = spring_stiffness
-          call mslip_parameters_default(c%parameters)
-          c%parameters%flat_half_width = flat_half_width
-          c%parameters%edge_radius = edge_radius
-          c%parameters%length = length
-          c%parameters%normal_force = normal_force
-          c%parameters%friction_coefficient = friction_coefficient
-          c%parameters%material%young_modulus = young_modulus
-          c%parameters%material%poisson_ratio = poisson_ratio
-          select case (displacement_reference)
-          case ('centre point')
-            c%parameters%displacement_reference = MSLIP_CENTRE_POINT
-          case ('rigid strip')
-            c%parameters%displacement_reference = MSLIP_RIGID_STRIP
-          case default
-            call refuse('contact', i, 'displacement_reference must be "centre point" or "rigid strip"')
-          end select
-        end associate
+        if (.not. found(size(data%contacts) == 0)) exit
+        call require(len_trim(name) > 0 .and. all(data%contacts%name /= name), 'name must be given, another for each contact')
+        call require(any(law == [character(len=name_length) :: law_microslip, law_slider]), &
+                     'law must be "'//law_microslip//'" or "'//law_slider//'"')
+        call require(any(displacement_reference == [character(len=name_length) :: 'centre point', 'rigid strip']), &
+                     'displacement_reference must be "centre point" or "rigid strip"')
+        call check_dof(dof, 0)
+        call require(dof(1) /= dof(2), 'dof must be two different degrees of freedom; 0 is the ground')
+        call require(count > 0, 'count must be 1 or more')
+        c%name = name
+        c%law = law
+        c%dof = dof
+        c%count = count
+        c%load_varied = load_varied
+        c%parameters%flat_half_width = flat_half_width
+        c%parameters%edge_radius = edge_radius
+        c%parameters%length = length
+        c%parameters%normal_force = normal_force
+        c%parameters%friction_coefficient = friction_coefficient
+        c%parameters%material%young_modulus = young_modulus
+        c%parameters%material%poisson_ratio = poisson_ratio
+        c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
+                                                    displacement_reference == 'rigid strip')
+        data%contacts = [data%contacts, c]
       end do
     end subroutine read_contacts
 
@@ -233,17 +205,14 @@ contains
       real(wp) :: tolerance
       namelist /harmonic_balance/ harmonics, samples, tolerance
 
-      harmonics = 5
-      samples = 128
-      tolerance = 1.0e-9_wp
-      call need_group('harmonic_balance')
+      harmonics = data%harmonics
+      samples = data%samples
+      tolerance = data%tolerance
+      call start('harmonic_balance')
       read (unit, nml=harmonic_balance, iostat=status, iomsg=message)
-      call check_read('harmonic_balance', 1)
-      if (harmonics < 1) call refuse('harmonic_balance', 1, 'harmonics must be 1 or more')
-      if (samples <= 2 * harmonics) call refuse('harmonic_balance', 1, 'samples must exceed twice the harmonics')
-      if (.not. (tolerance >= 1.0e-13_wp .and. tolerance <= 1.0e-3_wp)) then
-        call refuse('harmonic_balance', 1, 'tolerance must be from 1e-13 to 1e-3')
-      end if
+      if (.not. found(.false.)) return
+      call require(harmonics >= 1 .and. samples > 2 * harmonics, 'harmonics must be 1 or more, samples above twice that')
+      call require(tolerance >= 1.0e-13_wp .and. tolerance <= 1.0e-3_wp, 'tolerance must be from 1e-13 to 1e-3')
       data%harmonics = harmonics
       data%samples = samples
       data%tolerance = tolerance
@@ -253,140 +222,103 @@ contains
       real(wp) :: frequency_from, frequency_to, load_factors(max_list_size)
       namelist /sweep/ frequency_from, frequency_to, load_factors
 
-      allocate (data%load_factors(0))
-      if (.not. present_group('sweep')) return
       frequency_from = unset
       frequency_to = unset
       load_factors = unset
+      call start('sweep')
+      allocate (data%load_factors(0))
       read (unit, nml=sweep, iostat=status, iomsg=message)
-      call check_read('sweep', 1)
-      if (.not. (frequency_from > 0.0_wp .and. frequency_to > 0.0_wp)) then
-        call refuse('sweep', 1, 'frequency_from and frequency_to must be given, in Hz and > 0')
-      end if
-      if (frequency_from >= frequency_to) call refuse('sweep', 1, 'frequency_from must be below frequency_to')
-      data%load_factors = pack(load_factors, load_factors > unset)
-      if (size(data%load_factors) == 0) data%load_factors = [1.0_wp]
-      if (any(data%load_factors <= 0.0_wp)) call refuse('sweep', 1, 'load_factors must be > 0')
+      if (.not. found(.false.)) return
+      call require(frequency_from > 0.0_wp .and. frequency_to > frequency_from, '0 < frequency_from < frequency_to is required')
       data%frequency_from = frequency_from
       data%frequency_to = frequency_to
+      data%load_factors = positive('load_factors', load_factors)
     end subroutine read_sweep
 
     subroutine read_points()
       real(wp) :: frequency(max_list_size)
       namelist /points/ frequency
 
-      allocate (data%frequencies(0))
-      if (.not. present_group('points')) return
       frequency = unset
+      call start('points')
+      allocate (data%frequencies(0))
       read (unit, nml=points, iostat=status, iomsg=message)
-      call check_read('points', 1)
-      call positive_list('points', 'frequency', frequency, data%frequencies)
+      if (found(.false.)) data%frequencies = positive('frequency', frequency)
     end subroutine read_points
 
     subroutine read_time_integration()
+      type(integration_input) :: defaults, group_data
       real(wp) :: frequency(max_list_size), load_factor, steady_tolerance, allowed_difference
       integer :: harmonics(max_list_size), samples, steps_per_period, max_periods
       namelist /time_integration/ frequency, load_factor, harmonics, samples, steps_per_period, max_periods, &
         steady_tolerance, allowed_difference
 
-      allocate (data%integration_frequencies(0), data%integration_harmonics(0))
-      if (.not. present_group('time_integration')) return
-      frequency = unset
-      load_factor = 1.0_wp
-      harmonics = 0
-      samples = 1024
-      steps_per_period = 1024
-      max_periods = 1000
-      steady_tolerance = 1.0e-5_wp
-      allowed_difference = huge(allowed_difference)
-      read (unit, nml=time_integration, iostat=status, iomsg=message)
-      call check_read('time_integration', 1)
-      call positive_list('time_integration', 'frequency', frequency, data%integration_frequencies)
-      data%integration_harmonics = pack(harmonics, harmonics /= 0)
-      if (size(data%integration_harmonics) == 0) call refuse('time_integration', 1, 'harmonics must list one number or more')
-      if (any(data%integration_harmonics < 1)) call refuse('time_integration', 1, 'harmonics must be 1 or more')
-      if (samples <= 2 * maxval(data%integration_harmonics)) then
-        call refuse('time_integration', 1, 'samples must exceed twice the harmonics')
-      end if
-      if (.not. load_factor > 0.0_wp) call refuse('time_integration', 1, 'load_factor must be > 0')
-      if (steps_per_period < 16) call refuse('time_integration', 1, 'steps_per_period must be 16 or more')
-      if (max_periods < 2) call refuse('time_integration', 1, 'max_periods must be 2 or more')
-      if (.not. steady_tolerance > 0.0_wp) call refuse('time_integration', 1, 'steady_tolerance must be > 0')
-      if (.not. allowed_difference > 0.0_wp) call refuse('time_integration', 1, 'allowed_difference must be > 0')
-      data%integration_load_factor = load_factor
-      data%integration_samples = samples
-      data%steps_per_period = steps_per_period
-      data%max_periods = max_periods
-      data%steady_tolerance = steady_tolerance
-      data%allowed_difference = allowed_difference
+      call start('time_integration')
+      allocate (data%integrations(0))
+      do
+        frequency = unset
+        harmonics = 0
+        load_factor = defaults%load_factor
+        samples = defaults%samples
+        steps_per_period = defaults%steps_per_period
+        max_periods = defaults%max_periods
+        steady_tolerance = defaults%steady_tolerance
+        allowed_difference = defaults%allowed_difference
+        read (unit, nml=time_integration, iostat=status, iomsg=message)
+        if (.not. found(.false.)) exit
+        call require(any(harmonics > 0) .and. all(harmonics >= 0) .and. samples > 2 * maxval(harmonics), &
+                     'harmonics must be 1 or more, samples above twice that')
+        call require(steps_per_period >= 16 .and. max_periods >= 2, 'steps_per_period >= 16 and max_periods >= 2 are required')
+        call require(min(load_factor, steady_tolerance, allowed_difference) > 0.0_wp, 'a factor or tolerance is not positive')
+        group_data = integration_input(positive('frequency', frequency), pack(harmonics, harmonics > 0), load_factor, &
+                                       steady_tolerance, allowed_difference, samples, steps_per_period, max_periods)
+        data%integrations = [data%integrations, group_data]
+      end do
     end subroutine read_time_integration
 
-    subroutine positive_list(name, variable, list, kept)
-      character(len=*), intent(in) :: name, variable
+    function positive(variable, list) result(given)
+      character(len=*), intent(in) :: variable
       real(wp), intent(in) :: list(:)
-      real(wp), allocatable, intent(out) :: kept(:)
+      real(wp), allocatable :: given(:)
 
-      kept = pack(list, list > unset)
-      if (size(kept) == 0) call refuse(name, 1, variable//' must list one number or more')
-      if (any(kept <= 0.0_wp)) call refuse(name, 1, variable//' must be > 0')
-    end subroutine positive_list
+      given = pack(list, list > unset)
+      call require(size(given) > 0 .and. all(given > 0.0_wp), variable//' must list values > 0')
+    end function positive
 
-    integer function number_of(name)
-      character(len=*), intent(in) :: name
-      number_of = count(group == name)
-    end function number_of
+    subroutine check_dof(dof, lowest)
+      integer, intent(in) :: dof(:), lowest
 
-    subroutine check_dof(name, occurrence, variable, dof, lowest)
-      character(len=*), intent(in) :: name, variable
-      integer, intent(in) :: occurrence, dof(:), lowest
-      integer :: i, n
-
-      n = size(data%model%dof_name)
-      do i = 1, size(dof)
-        if (dof(i) < lowest .or. dof(i) > n) then
-          call refuse(name, occurrence, variable//' = '//text(dof(i))//': must be from '//text(lowest)//' to '// &
-                      text(n)//', the degrees of freedom of the model')
-        end if
-      end do
+      call require(all(dof >= lowest .and. dof <= size(data%model%dof_name)), &
+                   'a degree of freedom is not within '//text(lowest)//' .. '//text(size(data%model%dof_name)))
     end subroutine check_dof
   end subroutine read_case
 
-  !> Names and lines of all groups; an unknown group would otherwise be passed over in silence.
-  subroutine find_groups(path, unit, group, group_line)
-    character(len=*), intent(in) :: path
-    integer, intent(in) :: unit
-    character(len=name_length), allocatable, intent(out) :: group(:)
-    integer, allocatable, intent(out) :: group_line(:)
-    character(len=512) :: line
-    character(len=name_length) :: name
-    integer :: status, line_number, first, i
+  subroutine prepare_problem(data, load_factor, harmonics, samples, problem)
+    type(case_data), intent(in) :: data
+    real(wp), intent(in) :: load_factor
+    integer, intent(in) :: harmonics, samples
+    type(balance_problem), intent(out) :: problem
+    real(wp) :: phase
+    integer :: i
 
-    allocate (group(0), group_line(0))
-    line_number = 0
-    do
-      read (unit, '(a)', iostat=status) line
-      if (status /= 0) exit
-      line_number = line_number + 1
-      first = verify(line, ' ')
-      if (first == 0) cycle
-      if (line(first:first) /= '&') cycle
-      name = line(first + 1:first + scan(line(first + 1:)//' ', ' /,!') - 1)
-      if (all(known_groups /= name)) then
-        call fail(trim(path)//', line '//text(line_number)//': unknown group &'//trim(name)//'; known are '// &
-                  trim(list_of_groups()))
-      end if
-      if (name /= 'contact' .and. any(group == name)) then
-        call fail(trim(path)//', line '//text(line_number)//': the group &'//trim(name)//' occurs twice')
-      end if
-      group = [group, name]
-      group_line = [group_line, line_number]
+    problem%model = data%model
+    problem%harmonics = harmonics
+    problem%tolerance = data%tolerance
+    call problem%contacts%prepare(data%contacts, load_factor, harmonics, samples)
+    allocate (problem%incidence(size(data%model%dof_name), size(data%contacts)), source=0.0_wp)
+    do i = 1, size(data%contacts)
+      associate (dof => data%contacts(i)%dof)
+        if (dof(1) > 0) problem%incidence(dof(1), i) = 1.0_wp
+        if (dof(2) > 0) problem%incidence(dof(2), i) = -1.0_wp
+      end associate
     end do
-
-  contains
-
-    function list_of_groups() result(list)
-      character(len=200) :: list
-      write (list, '(*(a, :, ", "))') ('&'//trim(known_groups(i)), i=1, size(known_groups))
-    end function list_of_groups
-  end subroutine find_groups
+    allocate (problem%excitation(size(data%model%dof_name)), source=(0.0_wp, 0.0_wp))
+    do i = 1, size(data%excited_dof)
+      associate (force => problem%excitation(data%excited_dof(i)))
+        ! amplitude * cos(omega t + phase)
+        phase = data%excitation_phase(i) * pi / 180.0_wp
+        force = force + data%excitation_amplitude(i) * cmplx(cos(phase), sin(phase), wp)
+      end associate
+    end do
+  end subroutine prepare_problem
 end module case_input

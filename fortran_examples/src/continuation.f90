@@ -1,23 +1,17 @@
-!> Response over a range of frequencies by pseudo-arc-length continuation.
+!> Response over a range of frequencies by pseudo-arc-length continuation, and its resonance peak.
 !>
-!> The path is followed in relative changes: the displacements of each contact are measured by their present size and
-!> the frequency by a part of its range. So a step means the same on a sharp resonance and far from it, and a stuck
-!> contact counts as much as one that slides a thousand times farther.
+!> Arc length is measured in relative changes: the displacements of each contact are scaled by their present size and the
+!> frequency by a fraction of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
+!> counts as much as one that slides a thousand times farther.
 module continuation
+  use basics, only: fail, pi, text, wp
   use dense_algebra, only: solve
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, newton_error, solve_from_rest
-  use kinds, only: pi, wp
-  use messages, only: fail, text
+  use fourier_series, only: series_peak
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, newton_error, solve_at, solve_from_rest, &
+    structure_response
   implicit none
   private
-  public :: follow_response
-
-  type, public :: step_control
-    real(wp) :: max_step = 0.2_wp          !! relative change of the displacements in one step
-    real(wp) :: min_step = 1.0e-6_wp
-    integer :: max_points = 5000
-    integer :: steps_over_range = 40       !! fewest steps for the whole range of frequencies
-  end type step_control
+  public :: follow_response, refine_peak
 
   type, public :: response_path
     integer :: points = 0
@@ -25,16 +19,18 @@ module continuation
     real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, contact, point)
   end type response_path
 
+  ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
+  real(wp), parameter :: max_step = 0.2_wp, min_step = 1.0e-6_wp
+  integer, parameter :: steps_over_range = 40, max_points = 5000
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
   real(wp), parameter :: min_tangent_cosine = 0.9_wp
 
 contains
 
   !> From `omega_from` to `omega_to`, in either direction.
-  subroutine follow_response(problem, omega_from, omega_to, control, path)
+  subroutine follow_response(problem, omega_from, omega_to, path)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega_from, omega_to
-    type(step_control), intent(in) :: control
     type(response_path), intent(out) :: path
     type(balance_point) :: point
     real(wp), allocatable :: u(:,:), scale(:), tangent(:), previous(:)
@@ -46,52 +42,65 @@ contains
     contacts = size(problem%incidence, 2)
     direction = sign(1.0_wp, omega_to - omega_from)
     allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
-    allocate (path%omega(control%max_points), path%displacement(m, contacts, control%max_points))
+    allocate (path%omega(max_points), path%displacement(m, contacts, max_points))
 
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
     if (.not. converged) call fail('no harmonic balance found at the first frequency, '//hertz(omega))
-    call keep()
-    call measure()
-    previous = 0.0_wp
-    previous(m * contacts + 1) = direction
-    call path_tangent()
-
-    step = 0.1_wp * control%max_step
+    call start_path()
     do while (direction * (omega - omega_to) < 0.0_wp)
       call advance()
       if (converged) then
-        call keep()
-        if (iterations <= few_steps) step = min(1.5_wp * step, control%max_step)
+        call append()
+        if (iterations <= few_steps) step = min(1.5_wp * step, max_step)
         if (iterations >= many_steps) step = 0.6_wp * step
       else
         step = 0.4_wp * step
-        if (step < control%min_step) call fail('the continuation stops at '//hertz(omega)//': step too small')
       end if
+      if (step < min_step .or. direction * (omega - omega_from) < 0.0_wp) call jump()
     end do
 
   contains
 
-    subroutine keep()
-      if (path%points == control%max_points) then
-        call fail('the continuation stops at '//hertz(omega)//': more than '//text(control%max_points)//' points')
+    !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
+    !> no tangent leads on, or the one that is found leads back.
+    subroutine jump()
+      omega = direction * maxval(direction * path%omega(:path%points)) + (omega_to - omega_from) / (10 * steps_over_range)
+      call solve_from_rest(problem, omega, u, point, converged)
+      if (.not. converged) call fail('no harmonic balance found at '//hertz(omega))
+      call start_path()
+    end subroutine jump
+
+    !> The first point of the path, or that after a jump.
+    subroutine start_path()
+      call append()
+      call set_scale()
+      previous = 0.0_wp
+      previous(m * contacts + 1) = direction
+      call path_tangent()
+      step = 0.1_wp * max_step
+    end subroutine start_path
+
+    subroutine append()
+      if (path%points == max_points) then
+        call fail('the continuation stops at '//hertz(omega)//': more than '//text(max_points)//' points')
       end if
       path%points = path%points + 1
       path%omega(path%points) = omega
       path%displacement(:, :, path%points) = u
-    end subroutine keep
+    end subroutine append
 
-    !> Lengths by which the unknowns are measured, at the present point.
-    subroutine measure()
+    !> Scale of each unknown at the present point.
+    subroutine set_scale()
       integer :: i
 
       do i = 1, contacts
         scale((i - 1) * m + 1:i * m) = sqrt(real(contacts, wp)) * max(norm2(u(:, i)), 1.0e-6_wp * norm2(u))
       end do
-      scale(m * contacts + 1) = abs(omega_to - omega_from) / (control%steps_over_range * control%max_step)
-    end subroutine measure
+      scale(m * contacts + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
+    end subroutine set_scale
 
-    !> Unit tangent of the path at the present point, on the side of `previous`.
+    !> Unit tangent of the path at the present point, in the direction of `previous`.
     subroutine path_tangent()
       real(wp) :: right(m * contacts + 1, 1)
       logical :: singular
@@ -121,10 +130,10 @@ contains
       call solve(matrix, right, singular)
     end subroutine bordered_solve
 
-    !> One step of length `step`: predictor along the tangent, corrector in the plane across it. Unless it converges
-    !> without too sharp a turn, everything stays as it was.
+    !> One step of length `step`: predictor along the tangent, corrector in the plane normal to it. If it does not converge,
+    !> or the path bends too sharply, the start is restored.
     subroutine advance()
-      real(wp) :: u_start(m, contacts), omega_start, across, right(m * contacts + 1, 1)
+      real(wp) :: u_start(m, contacts), omega_start, distance, right(m * contacts + 1, 1)
       real(wp) :: tangent_start(m * contacts + 1)
       logical :: singular
       integer :: n
@@ -139,10 +148,10 @@ contains
         call evaluate(problem, omega, u, point)
         converged = newton_error(problem, u, point) <= 1.0_wp
         if (converged) exit
-        across = dot_product(tangent(:n), reshape(u - u_start, [n]) / scale(:n)) &
+        distance = dot_product(tangent(:n), reshape(u - u_start, [n]) / scale(:n)) &
                  + tangent(n + 1) * (omega - omega_start) / scale(n + 1) - step
         right(:n, 1) = -reshape(point%residual, [n]) / scale(:n)
-        right(n + 1, 1) = -across
+        right(n + 1, 1) = -distance
         call bordered_solve(tangent, right, singular)
         if (singular .or. norm2(right) > 10.0_wp) exit
         u = u + reshape(right(:n, 1) * scale(:n), shape(u))
@@ -152,12 +161,12 @@ contains
       if (converged) then
         previous = tangent
         call path_tangent()
-        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. step <= 10.0_wp * control%min_step
+        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. step <= 10.0_wp * min_step
       end if
       if (converged) then
-        ! The tangent is kept in unknowns, so that it may be measured anew at the new point.
+        ! The same direction in the scale of the new point.
         tangent = tangent * scale
-        call measure()
+        call set_scale()
         tangent = tangent / scale
         tangent = tangent / norm2(tangent)
         previous = tangent
@@ -168,6 +177,78 @@ contains
       end if
     end subroutine advance
   end subroutine follow_response
+
+  !> Resonance peak between the points of a path. `amplitude` has the peak over the period of degree of freedom `dof` at every
+  !> point. If the frequency is not monotonic around the largest point, that point is the result.
+  subroutine refine_peak(problem, path, amplitude, dof, omega, displacement)
+    type(balance_problem), intent(inout) :: problem
+    type(response_path), intent(in) :: path
+    real(wp), intent(in) :: amplitude(:)
+    integer, intent(in) :: dof
+    real(wp), intent(out) :: omega, displacement(:,:)
+    real(wp), parameter :: amplitude_tolerance = 1.0e-9_wp, golden = 0.381966011250105_wp
+    type(balance_point) :: point
+    real(wp) :: x(3), y(3), trial(size(displacement, 1), size(displacement, 2)), vertex, gain, top, previous_width, width
+    logical :: converged
+    integer :: largest, step
+
+    largest = maxloc(amplitude, dim=1)
+    omega = path%omega(largest)
+    displacement = path%displacement(:, :, largest)
+    if (largest == 1 .or. largest == path%points) return
+    x = path%omega(largest - 1:largest + 1)
+    y = amplitude(largest - 1:largest + 1)
+    if (x(1) >= x(2) .or. x(2) >= x(3)) return
+
+    previous_width = huge(previous_width)
+    do step = 1, 40
+      call parabola_vertex(x, y, vertex, gain)
+      width = x(3) - x(1)
+      if (gain <= amplitude_tolerance * y(2)) exit
+      ! Golden section if the parabola does not narrow the bracket.
+      if (width > 0.7_wp * previous_width) vertex = x(2) + golden * merge(x(3) - x(2), x(1) - x(2), &
+                                                                          x(3) - x(2) > x(2) - x(1))
+      previous_width = width
+      trial = displacement
+      call solve_at(problem, vertex, trial, point, converged)
+      if (.not. converged) exit
+      associate (response => structure_response(problem, point))
+        top = series_peak(response(:, dof))
+      end associate
+      if (top >= y(2)) then
+        displacement = trial
+        omega = vertex
+        ! The former middle is the new end on the other side.
+        x(merge(1, 3, vertex > x(2))) = x(2)
+        y(merge(1, 3, vertex > x(2))) = y(2)
+        x(2) = vertex
+        y(2) = top
+      else
+        y(merge(3, 1, vertex > x(2))) = top
+        x(merge(3, 1, vertex > x(2))) = vertex
+      end if
+    end do
+  end subroutine refine_peak
+
+  !> Vertex of the parabola through three points, the middle one not below the others, and its height above that one.
+  pure subroutine parabola_vertex(x, y, vertex, gain)
+    real(wp), intent(in) :: x(3), y(3)
+    real(wp), intent(out) :: vertex, gain
+    real(wp) :: left, right, slope_left, slope_right, curvature, slope
+
+    left = x(2) - x(1)
+    right = x(3) - x(2)
+    slope_left = (y(2) - y(1)) / left
+    slope_right = (y(3) - y(2)) / right
+    curvature = (slope_right - slope_left) / (left + right)
+    slope = (slope_left * right + slope_right * left) / (left + right)
+    vertex = x(2)
+    gain = 0.0_wp
+    if (curvature < 0.0_wp) then
+      vertex = x(2) - 0.5_wp * slope / curvature
+      gain = -0.25_wp * slope**2 / curvature
+    end if
+  end subroutine parabola_vertex
 
   function hertz(omega) result(string)
     real(wp), intent(in) :: omega

@@ -1,7 +1,6 @@
-!> LAPACK with the sizes taken from the arrays and every failure reported.
+!> LAPACK with the sizes taken from the arrays.
 module dense_algebra
-  use kinds, only: wp
-  use messages, only: fail, text
+  use basics, only: fail, text, wp
   implicit none
   private
   public :: solve, symmetric_modes
@@ -13,7 +12,7 @@ module dense_algebra
 
 contains
 
-  !> `singular` present: reports a singular matrix instead of ending the program.
+  !> Without `singular` a singular matrix ends the program.
   subroutine solve_real(a, b, singular)
     real(wp), intent(inout) :: a(:,:), b(:,:)
     logical, intent(out), optional :: singular
@@ -49,8 +48,7 @@ contains
     modes = stiffness
     mass_factor = mass
     call dsygv(1, 'V', 'U', n, modes, n, mass_factor, n, omega, work, size(work), info)
-    if (info > n) call fail('mass matrix of order '//text(n)//' is not positive definite')
-    if (info /= 0) call fail('eigenvalue solution of order '//text(n)//' failed')
+    if (info /= 0) call fail('eigenvalue solution of order '//text(n)//' failed: is the mass matrix positive definite?')
     omega = sqrt(max(omega, 0.0_wp))
   end subroutine symmetric_modes
 end module dense_algebra

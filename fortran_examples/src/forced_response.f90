@@ -11,173 +11,161 @@
 !>   NAME_coefficients.csv  the harmonic coefficients of all degrees of freedom at single frequencies.
 program forced_response
   use, intrinsic :: iso_fortran_env, only: int64
-  use case_input, only: case_data, read_case
-  use case_problem, only: prepare_problem
-  use csv_output, only: csv_file
-  use fourier_series, only: series_peak
-  use harmonic_balance, only: balance_point, balance_problem, solve_from_rest, structure_response
-  use kinds, only: path_length, pi, wp
-  use load_response, only: contact_loop, load_result, loop_points, respond, response_row
-  use messages, only: fail, progress, text
+  use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
+  use case_input, only: case_data, prepare_problem, read_case
+  use continuation, only: follow_response, refine_peak, response_path
+  use fourier_series, only: harmonic_amplitude, series_basis, series_peak
+  use friction_contacts, only: contact_history
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
   implicit none
 
-  character(len=path_length) :: case_file, directory
+  character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
+  integer, parameter :: loop_points = 256
+  character(len=:), allocatable :: prefix
   type(case_data) :: data
+  type(balance_problem) :: problem
+  type(balance_point) :: point
 
-  if (command_argument_count() /= 2) call fail('usage: forced_response CASE DIRECTORY')
-  call get_command_argument(1, case_file)
-  call get_command_argument(2, directory)
-  call read_case(trim(case_file), data)
-  if (size(data%load_factors) == 0 .and. size(data%frequencies) == 0) then
-    call fail(trim(case_file)//': a group &sweep or &points is needed')
-  end if
+  call read_case(trim(argument(1, usage)), data)
+  prefix = trim(argument(2, usage))//'/'//trim(data%name)
+  if (size(data%load_factors) + size(data%frequencies) == 0) call fail('a group &sweep or &points is needed')
   if (size(data%frequencies) > 0) call solve_points()
-  if (size(data%load_factors) > 0) call solve_sweeps()
+  if (size(data%load_factors) > 0) call solve_sweep()
 
 contains
 
   !> Columns: frequency_hz, dof, then c0, cos1, sin1, ... in metres: x(t) = c0 + sum of cosk cos(k omega t) +
-  !> sink sin(k omega t), where the excitation is amplitude * cos(omega t + phase). 17 digits.
+  !> sink sin(k omega t) under the excitation amplitude * cos(omega t + phase).
   subroutine solve_points()
-    type(balance_problem) :: problem
-    type(balance_point) :: point
-    type(csv_file) :: table
     real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts))
     real(wp) :: response(2 * data%harmonics + 1, size(data%model%dof_name))
+    character(len=:), allocatable :: header
     logical :: converged
-    integer :: i, k, dof
+    integer :: table, i, k, dof
 
-    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
-    call table%open(trim(directory)//'/'//trim(data%name)//'_coefficients.csv')
-    call table%add('frequency_hz')
-    call table%add('dof')
-    call table%add('c0')
+    header = 'frequency_hz,dof,c0'
     do k = 1, data%harmonics
-      call table%add('cos'//text(k))
-      call table%add('sin'//text(k))
+      header = header//',cos'//text(k)//',sin'//text(k)
     end do
-    call table%end_row()
+    table = open_table(prefix//'_coefficients.csv', header)
+    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
     do i = 1, size(data%frequencies)
       call solve_from_rest(problem, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
-      if (.not. converged) then
-        call fail('no harmonic balance found at '//text(data%frequencies(i))//' Hz within tolerance '// &
-                  text(data%tolerance))
-      end if
+      if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
       response = structure_response(problem, point)
       do dof = 1, size(response, 2)
-        call table%add(data%frequencies(i))
-        call table%add(dof)
-        call table%add(response(:, dof))
-        call table%end_row()
+        write (table, '(a)') text(data%frequencies(i), '(es24.16e3)')//','//text(dof)//csv(response(:, dof))
       end do
       call progress(trim(data%name)//' '//text(i)//'/'//text(size(data%frequencies))//': '// &
                     text(data%frequencies(i), '(f12.3)')//' Hz, '//trim(data%model%dof_name(data%response_dof))// &
-                    ' '//text(series_peak(response(:, data%response_dof)))//' m')
+                    ' '//text(series_peak(response(:, data%response_dof)), '(es11.4)')//' m')
     end do
-    call table%close()
+    close (table)
   end subroutine solve_points
 
-  subroutine solve_sweeps()
-    type(balance_problem) :: problem
-    type(load_result) :: response
-    type(csv_file) :: responses, peaks, loops
-    integer(int64) :: clock_start, clock_end, clock_rate
-    integer :: load, i
-    character(len=:), allocatable :: prefix
+  subroutine solve_sweep()
+    type(response_path) :: path
+    real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts)), omega, factor, seconds, contact_seconds
+    real(wp), allocatable :: amplitude(:)
+    character(len=:), allocatable :: header
+    integer(int64) :: start, finish, rate
+    integer :: responses, peaks, loops, load, i, points, iterations
 
-    prefix = trim(directory)//'/'//trim(data%name)
-    call responses%open(prefix//'_response.csv')
-    call response_header(responses)
-    call peaks%open(prefix//'_peaks.csv')
-    call response_header(peaks)
-    call loops%open(prefix//'_loops.csv')
-    call loops%add('load')
-    call loops%add('contact')
-    call loops%add('phase_rad')
-    call loops%add('displacement_m')
-    call loops%add('force_N')
-    call loops%add('slip_part_m')
-    call loops%end_row()
-
+    header = response_header()
+    responses = open_table(prefix//'_response.csv', header)
+    peaks = open_table(prefix//'_peaks.csv', header)
+    loops = open_table(prefix//'_loops.csv', 'load,contact,phase_rad,displacement_m,force_N,slip_part_m')
+    points = 0
+    iterations = 0
+    contact_seconds = 0.0_wp
+    call system_clock(start, rate)
     do load = 1, size(data%load_factors)
-      call system_clock(clock_start, clock_rate)
-      call respond(data, data%load_factors(load), problem, response)
-      do i = 1, size(response%row)
-        call write_row(responses, load, response%row(i))
+      factor = data%load_factors(load)
+      call prepare_problem(data, factor, data%harmonics, data%samples, problem)
+      call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
+      points = points + path%points
+      allocate (amplitude(path%points))
+      do i = 1, path%points
+        call write_row(responses, load, path%omega(i), path%displacement(:, :, i), amplitude(i))
       end do
-      call write_row(peaks, load, response%peak)
-      do i = 1, size(response%loop)
-        call write_loop(loops, load, i, response%loop(i))
-      end do
-      call system_clock(clock_end)
+      call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
+      deallocate (amplitude)
+      allocate (amplitude(1))
+      call write_row(peaks, load, omega, displacement, amplitude(1))
+      call write_loops(loops, load, displacement)
       call progress(trim(data%name)//' '//text(load)//'/'//text(size(data%load_factors))//': load factor '// &
-                    text(data%load_factors(load), '(f10.2)')//', peak '// &
-                    text(1.0e6_wp * response%peak%amplitude, '(f10.2)')//' um at '// &
-                    text(response%peak%omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(response%path%points)// &
-                    ' points, '//text(real(clock_end - clock_start, wp) / real(clock_rate, wp), '(f8.2)')//' s')
+                    text(factor, '(f10.2)')//', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')//' um at '// &
+                    text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points')
+      deallocate (amplitude)
+      iterations = iterations + problem%evaluations
+      contact_seconds = contact_seconds + problem%contact_seconds
     end do
-    call responses%close()
-    call peaks%close()
-    call loops%close()
-  end subroutine solve_sweeps
+    call system_clock(finish)
+    seconds = real(finish - start, wp) / rate
+    call progress(trim(data%name)//': '//text(seconds, '(f8.2)')//' s, '//text(points)//' points, '//text(iterations)// &
+                  ' Newton iterations of '//text(1.0e6_wp * seconds / iterations, '(f8.1)')//' us, of that contact forces '// &
+                  text(1.0e6_wp * contact_seconds / iterations, '(f8.1)')//' us')
+    close (responses)
+    close (peaks)
+    close (loops)
+  end subroutine solve_sweep
 
-  subroutine response_header(table)
-    type(csv_file), intent(inout) :: table
-    integer :: i, k
-
-    call table%add('load')
-    call table%add('load_factor')
-    call table%add('frequency_hz')
-    call table%add('peak_m')
-    do k = 0, data%harmonics
-      call table%add('harmonic_'//text(k)//'_m')
-    end do
-    do i = 1, size(data%contacts)
-      call table%add(trim(data%contacts(i)%name)//'_normal_force_N')
-      call table%add(trim(data%contacts(i)%name)//'_dissipated_J')
-      call table%add(trim(data%contacts(i)%name)//'_min_stick_half_width_m')
-    end do
-    call table%end_row()
-  end subroutine response_header
-
-  subroutine write_row(table, load, row)
-    type(csv_file), intent(inout) :: table
-    integer, intent(in) :: load
-    type(response_row), intent(in) :: row
-    real(wp) :: normal_force
+  function response_header() result(header)
+    character(len=:), allocatable :: header, name
     integer :: i
 
-    call table%add(load)
-    call table%add(data%load_factors(load))
-    call table%add(row%omega / (2.0_wp * pi))
-    call table%add(row%amplitude)
-    call table%add(row%harmonic)
-    do i = 1, size(data%contacts)
-      normal_force = data%contacts(i)%parameters%normal_force
-      if (data%contacts(i)%load_varied) normal_force = data%load_factors(load) * normal_force
-      call table%add(normal_force)
-      call table%add(row%dissipated(i))
-      call table%add(row%min_stick_half_width(i))
+    header = 'load,load_factor,frequency_hz,peak_m'
+    do i = 0, data%harmonics
+      header = header//',harmonic_'//text(i)//'_m'
     end do
-    call table%end_row()
+    do i = 1, size(data%contacts)
+      name = ','//trim(data%contacts(i)%name)
+      header = header//name//'_normal_force_N'//name//'_dissipated_J'//name//'_min_stick_half_width_m'
+    end do
+  end function response_header
+
+  !> `amplitude` is the peak over the period of the response.
+  subroutine write_row(table, load, omega, displacement, amplitude)
+    integer, intent(in) :: table, load
+    real(wp), intent(in) :: omega
+    real(wp), intent(in), contiguous :: displacement(:,:)
+    real(wp), intent(out) :: amplitude
+    real(wp) :: response(size(displacement, 1), size(data%model%dof_name)), by_contact(3, size(displacement, 2))
+    integer :: i
+
+    call evaluate(problem, omega, displacement, point)
+    response = structure_response(problem, point)
+    amplitude = series_peak(response(:, data%response_dof))
+    do i = 1, size(data%contacts)
+      associate (c => data%contacts(i))
+        by_contact(:, i) = [c%parameters%normal_force * merge(data%load_factors(load), 1.0_wp, c%load_varied), &
+                            point%dissipated(i), problem%contacts%min_stick_half_width(i, displacement(:, i))]
+      end associate
+    end do
+    write (table, '(a)') text(load)//csv([data%load_factors(load), omega / (2.0_wp * pi), amplitude, &
+                                          harmonic_amplitude(response(:, data%response_dof)), by_contact])
   end subroutine write_row
 
-  subroutine write_loop(table, load, contact, loop)
-    type(csv_file), intent(inout) :: table
-    integer, intent(in) :: load, contact
-    type(contact_loop), intent(in) :: loop
-    integer :: i, j
+  !> Hysteresis loops of all contacts. The slip part is the displacement minus that of a contact that sticks everywhere.
+  subroutine write_loops(table, load, displacement)
+    integer, intent(in) :: table, load
+    real(wp), intent(in) :: displacement(:,:)
+    type(contact_history) :: history
+    real(wp), dimension(loop_points, size(displacement, 2)) :: u, force
+    real(wp) :: basis(loop_points, size(displacement, 1)), f
+    integer :: contact, i, j
 
-    ! The first point again at the end closes the loop.
-    do i = 0, loop_points
-      j = modulo(i, loop_points) + 1
-      call table%add(load)
-      call table%add(data%contacts(contact)%name)
-      call table%add(2.0_wp * pi * real(i, wp) / real(loop_points, wp))
-      call table%add(loop%displacement(j))
-      call table%add(loop%force(j))
-      call table%add(loop%slip_part(j))
-      call table%end_row()
+    basis = series_basis(data%harmonics, loop_points)
+    u = matmul(basis, displacement)
+    call problem%contacts%steady_cycle(u, history, force)
+    do contact = 1, size(u, 2)
+      do i = 0, loop_points      ! the first point again closes the loop
+        j = modulo(i, loop_points) + 1
+        f = force(j, contact) / data%contacts(contact)%count
+        write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
+          csv([2.0_wp * pi * i / loop_points, u(j, contact), f, &
+               u(j, contact) - f / max(problem%contacts%sliders(contact)%stiffness, tiny(f))])
+      end do
     end do
-  end subroutine write_loop
+  end subroutine write_loops
 end program forced_response

@@ -1,44 +1,28 @@
-!> Real Fourier series with coefficients [c0, cos 1, sin 1, cos 2, sin 2, ...] over one period of the excitation.
+!> Real Fourier series over one period of the excitation: coefficients [c0, cos 1, sin 1, cos 2, sin 2, ...] of
+!> x(t) = c0 + sum over k of cos_k cos(k omega t) + sin_k sin(k omega t).
 module fourier_series
-  use kinds, only: pi, wp
+  use basics, only: pi, wp
   implicit none
   private
-  public :: coefficient_count, series_basis, series_projection, series_peak, harmonic_amplitude, as_complex
+  public :: series_basis, series_peak, harmonic_amplitude, get_harmonic, set_harmonic
 
 contains
 
-  pure integer function coefficient_count(harmonics)
-    integer, intent(in) :: harmonics
-    coefficient_count = 2 * harmonics + 1
-  end function coefficient_count
-
-  !> Values of the functions 1, cos, sin, ... at equidistant instants from t = 0: signal = basis * coefficients.
+  !> The functions 1, cos, sin, ... at uniformly spaced instants from t = 0: signal = basis * coefficients.
   pure function series_basis(harmonics, samples) result(basis)
     integer, intent(in) :: harmonics, samples
     real(wp) :: basis(samples, 2 * harmonics + 1)
-    real(wp) :: phase
+    real(wp) :: phase(samples)
     integer :: i, k
 
     basis(:, 1) = 1.0_wp
     do k = 1, harmonics
-      do i = 1, samples
-        ! The product is reduced as an integer, so that high harmonics lose no accuracy.
-        phase = 2.0_wp * pi * real(modulo(k * (i - 1), samples), wp) / real(samples, wp)
-        basis(i, 2*k) = cos(phase)
-        basis(i, 2*k + 1) = sin(phase)
-      end do
+      ! The product is reduced as an integer, so that high harmonics are as accurate as low ones.
+      phase = [(2.0_wp * pi * real(modulo(k * (i - 1), samples), wp) / real(samples, wp), i=1, samples)]
+      basis(:, 2*k) = cos(phase)
+      basis(:, 2*k + 1) = sin(phase)
     end do
   end function series_basis
-
-  !> coefficients = projection * signal.
-  pure function series_projection(harmonics, samples) result(projection)
-    integer, intent(in) :: harmonics, samples
-    real(wp) :: projection(2 * harmonics + 1, samples), basis(samples, 2 * harmonics + 1)
-
-    basis = series_basis(harmonics, samples)
-    projection = transpose(basis) * (2.0_wp / samples)
-    projection(1, :) = 0.5_wp * projection(1, :)
-  end function series_projection
 
   !> Largest absolute value over the period: the largest sample, refined by the parabola through its neighbours.
   pure function series_peak(coefficients) result(peak)
@@ -61,27 +45,30 @@ contains
     if (curvature < 0.0_wp) peak = peak - 0.5_wp * slope**2 / curvature
   end function series_peak
 
-  !> Amplitude of each harmonic, 0 to H; that of harmonic 0 is the absolute mean.
+  !> Amplitude of each harmonic from 0; that of harmonic 0 is the absolute mean.
   pure function harmonic_amplitude(coefficients) result(amplitude)
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: amplitude(0:size(coefficients) / 2)
     integer :: k
 
-    amplitude(0) = abs(coefficients(1))
-    do k = 1, size(coefficients) / 2
-      amplitude(k) = hypot(coefficients(2*k), coefficients(2*k + 1))
-    end do
+    amplitude = [(abs(get_harmonic(coefficients, k)), k=0, size(coefficients) / 2)]
   end function harmonic_amplitude
 
-  !> X in Re(X exp(i k omega t)), for harmonic k.
-  pure complex(wp) function as_complex(coefficients, k)
+  !> X in Re(X exp(i k omega t)).
+  pure complex(wp) function get_harmonic(coefficients, k) result(amplitude)
     real(wp), intent(in) :: coefficients(:)
     integer, intent(in) :: k
 
-    if (k == 0) then
-      as_complex = cmplx(coefficients(1), 0.0_wp, wp)
-    else
-      as_complex = cmplx(coefficients(2*k), -coefficients(2*k + 1), wp)
-    end if
-  end function as_complex
+    amplitude = cmplx(coefficients(max(2*k, 1)), 0.0_wp, wp)
+    if (k > 0) amplitude = cmplx(coefficients(2*k), -coefficients(2*k + 1), wp)
+  end function get_harmonic
+
+  pure subroutine set_harmonic(coefficients, k, amplitude)
+    real(wp), intent(inout) :: coefficients(:)
+    integer, intent(in) :: k
+    complex(wp), intent(in) :: amplitude
+
+    coefficients(max(2*k, 1)) = real(amplitude)
+    if (k > 0) coefficients(2*k + 1) = -aimag(amplitude)
+  end subroutine set_harmonic
 end module fourier_series

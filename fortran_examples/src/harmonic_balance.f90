@@ -6,16 +6,18 @@
 !>     R(u, omega) = u + C(omega) f(u) - u_free(omega) = 0,    C_k = B^T (K + i k omega D - (k omega)^2 M)^-1 B,
 !>
 !> with u_free the relative displacements without contact forces. A contact force is an internal force, positive with
-!> the relative displacement, hence its sign. Newton's method works on u alone.
+!> the relative displacement, hence its sign. The unknowns of Newton's method are u alone, the Fourier coefficients of every
+!> contact; f and df/du come from contacts%harmonic_force.
 module harmonic_balance
+  use, intrinsic :: iso_fortran_env, only: int64
+  use basics, only: wp
   use dense_algebra, only: solve
-  use fourier_series, only: as_complex, coefficient_count
+  use fourier_series, only: get_harmonic, set_harmonic
   use friction_contacts, only: contact_set
-  use kinds, only: wp
   use linear_structure, only: structure
   implicit none
   private
-  public :: contact_incidence, evaluate, newton_error, solve_at, solve_from_rest, structure_response
+  public :: evaluate, newton_error, solve_at, solve_from_rest, structure_response
 
   type, public :: balance_problem
     type(structure) :: model
@@ -24,37 +26,25 @@ module harmonic_balance
     complex(wp), allocatable :: excitation(:)     !! F in Re(F exp(i omega t)), for each degree of freedom
     integer :: harmonics = 0
     real(wp) :: tolerance = 0.0_wp                !! of R, relative to the displacement of each contact
-    integer :: evaluations = 0                    !! of R and its derivatives until now
+    integer :: evaluations = 0                    !! of R and its derivatives
+    real(wp) :: contact_seconds = 0.0_wp          !! wall time of contacts%harmonic_force
   end type balance_problem
 
   !> The balance at one frequency and one set of displacements.
   type, public :: balance_point
     real(wp), allocatable :: residual(:,:)        !! R, (coefficient, contact)
-    real(wp), allocatable :: jacobian(:,:)        !! dR/du, order as in memory
+    real(wp), allocatable :: jacobian(:,:)        !! dR/du, both in array element order
     real(wp), allocatable :: by_omega(:,:)        !! dR/domega
     real(wp), allocatable :: force(:,:)           !! f(u)
     real(wp), allocatable :: dissipated(:)        !! per period and contact
     real(wp) :: free_size = 0.0_wp                !! largest relative displacement without contact forces
-    !> Response of all degrees of freedom, (dof, contact, harmonic), and to the excitation.
+    !> Response of all degrees of freedom to contact forces, (dof, contact, harmonic), and to the excitation.
     complex(wp), allocatable, private :: by_force(:,:,:), by_excitation(:)
   end type balance_point
 
-  integer, parameter :: newton_steps = 40
+  integer, parameter :: newton_steps = 40, halvings = 8
 
 contains
-
-  !> B for contacts between the pairs dof(1, i) and dof(2, i); 0 is the ground.
-  pure function contact_incidence(dof, size_of_model) result(incidence)
-    integer, intent(in) :: dof(:,:), size_of_model
-    real(wp) :: incidence(size_of_model, size(dof, 2))
-    integer :: i
-
-    incidence = 0.0_wp
-    do i = 1, size(dof, 2)
-      if (dof(1, i) > 0) incidence(dof(1, i), i) = 1.0_wp
-      if (dof(2, i) > 0) incidence(dof(2, i), i) = -1.0_wp
-    end do
-  end function contact_incidence
 
   !> R and its exact derivatives.
   subroutine evaluate(problem, omega, displacement, point)
@@ -67,6 +57,7 @@ contains
     complex(wp), dimension(size(problem%incidence, 2), size(problem%incidence, 2) + 1) :: seen, seen_rate
     complex(wp) :: residual, residual_rate
     real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), size(displacement, 2))
+    integer(int64) :: start, finish, rate_of_clock
     integer :: n, contacts, m, k, i, j, row, column
 
     n = size(problem%incidence, 1)
@@ -77,8 +68,11 @@ contains
       allocate (point%jacobian(m * contacts, m * contacts), point%dissipated(contacts))
       allocate (point%by_force(n, contacts, 0:problem%harmonics), point%by_excitation(n))
     end if
-    problem%evaluations = problem%evaluations + 1
+    call system_clock(start, rate_of_clock)
     call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated)
+    call system_clock(finish)
+    problem%contact_seconds = problem%contact_seconds + real(finish - start, wp) / rate_of_clock
+    problem%evaluations = problem%evaluations + 1
 
     do k = 0, problem%harmonics
       stiffness = cmplx(problem%model%stiffness - (k * omega)**2 * problem%model%mass, &
@@ -97,18 +91,18 @@ contains
         point%free_size = maxval(abs(seen(:, contacts + 1)))
       end if
       do i = 1, contacts
-        residual = as_complex(displacement(:, i), k) - seen(i, contacts + 1)
+        residual = get_harmonic(displacement(:, i), k) - seen(i, contacts + 1)
         residual_rate = -seen_rate(i, contacts + 1)
         do j = 1, contacts
-          residual = residual + seen(i, j) * as_complex(point%force(:, j), k)
-          residual_rate = residual_rate + seen_rate(i, j) * as_complex(point%force(:, j), k)
+          residual = residual + seen(i, j) * get_harmonic(point%force(:, j), k)
+          residual_rate = residual_rate + seen_rate(i, j) * get_harmonic(point%force(:, j), k)
           row = (i - 1) * m + max(2*k, 1)
           column = (j - 1) * m
-          call compose(seen(i, j), k, contact_jacobian(:, :, j), &
-                       point%jacobian(row:row + min(k, 1), column + 1:column + m))
+          call add_compliance(seen(i, j), k, contact_jacobian(:, :, j), &
+                              point%jacobian(row:row + min(k, 1), column + 1:column + m))
         end do
-        call store(residual, k, point%residual(:, i))
-        call store(residual_rate, k, point%by_omega(:, i))
+        call set_harmonic(point%residual(:, i), k, residual)
+        call set_harmonic(point%by_omega(:, i), k, residual_rate)
       end do
     end do
     do i = 1, m * contacts
@@ -116,8 +110,8 @@ contains
     end do
   end subroutine evaluate
 
-  !> Rows of harmonic k of (compliance times contact Jacobian), with X = c - i s.
-  pure subroutine compose(compliance, k, contact_jacobian, rows)
+  !> Rows of harmonic k of (compliance times contact Jacobian), with X = cos - i sin.
+  pure subroutine add_compliance(compliance, k, contact_jacobian, rows)
     complex(wp), intent(in) :: compliance
     integer, intent(in) :: k
     real(wp), intent(in) :: contact_jacobian(:,:)
@@ -129,26 +123,13 @@ contains
       rows(1, :) = real(compliance) * contact_jacobian(2*k, :) + aimag(compliance) * contact_jacobian(2*k + 1, :)
       rows(2, :) = real(compliance) * contact_jacobian(2*k + 1, :) - aimag(compliance) * contact_jacobian(2*k, :)
     end if
-  end subroutine compose
+  end subroutine add_compliance
 
-  pure subroutine store(amplitude, k, coefficients)
-    complex(wp), intent(in) :: amplitude
-    integer, intent(in) :: k
-    real(wp), intent(inout) :: coefficients(:)
-
-    if (k == 0) then
-      coefficients(1) = real(amplitude)
-    else
-      coefficients(2*k) = real(amplitude)
-      coefficients(2*k + 1) = -aimag(amplitude)
-    end if
-  end subroutine store
-
-  !> Coefficients (coefficient, dof) of all degrees of freedom; `point` is the balance where it holds.
+  !> Coefficients (coefficient, dof) of all degrees of freedom at a solution.
   pure function structure_response(problem, point) result(response)
     type(balance_problem), intent(in) :: problem
     type(balance_point), intent(in) :: point
-    real(wp) :: response(coefficient_count(problem%harmonics), size(problem%incidence, 1))
+    real(wp) :: response(2 * problem%harmonics + 1, size(problem%incidence, 1))
     complex(wp) :: amplitude
     integer :: dof, k, j
 
@@ -156,15 +137,15 @@ contains
       do k = 0, problem%harmonics
         amplitude = merge(point%by_excitation(dof), (0.0_wp, 0.0_wp), k == 1)
         do j = 1, size(problem%incidence, 2)
-          amplitude = amplitude - point%by_force(dof, j, k) * as_complex(point%force(:, j), k)
+          amplitude = amplitude - point%by_force(dof, j, k) * get_harmonic(point%force(:, j), k)
         end do
-        call store(amplitude, k, response(:, dof))
+        call set_harmonic(response(:, dof), k, amplitude)
       end do
     end do
   end function structure_response
 
-  !> Residual over what is allowed of it: the balance holds where this is at most 1. A stuck contact moves far less than
-  !> the free structure would, whose rounding error it inherits.
+  !> Residual over its tolerance: converged if at most 1. A stuck contact moves far less than the free structure would, whose
+  !> rounding error it inherits.
   pure function newton_error(problem, displacement, point) result(error)
     type(balance_problem), intent(in) :: problem
     real(wp), intent(in) :: displacement(:,:)
@@ -179,7 +160,8 @@ contains
     end do
   end function newton_error
 
-  !> Newton's method at a fixed frequency, from the displacements given; steps are halved while they do not help.
+  !> Newton's method at a fixed frequency. A step that does not reduce the residual is halved: near the onset of gross slip,
+  !> where the tangent stiffness changes fast, full steps may alternate between stick and slip.
   subroutine solve_at(problem, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega
@@ -190,7 +172,6 @@ contains
     real(wp) :: start(size(displacement, 1), size(displacement, 2)), size_before, fraction
     logical :: singular
     integer :: iteration, halving
-    integer, parameter :: halvings = 8
 
     call evaluate(problem, omega, displacement, point)
     do iteration = 1, newton_steps
@@ -213,7 +194,7 @@ contains
     converged = newton_error(problem, displacement, point) <= 1.0_wp
   end subroutine solve_at
 
-  !> Without a neighbouring solution: the excitation grows in steps that shrink where Newton's method fails.
+  !> Without a neighbouring solution: the excitation grows in steps that shrink if Newton's method fails.
   subroutine solve_from_rest(problem, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega

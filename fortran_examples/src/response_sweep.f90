@@ -1,288 +1,150 @@
-!> Forced response of several cases at many loads and frequencies, shared by the ranks of MPI.
+!> Resonance peaks of several cases at many normal forces on the ranks of MPI: the same bytes for any number of ranks.
 !>
-!>     mpirun -n RANKS response_sweep DIRECTORY BLOCKS POINTS CASE...
+!>     mpirun -n RANKS response_sweep TABLE CASE...
 !>
-!> The range of frequencies of each case and load is cut into BLOCKS of POINTS. Written to DIRECTORY, the same for any
-!> number of ranks:
-!> * sweep.dat        the records of the units, written as they come. A run that finds the file solves what is missing.
-!> * sweep.csv        amplitude of the response and energies at every frequency
-!> * sweep_peaks.csv  for each case and load the largest amplitude, and of each contact there, in the instant of the largest
-!>                    excitation, the largest shear traction
-!>
-!> Rank 0 prepares all contacts and sends them. It hands out the units, gathers their records, and solves units itself
-!> while there is nothing to gather; so that nobody waits for it the others have their next unit before they finish one.
+!> A unit is the response of one case at one load factor; unit i is solved by rank mod(i - 1, RANKS). Rank 0 initialises all
+!> contacts, sends them as bytes, gathers the peaks and the states of the contacts there, and writes TABLE: for each unit
+!> frequency and amplitude of the peak, and the largest shear traction of each contact in the instant of largest excitation.
 program response_sweep
-  use, intrinsic :: iso_fortran_env, only: int64, output_unit
-  use csv_output, only: csv_file
-  use kinds, only: path_length, wp
-  use messages, only: end_others, fail, progress, text
-  use microslip, only: MSLIP_OK, mslip_contact_check, mslip_int, mslip_masing_tractions, mslip_state_check, mslip_status_text
+  use basics, only: argument, before_exit, csv, fail, open_table, pi, progress, text, wp
+  use case_input, only: case_data, prepare_problem, read_case
+  use continuation, only: follow_response, refine_peak, response_path
+  use fourier_series, only: series_basis, series_peak
+  use friction_contacts, only: contact_history, law_microslip, max_reversals
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
+  use microslip
   use mpi_f08
-  use sweep_results, only: checksum, results_file
-  use sweep_units, only: frequency_sweep, point_amplitude, point_energy, point_found, prepare_contacts, read_sweep
   implicit none
 
-  integer, parameter :: no_unit = 0, units_ahead = 2
-  character(len=path_length) :: directory
-  character(len=path_length), allocatable :: case_files(:)
-  type(frequency_sweep) :: sweep
-  real(wp), allocatable :: record(:)
-  integer :: rank, ranks, i
-  ! Data of rank 0.
-  type(results_file) :: results
-  integer, allocatable :: missing(:)                     !! units that were not found in the file
-  integer, allocatable :: in_work(:)                     !! units that each other rank has
-  real(wp), allocatable, asynchronous :: arriving(:)
-  type(MPI_Request) :: receipt
-  integer :: handed_out = 0, finished = 0                !! of the missing units
+  character(len=*), parameter :: usage = 'response_sweep TABLE CASE...'
+  type(case_data), allocatable :: cases(:)
+  type(balance_problem) :: problem
+  type(mslip_contact), allocatable :: contacts(:,:)       !! (contact, unit)
+  integer, allocatable :: case_of(:)                      !! of each unit
+  real(wp), allocatable :: load_factor(:), own(:,:), gathered(:,:,:)
   real(wp) :: start
+  integer(mslip_int) :: status
+  integer :: rank, ranks, max_contacts, length, bytes, unit, i
 
   call MPI_Init()
-  end_others => abort_all
+  before_exit => abort_all
   call MPI_Comm_rank(MPI_COMM_WORLD, rank)
   call MPI_Comm_size(MPI_COMM_WORLD, ranks)
-  if (command_argument_count() < 4) call fail('usage: response_sweep DIRECTORY BLOCKS POINTS CASE...')
-  call get_command_argument(1, directory)
-  allocate (case_files(command_argument_count() - 3))
-  do i = 1, size(case_files)
-    call get_command_argument(i + 3, case_files(i))
+  start = MPI_Wtime()
+  allocate (cases(max(command_argument_count() - 1, 1)), case_of(0), load_factor(0))
+  do i = 1, size(cases)
+    call read_case(trim(argument(i + 1, usage)), cases(i))
+    if (any(cases(i)%contacts%law /= law_microslip)) call fail(trim(cases(i)%name)//': law must be microslip')
+    load_factor = [load_factor, cases(i)%load_factors]
+    case_of = [case_of, spread(i, 1, size(cases(i)%load_factors))]
   end do
-  call read_sweep(case_files, positive_argument(2), positive_argument(3), sweep)
-  allocate (record(sweep%record_length()))
+  max_contacts = maxval([(size(cases(i)%contacts), i=1, size(cases))])
 
-  if (rank == 0) call prepare_contacts(sweep)
-  call MPI_Bcast(sweep%contacts, storage_size(sweep%contacts) / 8 * size(sweep%contacts), MPI_BYTE, 0, MPI_COMM_WORLD)
-  call check_contacts()
+  ! A contact is plain data. Each is validated once where it arrives.
+  allocate (contacts(max_contacts, size(case_of)))
   if (rank == 0) then
-    call lead()
-  else
-    call follow()
+    do unit = 1, size(case_of)
+      call prepare(unit)
+      contacts(:size(problem%contacts%prepared), unit) = problem%contacts%prepared
+    end do
   end if
+  call MPI_Bcast(contacts, storage_size(contacts) / 8 * size(contacts), MPI_BYTE, 0, MPI_COMM_WORLD)
+
+  length = 2 + max_contacts * int(mslip_state_length(max_reversals))
+  allocate (own(length, (size(case_of) - 1) / ranks + 1), source=0.0_wp)
+  do unit = rank + 1, size(case_of), ranks
+    call solve_unit(own(:, (unit - 1) / ranks + 1))
+  end do
+
+  allocate (gathered(length, size(own, 2), ranks))
+  bytes = 8 * size(own)
+  call MPI_Gather(own, bytes, MPI_BYTE, gathered, bytes, MPI_BYTE, 0, MPI_COMM_WORLD)
+  if (rank == 0) call write_table()
   call MPI_Finalize()
 
 contains
-
-  !> Contacts that come from another process are validated once.
-  subroutine check_contacts()
-    integer(mslip_int) :: status
-    integer :: contact, load
-
-    do load = 1, size(sweep%load_factor)
-      do contact = 1, size(sweep%cases(sweep%case_of(load))%contacts)
-        call mslip_contact_check(sweep%contacts(contact, load), status)
-        if (status /= MSLIP_OK) call fail('contact from rank 0: '//mslip_status_text(status))
-      end do
-    end do
-  end subroutine check_contacts
 
   !> Not every launcher ends the other ranks if one has ended.
   subroutine abort_all()
     call MPI_Abort(MPI_COMM_WORLD, 1)
   end subroutine abort_all
 
-  integer function positive_argument(place) result(number)
-    integer, intent(in) :: place
-    character(len=path_length) :: argument
-    integer :: status
+  subroutine prepare(unit)
+    integer, intent(in) :: unit
 
-    number = 0
-    call get_command_argument(place, argument)
-    read (argument, *, iostat=status) number
-    if (status /= 0) number = 0
-    if (number < 1) call fail('argument "'//trim(argument)//'": must be a number, 1 or more')
-  end function positive_argument
+    associate (data => cases(case_of(unit)))
+      call prepare_problem(data, load_factor(unit), data%harmonics, data%samples, problem)
+    end associate
+  end subroutine prepare
 
-  !> The record of one unit is on its way while the next is solved: MPI_Send might wait for rank 0.
-  subroutine follow()
-    real(wp), asynchronous :: leaving(size(record))
-    type(MPI_Request) :: departure
-    integer :: unit
+  !> Frequency and amplitude of the peak, then the states of the contacts there.
+  subroutine solve_unit(record)
+    real(wp), intent(out) :: record(:)
+    type(response_path) :: path
+    type(balance_point) :: point
+    type(contact_history) :: history
+    real(wp), allocatable :: amplitude(:), displacement(:,:), basis(:,:), force(:,:)
+    real(wp) :: omega
+    integer :: i
 
-    departure = MPI_REQUEST_NULL
-    do
-      call MPI_Recv(unit, 1, MPI_INTEGER, 0, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE)
-      if (unit == no_unit) exit
-      call sweep%solve(unit, record)
-      call MPI_Wait(departure, MPI_STATUS_IGNORE)
-      leaving = record
-      call MPI_Isend(leaving, 8 * size(leaving), MPI_BYTE, 0, 0, MPI_COMM_WORLD, departure)
-    end do
-    call MPI_Wait(departure, MPI_STATUS_IGNORE)
-  end subroutine follow
-
-  subroutine lead()
-    type(MPI_Status) :: message
-    integer :: unit, other, pass
-    logical :: found, arrived
-
-    call results%open(trim(directory)//'/sweep.dat', sweep_key(), sweep%units(), size(record))
-    allocate (missing(0))
-    do unit = 1, sweep%units()
-      call results%find(unit, record, found)
-      if (.not. found) missing = [missing, unit]
-    end do
-    call progress(text(sweep%units())//' units, '//text(sweep%units() - size(missing))//' of them found, '// &
-                  text(ranks)//' ranks')
-
-    start = MPI_Wtime()
-    allocate (in_work(ranks - 1), source=0)
-    allocate (arriving, mold=record)
-    do pass = 1, units_ahead
-      do other = 1, ranks - 1
-        if (handed_out < size(missing)) call hand_out(other)
+    call prepare(unit)
+    associate (data => cases(case_of(unit)), sent => contacts(:size(problem%contacts%prepared), unit))
+      do i = 1, size(sent)
+        call mslip_contact_check(sent(i), status)
+        if (status /= MSLIP_OK) call fail('contact from rank 0: '//mslip_status_text(status))
       end do
-    end do
-    do other = 1, ranks - 1
-      if (in_work(other) == 0) call dismiss(other)
-    end do
-    if (any(in_work > 0)) call expect()
-    do
-      do while (any(in_work > 0))
-        if (handed_out < size(missing)) then
-          call MPI_Test(receipt, arrived, message)
-          if (.not. arrived) exit
-        else
-          call MPI_Wait(receipt, message)
-        end if
-        record = arriving
-        other = message%MPI_SOURCE
-        in_work(other) = in_work(other) - 1
-        if (handed_out < size(missing)) then
-          call hand_out(other)
-        else if (in_work(other) == 0) then
-          call dismiss(other)
-        end if
-        if (any(in_work > 0)) call expect()
-        call keep(other)
+      problem%contacts%prepared = sent
+      call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
+      allocate (amplitude(path%points), displacement(2 * data%harmonics + 1, size(sent)))
+      do i = 1, path%points
+        call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
+        amplitude(i) = peak_of(structure_response(problem, point), data%response_dof)
       end do
-      if (handed_out == size(missing)) exit
-      handed_out = handed_out + 1
-      call sweep%solve(missing(handed_out), record)
-      call keep(0)
-    end do
-    call progress('solved in '//text(MPI_Wtime() - start, '(f10.2)')//' s')
-    call write_tables()
-    call results%close()
-  end subroutine lead
+      call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
+      call evaluate(problem, omega, displacement, point)
+      ! A period that ends when the excitation is largest.
+      allocate (force(data%samples, size(sent)))
+      basis = cshift(series_basis(data%harmonics, data%samples), 1, dim=1)
+      call problem%contacts%steady_cycle(matmul(basis, displacement), history, force)
+      record = 0.0_wp
+      record(:2) = [omega / (2.0_wp * pi), peak_of(structure_response(problem, point), data%response_dof)]
+      record(3:2 + size(history%states)) = reshape(history%states, [size(history%states)])
+    end associate
+    call progress('rank '//text(rank)//': unit '//text(unit)//' of '//text(size(case_of)))
+  end subroutine solve_unit
 
-  subroutine hand_out(other)
-    integer, intent(in) :: other
+  real(wp) function peak_of(response, dof)
+    real(wp), intent(in) :: response(:,:)
+    integer, intent(in) :: dof
+    peak_of = series_peak(response(:, dof))
+  end function peak_of
 
-    handed_out = handed_out + 1
-    in_work(other) = in_work(other) + 1
-    call MPI_Send(missing(handed_out), 1, MPI_INTEGER, other, 0, MPI_COMM_WORLD)
-  end subroutine hand_out
-
-  !> The record of the rank that finishes next.
-  subroutine expect()
-    call MPI_Irecv(arriving, 8 * size(arriving), MPI_BYTE, MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, receipt)
-  end subroutine expect
-
-  subroutine dismiss(other)
-    integer, intent(in) :: other
-    call MPI_Send(no_unit, 1, MPI_INTEGER, other, 0, MPI_COMM_WORLD)
-  end subroutine dismiss
-
-  subroutine keep(source)
-    integer, intent(in) :: source
-    real(wp) :: seconds
-
-    call results%keep(record)
-    finished = finished + 1
-    seconds = MPI_Wtime() - start
-    call progress('unit '//text(finished)//'/'//text(size(missing))//': '//sweep%description(nint(record(1)))// &
-                  ', rank '//text(source)//', '//text(seconds, '(f10.1)')//' s, '// &
-                  text(seconds / finished * (size(missing) - finished), '(f10.1)')//' s left')
-  end subroutine keep
-
-  !> A checksum of all that the records depend on.
-  integer(int64) function sweep_key() result(key)
-    integer :: case
-
-    key = checksum(0_int64, transfer(sweep%contacts, [0.0_wp]))
-    do case = 1, size(sweep%cases)
-      associate (data => sweep%cases(case))
-        key = checksum(key, [data%model%mass, data%model%damping, data%model%stiffness])
-        key = checksum(key, [data%excitation_amplitude, data%excitation_phase, data%tolerance, data%frequency_from, &
-                             data%frequency_to, real([data%excited_dof, data%response_dof, data%harmonics, &
-                                                      data%samples, sweep%blocks, sweep%points], wp)])
-        key = checksum(key, real([(data%contacts(i)%dof, data%contacts(i)%count, i=1, size(data%contacts))], wp))
-      end associate
-    end do
-  end function sweep_key
-
-  subroutine write_tables()
-    type(csv_file) :: table, peaks
-    real(wp), allocatable :: row(:,:), state(:,:), peak_state(:,:)
-    real(wp) :: peak_amplitude, peak_frequency
-    logical :: found
-    integer :: unit, point, contact, load, contacts
-
-    peak_amplitude = -1.0_wp
-    peak_frequency = 0.0_wp
-    allocate (peak_state(0, 0))
-    call table%open(trim(directory)//'/sweep.csv')
-    call peaks%open(trim(directory)//'/sweep_peaks.csv')
-    call table%add('case,load_factor,frequency_hz,amplitude_m,found')
-    call peaks%add('case,load_factor,frequency_hz,amplitude_m')
-    do contact = 1, sweep%max_contacts
-      call table%add('dissipated_'//text(contact)//'_J')
-      call peaks%add('shear_'//text(contact)//'_Pa')
-    end do
-    call table%end_row()
-    call peaks%end_row()
-    do unit = 1, sweep%units()
-      call results%find(unit, record, found)
-      if (.not. found) call fail('the record of unit '//text(unit)//' cannot be read back')
-      call sweep%unpack(record, row, state)
-      load = sweep%load_of(unit)
-      associate (data => sweep%cases(sweep%case_of(load)))
-        contacts = size(data%contacts)
-        do point = 1, sweep%points
-          call table%add(data%name)
-          call table%add(sweep%load_factor(load))
-          call table%add(sweep%frequency(unit, point))
-          call table%add(row(point_amplitude, point))
-          call table%add(nint(row(point_found, point)))
-          call table%add(row(point_energy:, point))
-          call table%end_row()
-        end do
-        point = maxloc(row(point_amplitude, :), dim=1)
-        if (row(point_amplitude, point) > peak_amplitude) then
-          peak_amplitude = row(point_amplitude, point)
-          peak_frequency = sweep%frequency(unit, point)
-          peak_state = state
-        end if
-        if (mod(unit, sweep%blocks) == 0) then
-          call peaks%add(data%name)
-          call peaks%add(sweep%load_factor(load))
-          call peaks%add(peak_frequency)
-          call peaks%add(peak_amplitude)
-          call peaks%add([(max_shear(load, contact, peak_state(:, contact)), contact=1, contacts), &
-                          (0.0_wp, contact=contacts + 1, sweep%max_contacts)])
-          call peaks%end_row()
-          peak_amplitude = -1.0_wp
-        end if
-      end associate
-    end do
-    call table%close()
-    call peaks%close()
-    call progress('wrote '//trim(directory)//'/sweep.csv and sweep_peaks.csv')
-  end subroutine write_tables
-
-  !> For a contact that rank 0 prepared, in a state that comes from a file, and perhaps from another rank before.
-  real(wp) function max_shear(load, contact, state)
-    integer, intent(in) :: load, contact
-    real(wp), intent(in) :: state(:)
+  subroutine write_table()
     integer, parameter :: positions = 201
-    real(wp) :: x(positions), shear(positions)
-    integer(mslip_int) :: status
-    integer :: j
+    real(wp) :: x(positions), shear(positions), state(mslip_state_length(max_reversals)), max_shear(max_contacts)
+    character(len=:), allocatable :: header
+    integer :: table, contact, i
 
-    x = sweep%contacts(contact, load)%half_width * [(2.0_wp * j / (positions - 1) - 1.0_wp, j=0, positions - 1)]
-    call mslip_state_check(state, status)
-    if (status == MSLIP_OK) call mslip_masing_tractions(sweep%contacts(contact, load), state, x, status, shear=shear)
-    if (status /= MSLIP_OK) call fail('shear tractions: '//mslip_status_text(status))
-    max_shear = maxval(abs(shear))
-  end function max_shear
+    header = 'case,load_factor,frequency_hz,amplitude_m'
+    do contact = 1, max_contacts
+      header = header//',shear_'//text(contact)//'_Pa'
+    end do
+    table = open_table(trim(argument(1, usage)), header)
+    do unit = 1, size(case_of)
+      associate (record => gathered(:, (unit - 1) / ranks + 1, mod(unit - 1, ranks) + 1))
+        max_shear = 0.0_wp
+        do contact = 1, size(cases(case_of(unit))%contacts)
+          state = record(3 + (contact - 1) * size(state):2 + contact * size(state))
+          x = contacts(contact, unit)%half_width * [(2.0_wp * i / (positions - 1) - 1.0_wp, i=0, positions - 1)]
+          call mslip_state_check(state, status)
+          if (status == MSLIP_OK) call mslip_masing_tractions(contacts(contact, unit), state, x, status, shear=shear)
+          if (status /= MSLIP_OK) call fail('state of unit '//text(unit)//': '//mslip_status_text(status))
+          max_shear(contact) = maxval(abs(shear))
+        end do
+        write (table, '(a)') trim(cases(case_of(unit))%name)//csv([load_factor(unit), record(:2), max_shear])
+      end associate
+    end do
+    close (table)
+    call progress(text(size(case_of))//' units, '//text(ranks)//' ranks: '//text(MPI_Wtime() - start, '(f8.2)')//' s')
+  end subroutine write_table
 end program response_sweep

@@ -1,143 +1,169 @@
-!> Harmonic balance compared with direct time integration in the steady state.
+!> Newmark's method with constant average acceleration for a linear structure with friction contacts.
+module newmark
+  use basics, only: fail, text, wp
+  use dense_algebra, only: solve
+  use friction_contacts, only: contact_history
+  use harmonic_balance, only: balance_problem
+  implicit none
+  private
+  public :: prepare_newmark, newmark_step
+
+  type, public :: motion
+    real(wp), allocatable :: displacement(:), velocity(:), acceleration(:)
+    type(contact_history) :: contacts, trial                        !! at the last instant, and of the trial step
+    real(wp), allocatable :: contact_displacement(:), contact_force(:)
+  end type motion
+
+  !> Constant matrices of Newmark's method.
+  type, public :: newmark_scheme
+    real(wp) :: step = 0.0_wp
+    real(wp), allocatable :: inverse(:,:)        !! of M + step/2 D + step**2/4 K
+    real(wp), allocatable :: by_force(:,:)       !! inverse times B
+    real(wp), allocatable :: compliance(:,:)     !! step**2/4 B^T inverse B
+    real(wp), allocatable :: contact_scale(:)    !! size of the relative displacement of each contact
+  end type newmark_scheme
+
+contains
+
+  !> One step of Newmark's method; `excitation` is the force at its end. Since the structure is linear, the only unknowns are
+  !> the relative displacements u of the contacts. It is written for the accelerations: in displacements, short steps would
+  !> cancel.
+  subroutine newmark_step(scheme, problem, excitation, state)
+    type(newmark_scheme), intent(in) :: scheme
+    type(balance_problem), intent(in) :: problem
+    real(wp), intent(in) :: excitation(:)
+    type(motion), intent(inout) :: state
+    integer, parameter :: newton_steps = 50, halvings = 8
+    real(wp), parameter :: newton_tolerance = 1.0e-12_wp
+    real(wp), dimension(size(excitation)) :: displacement, velocity, acceleration
+    real(wp), dimension(size(problem%incidence, 2)) :: u, u_free, force, stiffness, residual, start
+    real(wp) :: matrix(size(u), size(u)), correction(size(u), 1), fraction, size_before
+    integer :: iteration, halving, i
+
+    associate (h => scheme%step, contacts => problem%contacts, model => problem%model)
+      displacement = state%displacement + h * state%velocity + 0.25_wp * h**2 * state%acceleration
+      velocity = state%velocity + 0.5_wp * h * state%acceleration
+      acceleration = matmul(scheme%inverse, excitation - matmul(model%damping, velocity) &
+                            - matmul(model%stiffness, displacement))
+      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence)
+
+      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence)
+      call try()
+      do iteration = 1, newton_steps
+        if (all(abs(residual) <= newton_tolerance * scheme%contact_scale)) exit
+        do i = 1, size(u)
+          matrix(:, i) = scheme%compliance(:, i) * stiffness(i)
+          matrix(i, i) = matrix(i, i) + 1.0_wp
+        end do
+        correction(:, 1) = residual
+        call solve(matrix, correction)
+        start = u
+        size_before = norm2(residual / scheme%contact_scale)
+        fraction = 1.0_wp
+        ! A step that does not reduce the residual is halved, as in the balance.
+        do halving = 0, halvings
+          u = start + fraction * correction(:, 1)
+          call try()
+          if (norm2(residual / scheme%contact_scale) < size_before) exit
+          fraction = 0.5_wp * fraction
+        end do
+      end do
+      if (iteration > newton_steps) call fail('time step: no equilibrium within '//text(newton_steps)//' iterations')
+
+      acceleration = acceleration - matmul(scheme%by_force, force)
+      state%displacement = displacement + 0.25_wp * h**2 * acceleration
+      state%velocity = velocity + 0.5_wp * h * acceleration
+    end associate
+    state%acceleration = acceleration
+    state%contacts = state%trial          ! the step is accepted
+    state%contact_displacement = u
+    state%contact_force = force
+
+  contains
+
+    !> A trial step of all contacts from the last accepted history, which is not modified.
+    subroutine try()
+      call problem%contacts%try_step(state%contacts, u, force, stiffness, state%trial)
+      residual = u_free - u - matmul(scheme%compliance, force)
+    end subroutine try
+  end subroutine newmark_step
+
+  subroutine prepare_newmark(problem, step, contact_scale, scheme)
+    type(balance_problem), intent(in) :: problem
+    real(wp), intent(in) :: step, contact_scale(:)
+    type(newmark_scheme), intent(out) :: scheme
+    real(wp), allocatable :: matrix(:,:)
+    integer :: i
+
+    scheme%step = step
+    scheme%contact_scale = contact_scale
+    matrix = problem%model%mass + 0.5_wp * step * problem%model%damping + 0.25_wp * step**2 * problem%model%stiffness
+    allocate (scheme%inverse(size(matrix, 1), size(matrix, 1)), source=0.0_wp)
+    do i = 1, size(matrix, 1)
+      scheme%inverse(i, i) = 1.0_wp
+    end do
+    call solve(matrix, scheme%inverse)
+    scheme%by_force = matmul(scheme%inverse, problem%incidence)
+    scheme%compliance = 0.25_wp * step**2 * matmul(transpose(problem%incidence), scheme%by_force)
+  end subroutine prepare_newmark
+end module newmark
+
+!> Time integration by Newmark's method with constant average acceleration, compared with the harmonic balance in the steady
+!> state.
 !>
 !>     time_integration CASE DIRECTORY
 !>
-!> The group &time_integration of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from
+!> Each group &time_integration of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from
 !> the balance with the most harmonics, so that the transient is small, and is integrated until it is periodic. Written to
 !> DIRECTORY, for a case called NAME:
-!> * NAME_comparison.csv  the differences, for every frequency and number of harmonics;
+!> * NAME_comparison.csv  the differences, for every load factor, frequency and number of harmonics;
 !> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact.
 !>
 !> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
-!> allowed_difference of &time_integration.
+!> allowed_difference of the group.
 program time_integration
-  use case_input, only: case_data, read_case
-  use case_problem, only: prepare_problem
-  use csv_output, only: csv_file
-  use dense_algebra, only: symmetric_modes
+  use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
+  use case_input, only: case_data, integration_input, prepare_problem, read_case
+  use dense_algebra, only: solve, symmetric_modes
   use fourier_series, only: series_basis, series_peak
+  use friction_contacts, only: contact_history
   use harmonic_balance, only: balance_point, balance_problem, solve_from_rest, structure_response
-  use kinds, only: path_length, pi, wp
-  use messages, only: fail, progress, text
-  use newmark, only: initial_acceleration, motion, newmark_scheme, newmark_step, prepare_newmark
+  use newmark, only: motion, newmark_scheme, newmark_step, prepare_newmark
   implicit none
 
-  integer, parameter :: shown_contact = 1
-  integer, parameter :: waveform_points = 256
+  character(len=*), parameter :: usage = 'time_integration CASE DIRECTORY'
+  integer, parameter :: shown_contact = 1, waveform_points = 256
 
-  !> One period of what is compared.
+  !> One period of the response, and of displacement and force of the shown contact.
   type :: waveform
     real(wp), allocatable :: response(:), displacement(:), force(:)
   end type waveform
 
-  character(len=path_length) :: case_file, directory
+  character(len=:), allocatable :: prefix
   type(case_data) :: data
-  type(csv_file) :: table, waveforms
-  integer :: i
+  integer :: table, waveforms, i, k
 
-  if (command_argument_count() /= 2) call fail('usage: time_integration CASE DIRECTORY')
-  call get_command_argument(1, case_file)
-  call get_command_argument(2, directory)
-  call read_case(trim(case_file), data)
-  if (size(data%integration_frequencies) == 0) call fail(trim(case_file)//': the group &time_integration is missing')
-
-  call table%open(trim(directory)//'/'//trim(data%name)//'_comparison.csv')
-  call table%add('load_factor,frequency_hz,harmonics,samples,peak_balance_m,peak_time_integration_m,peak_difference')
-  call table%add('response_difference,displacement_difference,force_difference')
-  call table%add('periods,steps_per_period,change_per_period,remaining_transient')
-  call table%end_row()
-  call waveforms%open(trim(directory)//'/'//trim(data%name)//'_waveforms.csv')
-  call waveforms%add('frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
-  call waveforms%end_row()
-  do i = 1, size(data%integration_frequencies)
-    call compare_at(data%integration_frequencies(i))
+  call read_case(trim(argument(1, usage)), data)
+  prefix = trim(argument(2, usage))//'/'//trim(data%name)
+  if (size(data%integrations) == 0) call fail('a group &time_integration is needed')
+  table = open_table(prefix//'_comparison.csv', 'load_factor,frequency_hz,harmonics,samples,peak_balance_m,'// &
+    'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference,'// &
+    'periods,steps_per_period,change_per_period,remaining_transient')
+  waveforms = open_table(prefix//'_waveforms.csv', &
+    'load_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
+  do k = 1, size(data%integrations)
+    do i = 1, size(data%integrations(k)%frequencies)
+      call compare_at(data%integrations(k), data%integrations(k)%frequencies(i))
+    end do
   end do
-  call table%close()
-  call waveforms%close()
+  close (table)
+  close (waveforms)
 
 contains
 
-  !> The balances of the list, and that of the case itself, with fewer samples.
-  subroutine compare_at(frequency)
-    real(wp), intent(in) :: frequency
-    type(balance_problem) :: problem
-    type(waveform), allocatable :: balances(:)
-    type(waveform) :: integrated
-    real(wp), allocatable :: displacement(:,:), response(:,:), peak(:)
-    integer, dimension(1 + size(data%integration_harmonics)) :: harmonics, samples
-    real(wp) :: change, remaining, integrated_peak, difference(3)
-    integer :: k, most, periods
-
-    harmonics = [data%harmonics, data%integration_harmonics]
-    samples(1) = data%samples
-    samples(2:) = data%integration_samples
-    allocate (balances(size(harmonics)), peak(size(harmonics)))
-    most = maxloc(harmonics, dim=1)
-    do k = 1, size(harmonics)
-      if (k /= most) call balance_at(frequency, harmonics(k), samples(k), problem, displacement, response, &
-                                     balances(k), peak(k))
-    end do
-    call balance_at(frequency, harmonics(most), samples(most), problem, displacement, response, &
-                    balances(most), peak(most))
-    call integrate(frequency, problem, displacement, response, integrated, periods, change, remaining)
-
-    integrated_peak = maxval(abs(integrated%response))
-    call add_waveform(frequency, 'time_integration', 0, data%steps_per_period, integrated)
-    do k = 1, size(balances)
-      difference = [relative_difference(balances(k)%response, integrated%response), &
-                    relative_difference(balances(k)%displacement, integrated%displacement), &
-                    relative_difference(balances(k)%force, integrated%force)]
-      call table%add(data%integration_load_factor)
-      call table%add(frequency)
-      call table%add(harmonics(k))
-      call table%add(samples(k))
-      call table%add(peak(k))
-      call table%add(integrated_peak)
-      call table%add(abs(peak(k) / integrated_peak - 1.0_wp))
-      call table%add(difference)
-      call table%add(periods)
-      call table%add(data%steps_per_period)
-      call table%add([change, remaining])
-      call table%end_row()
-      call add_waveform(frequency, 'balance', harmonics(k), samples(k), balances(k))
-      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
-                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
-                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, difference '// &
-                    text(abs(peak(k) / integrated_peak - 1.0_wp), '(es8.1)')//', waveform '// &
-                    text(difference(1), '(es8.1)')//', contact '//text(difference(2), '(es8.1)'))
-    end do
-    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= data%allowed_difference) then
-      call fail('the peak of the balance with '//text(harmonics(1))//' harmonics at '//text(frequency)// &
-                ' Hz differs from that of time integration by more than '//text(data%allowed_difference))
-    end if
-  end subroutine compare_at
-
-  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
-  subroutine balance_at(frequency, harmonics, samples, problem, displacement, response, waves, peak)
-    real(wp), intent(in) :: frequency
-    integer, intent(in) :: harmonics, samples
-    type(balance_problem), intent(out) :: problem
-    real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
-    type(waveform), intent(out) :: waves
-    real(wp), intent(out) :: peak
-    type(balance_point) :: point
-    logical :: converged
-
-    call prepare_problem(data, data%integration_load_factor, harmonics, samples, problem)
-    allocate (displacement(2 * harmonics + 1, size(data%contacts)))
-    call solve_from_rest(problem, 2.0_wp * pi * frequency, displacement, point, converged)
-    if (.not. converged) then
-      call fail('no harmonic balance with '//text(harmonics)//' harmonics found at '//text(frequency)//' Hz')
-    end if
-    response = structure_response(problem, point)
-    peak = series_peak(response(:, data%response_dof))
-    waves%response = matmul(series_basis(harmonics, data%steps_per_period), response(:, data%response_dof))
-    allocate (waves%displacement(data%steps_per_period), waves%force(data%steps_per_period))
-    call problem%contacts%steady_loop(shown_contact, displacement(:, shown_contact), waves%displacement, waves%force)
-  end subroutine balance_at
-
-  !> Integrates until the remaining transient is below the tolerance of the case, relative to the response.
-  subroutine integrate(frequency, problem, contact_displacement, response, waves, periods, change, remaining)
+  !> Integrates until the remaining transient is below the tolerance of the group, relative to the response.
+  subroutine integrate(input, frequency, problem, contact_displacement, response, waves, periods, change, remaining)
+    type(integration_input), intent(in) :: input
     real(wp), intent(in) :: frequency, contact_displacement(:,:), response(:,:)
     type(balance_problem), intent(in) :: problem
     type(waveform), intent(out) :: waves
@@ -145,39 +171,35 @@ contains
     real(wp), intent(out) :: change, remaining
     type(newmark_scheme) :: scheme
     type(motion) :: state
-    real(wp), allocatable :: excitation(:,:), before(:)
-    real(wp) :: decay, force_error
+    real(wp) :: excitation(size(response, 2), input%steps_per_period), before(input%steps_per_period), decay, force_error
     integer :: j, k
 
-    call prepare_newmark(problem%model, problem%incidence, 1.0_wp / (frequency * data%steps_per_period), &
+    call prepare_newmark(problem, 1.0_wp / (frequency * input%steps_per_period), &
                          [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
     call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation)
-    allocate (waves%response(data%steps_per_period), source=0.0_wp)
+    allocate (waves%response(input%steps_per_period), source=0.0_wp)
     allocate (waves%displacement, waves%force, mold=waves%response)
     decay = exp(-slowest_decay(problem) / frequency)
-    do periods = 1, data%max_periods
+    do periods = 1, input%max_periods
       before = waves%response
-      do j = 1, data%steps_per_period
-        k = modulo(j, data%steps_per_period) + 1
-        call newmark_step(scheme, problem%model, problem%incidence, problem%contacts, excitation(:, k), state)
+      do j = 1, input%steps_per_period
+        k = modulo(j, input%steps_per_period) + 1
+        call newmark_step(scheme, problem, excitation(:, k), state)
         waves%response(k) = state%displacement(data%response_dof)
         waves%displacement(k) = state%contact_displacement(shown_contact)
         waves%force(k) = state%contact_force(shown_contact) / data%contacts(shown_contact)%count
       end do
       change = relative_difference(before, waves%response)
-      ! The remaining change by a transient that shrinks by the factor `decay` in each period.
+      ! The sum of all further changes by a transient that shrinks by the factor `decay` in each period.
       remaining = change * decay / (1.0_wp - decay)
-      if (remaining <= data%steady_tolerance) exit
+      if (remaining <= input%steady_tolerance) exit
     end do
-    ! Each period of a slowly decaying motion lies within the one before: its reversals are more than a state holds, and the
-    ! least significant ones are merged.
+    if (periods > input%max_periods) call fail('not periodic after '//text(input%max_periods)//' periods, change '// &
+                                               text(change, '(es8.1)')//': raise max_periods or steady_tolerance')
+    ! Each period of a slowly decaying motion lies within the one before: more reversals than a state holds.
     force_error = maxval([(problem%contacts%force_error(state%contacts, j), j=1, size(state%contact_force))])
-    if (periods > data%max_periods) then
-      call fail('the motion at '//text(frequency)//' Hz is not periodic after '//text(data%max_periods)// &
-                ' periods: it still changes by '//text(change)//'; raise max_periods or steady_tolerance')
-    end if
     call progress(text(frequency, '(f10.2)')//' Hz: periodic after '//text(periods)//' periods of '// &
-                  text(data%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
+                  text(input%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
                   ', remaining transient '//text(remaining, '(es8.1)')//', force error of merged reversals '// &
                   text(force_error, '(es8.1)')//' N')
   end subroutine integrate
@@ -187,36 +209,37 @@ contains
     real(wp), intent(in) :: omega, contact_displacement(:,:), response(:,:)
     type(balance_problem), intent(in) :: problem
     type(motion), intent(out) :: state
-    real(wp), allocatable, intent(out) :: excitation(:,:)
-    real(wp), allocatable :: basis(:,:)
-    real(wp) :: rate(size(response, 1))
+    real(wp), intent(out) :: excitation(:,:)
+    real(wp) :: basis(size(excitation, 2), size(response, 1)), rate(size(response, 1))
+    real(wp) :: force(size(excitation, 2), size(contact_displacement, 2))
+    real(wp) :: matrix(size(excitation, 1), size(excitation, 1)), right(size(excitation, 1), 1)
     integer :: k
 
-    allocate (basis(data%steps_per_period, size(response, 1)))
-    basis = series_basis(size(response, 1) / 2, data%steps_per_period)
-    allocate (excitation(size(response, 2), data%steps_per_period))
+    basis = series_basis(size(response, 1) / 2, size(excitation, 2))
     do k = 1, size(excitation, 1)
       excitation(k, :) = real(problem%excitation(k)) * basis(:, 2) - aimag(problem%excitation(k)) * basis(:, 3)
     end do
-    ! Velocity at t = 0: the sine terms only.
     rate = 0.0_wp
     do k = 1, size(rate) / 2
-      rate(2*k + 1) = k * omega
+      rate(2*k + 1) = k * omega       ! d/dt at t = 0: sine terms only
     end do
     state%displacement = matmul(basis(1, :), response)
     state%velocity = matmul(rate, response)
-    state%contact_displacement = matmul(state%displacement, problem%incidence)
-    allocate (state%contact_force(size(data%contacts)))
-    call problem%contacts%start_history(cshift(matmul(basis, contact_displacement), 1, dim=1), state%contacts, &
-                                        state%contact_force)
-    call initial_acceleration(problem%model, problem%incidence, excitation(:, 1), state)
+    ! Two periods of the contacts that end at t = 0.
+    call problem%contacts%steady_cycle(cshift(matmul(basis, contact_displacement), 1, dim=1), state%contacts, force)
+    state%contact_force = force(size(force, 1), :)
+    ! Acceleration from the equation of motion.
+    matrix = problem%model%mass
+    right(:, 1) = excitation(:, 1) - matmul(problem%model%damping, state%velocity) &
+                  - matmul(problem%model%stiffness, state%displacement) - matmul(problem%incidence, state%contact_force)
+    call solve(matrix, right)
+    state%acceleration = right(:, 1)
   end subroutine start_motion
 
-  !> Rate at which every motion decays at least, by the damping of the structure alone: half the least eigenvalue of
-  !> D x = lambda M x, whatever the stiffness. Friction can only add to it.
-  function slowest_decay(problem) result(rate)
+  !> Lower bound of the rate at which a motion decays, by the damping of the structure alone: half the smallest eigenvalue of
+  !> D x = lambda M x, for any stiffness. Friction can only increase it.
+  real(wp) function slowest_decay(problem) result(rate)
     type(balance_problem), intent(in) :: problem
-    real(wp) :: rate
     real(wp) :: root(size(problem%excitation)), modes(size(problem%excitation), size(problem%excitation))
 
     call symmetric_modes(problem%model%damping, problem%model%mass, root, modes)
@@ -224,30 +247,99 @@ contains
     if (rate <= 0.0_wp) call fail('time integration needs a damping matrix that is positive definite')
   end function slowest_decay
 
+  !> The balances of the group, and first that of the case itself.
+  subroutine compare_at(input, frequency)
+    type(integration_input), intent(in) :: input
+    real(wp), intent(in) :: frequency
+    type(balance_problem) :: problem
+    type(waveform) :: balances(1 + size(input%harmonics)), integrated
+    real(wp), allocatable :: displacement(:,:), response(:,:)
+    integer, dimension(size(balances)) :: harmonics, samples
+    real(wp) :: peak(size(balances)), change, remaining, integrated_peak, difference(4)
+    integer :: k, most, periods
+
+    harmonics = [data%harmonics, input%harmonics]
+    samples = [data%samples, spread(input%samples, 1, size(input%harmonics))]
+    most = maxloc(harmonics, dim=1)
+    do k = 1, size(harmonics)
+      if (k /= most) call solve_balance(input, frequency, harmonics(k), samples(k), problem, displacement, response, &
+                                        balances(k), peak(k))
+    end do
+    call solve_balance(input, frequency, harmonics(most), samples(most), problem, displacement, response, &
+                       balances(most), peak(most))
+    call integrate(input, frequency, problem, displacement, response, integrated, periods, change, remaining)
+
+    integrated_peak = maxval(abs(integrated%response))
+    call write_waveform(input, frequency, 'time_integration', 0, input%steps_per_period, integrated)
+    do k = 1, size(balances)
+      difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
+                    relative_difference(balances(k)%response, integrated%response), &
+                    relative_difference(balances(k)%displacement, integrated%displacement), &
+                    relative_difference(balances(k)%force, integrated%force)]
+      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency])//','//text(harmonics(k))//','// &
+        text(samples(k))//csv([peak(k), integrated_peak, difference])//','//text(periods)//','// &
+        text(input%steps_per_period)//csv([change, remaining])
+      call write_waveform(input, frequency, 'balance', harmonics(k), samples(k), balances(k))
+      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
+                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
+                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, difference '//text(difference(1), '(es8.1)')// &
+                    ', waveform '//text(difference(2), '(es8.1)')//', contact '//text(difference(3), '(es8.1)'))
+    end do
+    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= input%allowed_difference) then
+      call fail('the peak of the balance with '//text(harmonics(1))//' harmonics differs from that of time integration by more'// &
+                ' than '//text(input%allowed_difference, '(es8.1)'))
+    end if
+  end subroutine compare_at
+
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
+  subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
+    type(integration_input), intent(in) :: input
+    real(wp), intent(in) :: frequency
+    integer, intent(in) :: harmonics, samples
+    type(balance_problem), intent(out) :: problem
+    real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
+    type(waveform), intent(out) :: waves
+    real(wp), intent(out) :: peak
+    type(balance_point) :: point
+    type(contact_history) :: history
+    real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
+    real(wp), dimension(input%steps_per_period, size(data%contacts)) :: u, force
+    logical :: converged
+
+    call prepare_problem(data, input%load_factor, harmonics, samples, problem)
+    allocate (displacement(2 * harmonics + 1, size(data%contacts)))
+    call solve_from_rest(problem, 2.0_wp * pi * frequency, displacement, point, converged)
+    if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
+    response = structure_response(problem, point)
+    peak = series_peak(response(:, data%response_dof))
+    basis = series_basis(harmonics, input%steps_per_period)
+    u = matmul(basis, displacement)
+    call problem%contacts%steady_cycle(u, history, force)
+    waves%response = matmul(basis, response(:, data%response_dof))
+    waves%displacement = u(:, shown_contact)
+    waves%force = force(:, shown_contact) / data%contacts(shown_contact)%count
+  end subroutine solve_balance
+
+  !> `points` are the samples of a balance, or the steps of time integration.
+  subroutine write_waveform(input, frequency, source, harmonics, points, waves)
+    type(integration_input), intent(in) :: input
+    real(wp), intent(in) :: frequency
+    character(len=*), intent(in) :: source
+    integer, intent(in) :: harmonics, points
+    type(waveform), intent(in) :: waves
+    integer :: j, k
+
+    do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
+      k = modulo(j, input%steps_per_period) + 1
+      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency])//','//source//','// &
+        text(harmonics)//','//text(points)//csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), &
+                                                  waves%displacement(k), waves%force(k)])
+    end do
+  end subroutine write_waveform
+
   !> Largest difference over the period, relative to the largest value.
   pure real(wp) function relative_difference(a, reference)
     real(wp), intent(in) :: a(:), reference(:)
     relative_difference = maxval(abs(a - reference)) / maxval(abs(reference))
   end function relative_difference
-
-  !> `points` are the samples of a balance, or the steps of time integration.
-  subroutine add_waveform(frequency, source, harmonics, points, waves)
-    real(wp), intent(in) :: frequency
-    character(len=*), intent(in) :: source
-    integer, intent(in) :: harmonics, points
-    type(waveform), intent(in) :: waves
-    integer :: j, k, stride
-
-    stride = max(1, data%steps_per_period / waveform_points)
-    do j = 1, data%steps_per_period + 1, stride
-      k = modulo(j - 1, data%steps_per_period) + 1
-      call waveforms%add(frequency)
-      call waveforms%add(source)
-      call waveforms%add(harmonics)
-      call waveforms%add(points)
-      call waveforms%add(2.0_wp * pi * real(j - 1, wp) / real(data%steps_per_period, wp))
-      call waveforms%add([waves%response(k), waves%displacement(k), waves%force(k)])
-      call waveforms%end_row()
-    end do
-  end subroutine add_waveform
 end program time_integration
