@@ -1,44 +1,162 @@
-//! A table of results as CSV: comments that say how to repeat it, a header with units, numbers in the shortest digits that
-//! read back as the same.
+//! Tables as CSV: results, and columns of an input file.
 
-use crate::digits::digits;
+use crate::error::{CliError, Result};
+use crate::files::read_text;
+use crate::number::{format_list, parse_number};
 use crate::units::{Quantity, Units};
+use std::path::Path;
 
+/// A table of results.
 #[derive(Debug)]
 pub struct Table {
-    header: Vec<String>,
-    rows: Vec<Vec<String>>,
+    header: String,
+    rows: Vec<String>,
 }
 
 impl Table {
-    /// Rows of numbers, under a name and a quantity for each column.
-    pub fn of_numbers<'a>(
-        columns: &[(&str, Quantity)],
-        units: Units,
-        rows: impl IntoIterator<Item = &'a Vec<f64>>,
-    ) -> Table {
+    /// Rows of numbers; each column has a name and a quantity.
+    pub fn of_numbers(columns: &[(&str, Quantity)], units: Units, rows: &[Vec<f64>]) -> Table {
         let header = |(name, quantity): &(&str, Quantity)| format!("{name} [{}]", units.unit(*quantity));
-        let cells = |row: &Vec<f64>| row.iter().map(|&value| digits(value)).collect();
-        Table { header: columns.iter().map(header).collect(), rows: rows.into_iter().map(cells).collect() }
+        let header = columns.iter().map(header).collect::<Vec<_>>().join(",");
+        Table { header, rows: rows.iter().map(|row| format_list(row)).collect() }
     }
 
-    pub fn of_text<const COLUMNS: usize>(header: [&str; COLUMNS], rows: &[[String; COLUMNS]]) -> Table {
-        Table { header: header.map(str::to_owned).into(), rows: rows.iter().map(|row| row.to_vec()).collect() }
+    pub fn of_text(header: &str, rows: Vec<String>) -> Table {
+        Table { header: header.to_owned(), rows }
     }
 
-    /// # Errors
-    /// None: it is written to memory.
-    pub fn csv(&self, comments: &[String]) -> Result<Vec<u8>, csv::Error> {
-        let mut bytes = Vec::new();
-        for comment in comments {
-            bytes.extend_from_slice(b"# ");
-            bytes.extend_from_slice(comment.as_bytes());
-            bytes.push(b'\n');
+    /// The table after lines of comments.
+    pub fn csv(&self, comments: &[String]) -> String {
+        let comments = comments.iter().map(|comment| format!("# {comment}\n"));
+        let rows = [&self.header].into_iter().chain(&self.rows).map(|row| format!("{row}\n"));
+        comments.chain(rows).collect()
+    }
+}
+
+/// A column of an input table: the value of each row, with its line number in the file.
+pub type Column = Vec<(usize, f64)>;
+
+/// A column that a command reads.
+#[derive(Debug, Clone, Copy)]
+pub struct ColumnSpec<'a> {
+    /// The option that selects it, and the value of that option: a name or a number from 1.
+    pub option: &'static str,
+    pub selected: Option<&'a str>,
+    /// Name in the header if no other is selected.
+    pub name: &'static str,
+    pub quantity: Quantity,
+}
+
+/// Reads a column of a CSV file: the selected one, the one of the default name, or the only one.
+pub fn read_column(path: &Path, spec: &ColumnSpec, units: Units) -> Result<Column> {
+    parse_column(&read_text(path)?, spec, units).map_err(|reason| CliError::in_file(path, reason))
+}
+
+fn parse_column(text: &str, spec: &ColumnSpec, units: Units) -> std::result::Result<Column, String> {
+    let split = |line: &'_ str| line.split(',').map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
+    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).zip(1..);
+    let mut rows = lines
+        .filter(|(line, _)| !line.is_empty() && !line.starts_with('#'))
+        .map(|(line, number)| -> (Vec<String>, usize) { (split(line), number) })
+        .peekable();
+    let no_numbers = || format!("the table has no {}s", spec.name);
+    let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
+    let index = spec.find(&first, units).map_err(|reason| format!("line {number}: {reason}"))?;
+    rows.next_if(|_| is_header(&first));
+    let mut column = Column::new();
+    for (cells, line) in rows {
+        let (count, expected) = (cells.len(), first.len());
+        if count != expected {
+            let cause = if count > expected { "; is a comma the decimal separator? It must be a point" } else { "" };
+            return Err(format!("line {line}: {count} columns, but the first row has {expected}{cause}"));
         }
-        let mut writer = csv::Writer::from_writer(bytes);
-        for row in [&self.header].into_iter().chain(&self.rows) {
-            writer.write_record(row)?;
+        let cell = &cells[index];
+        let error = |reason| format!("line {line}: {cell:?}: {reason}; columns are separated by commas");
+        column.push((line, parse_number(cell).map_err(error)?));
+    }
+    if column.is_empty() { Err(no_numbers()) } else { Ok(column) }
+}
+
+/// Whether the first row has names. A cell that starts like a number is a number, even if invalid.
+fn is_header(cells: &[String]) -> bool {
+    let starts_number = |cell: &str| cell.starts_with(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
+    cells.iter().all(|cell| !starts_number(cell) && parse_number(cell).is_err())
+}
+
+impl ColumnSpec<'_> {
+    /// Index of the column, from the cells of the first row.
+    fn find(&self, first: &[String], units: Units) -> std::result::Result<usize, String> {
+        if first.iter().any(|cell| cell.contains(';')) {
+            return Err("columns are separated by commas, not by semicolons".to_owned());
         }
-        writer.into_inner().map_err(|error| error.into_error().into())
+        let name = self.selected.unwrap_or(self.name);
+        let names: Vec<_> = first.iter().map(|cell| cell.split('[').next().unwrap_or_default().trim()).collect();
+        if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
+            let expected = units.unit(self.quantity);
+            return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
+                Some(unit) if unit != expected => {
+                    Err(format!("column {name} is in {unit}, not in {expected} (see --units)"))
+                }
+                _ => Ok(index),
+            };
+        }
+        let number = self.selected.and_then(|selected| selected.parse::<usize>().ok());
+        match (self.selected, number) {
+            (Some(_), Some(number)) if (1..=first.len()).contains(&number) => Ok(number - 1),
+            (Some(_), _) if is_header(first) => Err(format!("no column {name}; the columns are {}", names.join(", "))),
+            (Some(_), _) => Err(format!("no column {name}; the columns are 1 to {}", first.len())),
+            (None, _) if first.len() == 1 => Ok(0),
+            (None, _) => {
+                let (count, option) = (first.len(), self.option);
+                Err(format!("{option} must select one of the {count} columns, by its name in the header or its number"))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str, selected: Option<&str>) -> std::result::Result<Column, String> {
+        let spec = ColumnSpec { option: "--column", selected, name: "displacement", quantity: Quantity::Length };
+        parse_column(text, &spec, Units::Si)
+    }
+
+    #[test]
+    fn columns_are_found_by_name_by_number_or_alone() {
+        for (text, selected, lines) in [
+            ("1e-6\n-2e-6\n", None, [1, 2]),
+            ("\u{feff}u\r\n1e-6\r\n\n# rest\n-2e-6", None, [2, 5]),
+            ("# c\ntime [s], \"displacement [m]\"\n0,1e-6\n1, -2e-6\n", None, [3, 4]),
+            ("t,u\n0,1e-6\n1,-2e-6\n", Some("u"), [2, 3]),
+            ("0,1e-6\n1,-2e-6\n", Some("2"), [1, 2]),
+            (" 1.0D-06\n-2.0d-06\n", None, [1, 2]),
+        ] {
+            assert_eq!(parse(text, selected), Ok(vec![(lines[0], 1e-6), (lines[1], -2e-6)]), "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_name_line_and_cause() {
+        for (text, selected, reason) in [
+            ("1\nx\n", None, "line 2: \"x\": not a number"),
+            ("1.0-300\n1\n", None, "line 1: \"1.0-300\": not a number"),
+            ("0.0 1e-6\n0.1 2e-6\n", None, "columns are separated by commas"),
+            ("0;1,0E-06\n", Some("2"), "line 1: columns are separated by commas, not by semicolons"),
+            ("u\n", None, "the table has no displacements"),
+            ("", None, "the table has no displacements"),
+            ("t,u\n0,1\n", None, "--column must select one of the 2 columns"),
+            ("0,5e-6\n", None, "--column must select one of the 2 columns"),
+            ("t,u\n0,1\n", Some("w"), "no column w; the columns are t, u"),
+            ("0,1\n", Some("3"), "no column 3; the columns are 1 to 2"),
+            ("0,1\n", Some("0"), "no column 0; the columns are 1 to 2"),
+            ("displacement [mm]\n1\n", None, "column displacement is in mm, not in m (see --units)"),
+            ("t,u\n0\n", Some("u"), "line 2: 1 columns, but the first row has 2"),
+            ("# c\nu\n0\n0,5e-6\n", None, "line 4: 2 columns, but the first row has 1; is a comma the decimal"),
+            ("t,u\n0,1\n0,5,1,5e-6\n", Some("u"), "line 3: 4 columns, but the first row has 2; is a comma"),
+        ] {
+            assert!(parse(text, selected).unwrap_err().contains(reason), "{text}: {:?}", parse(text, selected));
+        }
     }
 }
