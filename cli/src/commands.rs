@@ -10,7 +10,7 @@ use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stif
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::{Contact, Error};
+use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
 
 /// The result of a command.
@@ -157,18 +157,14 @@ fn maximum_pressure(spec: &ContactSpec) -> f64 {
     contact.pressure(0.5 * (low + high))
 }
 
-/// The error of a force, with the value of mu N if it is exceeded.
-fn force_error(force: f64, contact: &Contact, error: Error) -> CliError {
-    match CliError::in_option("--force", format_number(force), error) {
+/// The point of the monotonic curve at a force.
+fn point_at_force(contact: &Contact, force: f64) -> Result<CurvePoint<'_>> {
+    contact.curve_at_force(force).map_err(|error| match CliError::in_option("--force", force, error) {
         CliError::Input(message) if error == Error::ForceExceedsSlip => {
             CliError::Input(format!("{message}, which is {} N", format_number(contact.slip_force)))
         }
         other => other,
-    }
-}
-
-fn amplitude_error(amplitude: f64, error: Error) -> CliError {
-    CliError::in_option("--amplitude", format_number(amplitude), error)
+    })
 }
 
 pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
@@ -178,7 +174,7 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
         forces.push(0.5 * contact.slip_force);
     }
     if let Some(bad) = options.position.iter().find(|x| !x.is_finite()) {
-        return Err(CliError::in_option("--position", format_number(*bad), Error::BadPosition));
+        return Err(CliError::in_option("--position", *bad, Error::BadPosition));
     }
     let (x, repeat) = match &options.position[..] {
         [] => (across(contact, options.points), format!("--points {}", options.points)),
@@ -188,13 +184,10 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
     let has_slip = !spec.given.is_elliptic();
     let (mut rows, mut shear, mut slip) = (Vec::new(), Vec::new(), Vec::new());
     for force in forces {
-        let point = contact.curve_at_force(force).map_err(|error| force_error(force, contact, error))?;
-        let row = |&x: &f64| {
-            let mut row = vec![force, x, contact.pressure(x), point.shear(x)];
-            row.extend([point.slip(x), point.damage(x)].into_iter().flatten());
-            row
-        };
-        let at_force: Vec<_> = x.iter().map(row).collect();
+        let point = point_at_force(contact, force)?;
+        let slip_at = |x| [point.slip(x), point.damage(x)].into_iter().flatten();
+        let row = |&x: &f64| [force, x, contact.pressure(x), point.shear(x)].into_iter().chain(slip_at(x)).collect();
+        let at_force: Vec<Vec<_>> = x.iter().map(row).collect();
         let size = rounded(force, Force, units);
         shear.push(line_over(format!("shear at {size}"), pairs(&at_force, 1, 3)));
         if has_slip {
@@ -217,12 +210,12 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
     let forces = scaled(&options.force, relative, contact.slip_force);
     let mut displacements = scaled(&options.displacement, relative, contact.slip_displacement);
     let at_force = |&force: &f64| {
-        let point = contact.curve_at_force(force).map_err(|error| force_error(force, contact, error))?;
+        let point = point_at_force(contact, force)?;
         Ok(vec![point.displacement(), force, point.stiffness(), point.stick_half_width()])
     };
     let at_displacement = |option: &str, displacement: f64| {
         let point = contact.curve_at_displacement(displacement);
-        let point = point.map_err(|error| CliError::in_option(option, format_number(displacement), error))?;
+        let point = point.map_err(|error| CliError::in_option(option, displacement, error))?;
         Ok(vec![displacement, point.force(), point.stiffness(), point.stick_half_width()])
     };
     let repeat = if !forces.is_empty() {
@@ -257,7 +250,7 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
     let repeat = format!(" --amplitude {} --points {}", format_list(&amplitudes), options.points);
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     for amplitude in amplitudes {
-        let error = |error| amplitude_error(amplitude, error);
+        let error = |error| CliError::in_option("--amplitude", amplitude, error);
         let hysteresis = contact.hysteresis_loop(amplitude).map_err(error)?;
         let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
         let n = options.points as usize;
@@ -294,7 +287,7 @@ impl Amplitudes {
         };
         let (from, to) = (end(self.from, 0.01), end(self.to, 100.0));
         for (option, amplitude) in [("--from", from), ("--to", to)] {
-            let error = |error| CliError::in_option(option, format_number(amplitude), error);
+            let error = |error| CliError::in_option(option, amplitude, error);
             contact.complex_stiffness(amplitude).map_err(error)?;
         }
         let [from_text, to_text] = [from, to].map(format_number);
@@ -311,7 +304,10 @@ impl Amplitudes {
 pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let k = spec.contact.complex_stiffness(amplitude).map_err(|error| amplitude_error(amplitude, error))?;
+        let k = spec
+            .contact
+            .complex_stiffness(amplitude)
+            .map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
         Ok(vec![amplitude, k.real(), k.imaginary(), k.d_real(), k.d_imag(), k.dissipated()])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
@@ -354,13 +350,9 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
         step.write(&mut state);
         from = displacement;
     }
-    let mut repeat = format!(" --displacements {}", quoted(&path.to_string_lossy()));
-    if let Some(column) = selected {
-        repeat.push_str(&format!(" --column {}", quoted(column)));
-    }
-    if options.relative {
-        repeat.push_str(" --relative");
-    }
+    let column = selected.map_or(String::new(), |column| format!(" --column {}", quoted(column)));
+    let relative = if options.relative { " --relative" } else { "" };
+    let repeat = format!(" --displacements {}{column}{relative}", quoted(&path.to_string_lossy()));
     let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
     let report = Report::new("history", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
@@ -379,7 +371,8 @@ fn quoted(word: &str) -> String {
 pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let slider = jenkins(&spec.contact, amplitude).map_err(|error| amplitude_error(amplitude, error))?;
+        let slider =
+            jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
         Ok(vec![amplitude, slider.stiffness, slider.slip_force])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
@@ -395,7 +388,7 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
     let contact = &spec.contact;
     let mut sliders = Vec::new();
     let error = iwan(contact, options.count as usize, |slider| sliders.push(slider))
-        .map_err(|error| CliError::in_option("--count", options.count, error))?;
+        .map_err(|error| CliError::in_option("--count", f64::from(options.count), error))?;
     let rows: Vec<_> =
         sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
     let columns = [("slider", Number), ("stiffness", Stiffness), ("slip_force", Force)];

@@ -86,17 +86,16 @@ impl ContactSpec {
     pub fn read(file: Option<&Path>, options: &ContactArgs) -> Result<ContactSpec> {
         let mut given = options.clone();
         if let Some(path) = file {
-            let parsed = parse(&read_text(path)?).map_err(|reason| CliError::in_file(path, reason))?;
-            given.add(parsed)?;
+            given.add(parse(&read_text(path)?).map_err(|reason| CliError::in_file(path, reason))?)?;
         }
         given.check_presence()?;
-        let contact = given.contact(1.0)?.map_err(|error| match (given.explain(error), file) {
-            ((message, Some(name)), Some(path))
-                if !options.numbers().iter().any(|(other, values)| *other == name && !values.is_empty()) =>
-            {
-                CliError::in_file(path, message)
+        let contact = given.contact(1.0)?.map_err(|error| {
+            let (message, parameter) = given.explain(error);
+            let is_in_file = |name| options.numbers().contains(&(name, Vec::new()));
+            match file {
+                Some(path) if parameter.is_some_and(is_in_file) => CliError::in_file(path, message),
+                _ => CliError::Input(message),
             }
-            ((message, _), _) => CliError::Input(message),
         })?;
         Ok(ContactSpec { contact, units: given.units.unwrap_or(Units::Si), given })
     }
@@ -125,43 +124,36 @@ impl ContactArgs {
         self.semi_axis_x.is_some() || self.semi_axis_y.is_some()
     }
 
-    /// Values of the parameters by name: of a rounded flat (3), of an ellipse (2), of both.
-    fn numbers(&self) -> [(&'static str, Vec<f64>); 9] {
+    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 7] {
         [
-            ("flat_half_width", Vec::from_iter(self.flat_half_width)),
-            ("edge_radius", Vec::from_iter(self.edge_radius)),
-            ("length", Vec::from_iter(self.length)),
-            ("semi_axis_x", Vec::from_iter(self.semi_axis_x)),
-            ("semi_axis_y", Vec::from_iter(self.semi_axis_y)),
-            ("normal_force", Vec::from_iter(self.normal_force)),
-            ("friction_coefficient", Vec::from_iter(self.friction_coefficient)),
-            ("young_modulus", self.young_modulus.clone()),
-            ("poisson_ratio", self.poisson_ratio.clone()),
+            ("flat_half_width", &mut self.flat_half_width),
+            ("edge_radius", &mut self.edge_radius),
+            ("length", &mut self.length),
+            ("semi_axis_x", &mut self.semi_axis_x),
+            ("semi_axis_y", &mut self.semi_axis_y),
+            ("normal_force", &mut self.normal_force),
+            ("friction_coefficient", &mut self.friction_coefficient),
         ]
     }
 
+    /// Values of the parameters by name: those of a rounded flat (3), of an ellipse (2), and common ones.
+    fn numbers(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let scalars = self.clone().scalars().map(|(name, value)| (name, Vec::from_iter(*value)));
+        let lists = [("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())];
+        scalars.into_iter().chain(lists).collect()
+    }
+
     /// Adds the parameters of the file that are not given yet.
-    fn add(&mut self, file: ContactArgs) -> Result<()> {
+    fn add(&mut self, mut file: ContactArgs) -> Result<()> {
         if self.units.zip(file.units).is_some_and(|(option, file)| option != file) {
             return input("--units differs from the units of the parameter file; numbers are not converted");
         }
-        for (to, value) in [
-            (&mut self.flat_half_width, file.flat_half_width),
-            (&mut self.edge_radius, file.edge_radius),
-            (&mut self.length, file.length),
-            (&mut self.semi_axis_x, file.semi_axis_x),
-            (&mut self.semi_axis_y, file.semi_axis_y),
-            (&mut self.normal_force, file.normal_force),
-            (&mut self.friction_coefficient, file.friction_coefficient),
-        ] {
-            *to = to.or(value);
+        for ((_, to), (_, value)) in self.scalars().into_iter().zip(file.scalars()) {
+            *to = to.or(*value);
         }
-        for (to, values) in
-            [(&mut self.young_modulus, file.young_modulus), (&mut self.poisson_ratio, file.poisson_ratio)]
-        {
-            if to.is_empty() {
-                *to = values;
-            }
+        let lists = [(&mut self.young_modulus, file.young_modulus), (&mut self.poisson_ratio, file.poisson_ratio)];
+        for (to, values) in lists.into_iter().filter(|(to, _)| to.is_empty()) {
+            *to = values;
         }
         self.displacement_reference = self.displacement_reference.or(file.displacement_reference);
         self.units = self.units.or(file.units);

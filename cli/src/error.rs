@@ -1,5 +1,6 @@
 //! Errors of the program: messages for the user.
 
+use crate::number::format_number;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -29,7 +30,7 @@ impl CliError {
     }
 
     /// An error of the library about the value of an option.
-    pub fn in_option(option: &str, value: impl Display, error: microslip::Error) -> CliError {
-        CliError::Input(format!("{option} {value}: {error}"))
+    pub fn in_option(option: &str, value: f64, error: microslip::Error) -> CliError {
+        CliError::Input(format!("{option} {}: {error}", format_number(value)))
     }
 }
