@@ -24,8 +24,8 @@ pub struct Stroke {
 pub trait Canvas {
     /// Draws polylines of one stroke.
     fn lines(&mut self, lines: &[Vec<Point>], stroke: &Stroke);
-    /// Draws black text, vertically centred at the point; the fraction `before` of its width lies before the point. Rotated text runs
-    /// upwards.
+    /// Draws black text, vertically centred at the point, with the fraction `before` of its width before it. Rotated text
+    /// runs upwards.
     fn text(&mut self, text: &str, at: Point, before: f32, rotated: bool);
 }
 

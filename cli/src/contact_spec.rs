@@ -160,7 +160,7 @@ impl ContactArgs {
         Ok(())
     }
 
-    /// Checks that the parameters of one shape are given, and none of the other.
+    /// Checks that the parameters of exactly one shape are given.
     fn check_presence(&self) -> Result<()> {
         let numbers = self.numbers();
         let is_given = |(_, values): &(&str, Vec<f64>)| !values.is_empty();
@@ -246,11 +246,11 @@ impl ContactArgs {
             let middle = 0.5 * (low + high);
             *(if is_accepted(middle) { &mut high } else { &mut low }) = middle;
         }
-        // Rounded up.
-        let [length, half_width] = [length, half_width].map(format_number);
+        // The limit is rounded up.
+        let (length, limit) = (format_number(length), 1.0005 * high);
         Some(format!(
-            "; length = {length} {unit}, b = {half_width} {unit}; under this normal force length must exceed {:.3e} {unit}",
-            1.0005 * high
+            "; length = {length} {unit}, b = {half_width:.3e} {unit}; \
+             under this normal force length must exceed {limit:.3e} {unit}"
         ))
     }
 

@@ -52,8 +52,7 @@ const LEGEND_WIDTH: f64 = 190.0;
 const MARGINS: [f64; 4] = [94.0, 24.0, 8.0, 54.0];
 const TICK_LENGTH: f64 = 4.0;
 
-/// Dashes and colours of the lines of a panel. The colours become lighter, so that they also differ in grey. The next four lines have
-/// the same, but are thin.
+/// Dashes and colours of the lines of a panel, lighter from line to line: they also differ in grey. The next four lines are thin.
 const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] = [
     (None, [0, 0, 0]),
     (Some([14.0, 6.0]), [0, 90, 180]),
@@ -141,8 +140,8 @@ impl Panel {
 /// Points of the lines of a panel; more could not be distinguished.
 const MAX_POINTS: usize = 40_000;
 
-/// The visible parts of a line in pixels. Points closer than a quarter of a pixel to the one before are dropped. If too many remain, the
-/// segments are dropped that enter no cell, of 1, 2, 4 ... pixels, for the first time: the number of cells bounds that of segments.
+/// The visible parts of a line in pixels. Points closer than a quarter of a pixel to the one before are dropped. If too many
+/// remain, so are the segments that enter no new cell, of 1, 2, 4 ... pixels: the number of cells bounds that of segments.
 fn thinned(mut points: Vec<Point>, limit: usize) -> Vec<Vec<Point>> {
     let length = |from: &Point, to: &Point| (to.0 - from.0).hypot(to.1 - from.1);
     let last = points.last().copied();
@@ -158,7 +157,7 @@ fn thinned(mut points: Vec<Point>, limit: usize) -> Vec<Vec<Point>> {
         lines.clear();
         for pair in points.windows(2) {
             let [from, to] = [pair[0], pair[1]];
-            let steps = (length(&from, &to) / cell).ceil();
+            let steps = (length(&from, &to) / cell).ceil().max(1.0);
             let mut enters = false;
             for part in (0..=steps as u32).map(|i| f64::from(i) / steps) {
                 let [x, y] = [from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1)];
@@ -201,7 +200,7 @@ fn prefixed(size: f64, quantity: Quantity) -> (i32, String) {
     }
 }
 
-/// The scale of an axis: its label, its ticks, and the place of a value: the value in the unit of the label, or its decimal logarithm.
+/// The scale of an axis. The place of a value is the value in the unit of the label, or its decimal logarithm.
 #[derive(Debug)]
 struct Scale {
     label: String,

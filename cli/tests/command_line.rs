@@ -271,6 +271,17 @@ fn histories_equal_those_of_the_library() {
         let last = contact.curve_at_displacement(path[n - 1]).unwrap();
         assert!(n < 10 || (last.force() == force[n - 1] && last.stiffness() == stiffness[n - 1]));
     }
+    for (table, options) in [
+        ("\u{feff}u\r\n1e-6\r\n\n# c\n-2e-6", ""),
+        ("# c\ntime [s], \"displacement [m]\"\n0,1e-6\n1, -2e-6\n", ""),
+        ("t,u\n0,1e-6\n1,-2e-6\n", "--column u"),
+        ("0,1e-6\n1,-2e-6\n", "--column 2"),
+        (" 1.0D-06\n-2.0d-06\n", ""),
+    ] {
+        shell.write("table.csv", table);
+        let table = shell.stdout(&format!("microslip history flat.toml --displacements table.csv {options}"));
+        assert_eq!(column(&table, 0), [1e-6, -2e-6]);
+    }
     let relative = shell.stdout("printf 'u\n0.5\n-0.25\n' | microslip history flat.toml --relative");
     assert_eq!(column(&relative, 0), [0.5, -0.25].map(|part| part * contact.slip_displacement));
 }
@@ -308,10 +319,8 @@ fn options_override_the_parameter_file() {
     let shell = Shell::new("override");
     let expected = shell.stdout("microslip curve $FLAT");
     assert_eq!(shell.stdout("microslip curve - < flat.toml"), expected);
-    shell.write(
-        "other.toml",
-        FLAT_TOML.replace("= 150", "= 7").replace("= 0.4", "= 0.1").replace("poisson_ratio = 0.32\n", ""),
-    );
+    let other = FLAT_TOML.replace("= 150", "= 7").replace("= 0.4", "= 0.1").replace("poisson_ratio = 0.32\n", "");
+    shell.write("other.toml", other);
     let options = "--normal-force 150 --friction-coefficient 0.4 --poisson-ratio 0.3,0.32";
     assert_eq!(shell.stdout(&format!("microslip curve other.toml {options}")), expected);
     // One table stands for both bodies.
@@ -353,7 +362,7 @@ fn messages_name_the_error_and_what_is_allowed() {
         (2, "", "Usage: microslip <COMMAND>"),
         (
             2,
-            "contact ${FLAT%--poisson*}",
+            "contact ${FLAT%--poi*}",
             "missing parameters: poisson_ratio; give them in a parameter file or by --poisson-ratio",
         ),
         (2, "contact", "--flat-half-width, --edge-radius, --length, --normal-force, --friction-coefficient, --young"),
@@ -379,9 +388,11 @@ fn messages_name_the_error_and_what_is_allowed() {
         let limit: f64 = message.split("must exceed ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         assert!(contact(limit).status.success() && !contact(0.998 * limit).status.success(), "{message}");
     }
-    for (options, text, count) in
-        [("--edge-radius 1e-5", "exceeds the radius R = 10.0 µm", 1), ("--length 2e-4", "is below 2", 1), ("--length 0.1", "", 0)]
-    {
+    for (options, text, count) in [
+        ("--edge-radius 1e-5", "exceeds the radius R = 10.0 µm", 1),
+        ("--length 2e-4", "is below 2", 1),
+        ("--length 0.1", "", 0),
+    ] {
         let output = shell.run(&format!("microslip contact flat.toml {options}"));
         let warning = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && !output.stdout.is_empty());
@@ -394,12 +405,8 @@ fn errors_in_files_name_file_and_line() {
     let shell = Shell::new("errors");
     let example = shell.stdout("microslip example");
     for (from, to, text) in [
-        ("edge_radius", "edge_radious", "line 4, column 1\n"),
-        (
-            "edge_radius",
-            "edge_radious",
-            "unknown field `edge_radious`, expected one of `flat_half_width`, `edge_radius`, ",
-        ),
+        ("edge_radius", "radious", "line 4, column 1\n"),
+        ("edge_radius", "radious", "unknown field `radious`, expected one of `flat_half_width`, `edge_radius`, "),
         ("poisson_ratio", "length", "unknown field `length`, expected `young_modulus` or `poisson_ratio`"),
         ("units = \"si\"", "young_modulus = 1", "unknown field `young_modulus`"),
         ("\"si\"", "\"inch\"", "unknown variant `inch`, expected `si` or `mm`"),
@@ -414,20 +421,30 @@ fn errors_in_files_name_file_and_line() {
         shell.check_error("microslip contact contact.toml", 1, text);
         shell.check_error("microslip contact contact.toml", 1, "microslip: contact.toml: ");
     }
-    for (table, text) in [
-        (&b"1e-6\n1e-6m"[..], "line 2: \"1e-6m\": not a number"),
-        (b"# c\nu\n1e-6\ninf", &format!("line 4: {}", Error::BadDisplacement)),
-        (b"u\n0\n0,5e-6\n", "line 3: 2 columns, but the first row has 1; is a comma the decimal separator?"),
-        (b"t;u\n0;1\n", "line 1: columns are separated by commas, not by semicolons"),
-        (b"u\n1\n2 # \xb5m\n", "line 3: invalid UTF-8"),
+    for (table, options, text) in [
+        (&b"1e-6\n1e-6m"[..], "", "line 2: \"1e-6m\": not a number"),
+        (b"1.0-300\n1\n", "", "line 1: \"1.0-300\": not a number"),
+        (b"0.0 1e-6\n0.1 2e-6\n", "", "line 1: \"0.0 1e-6\": not a number; columns are separated by commas"),
+        (b"# c\nu\n1e-6\ninf", "", &format!("line 4: {}", Error::BadDisplacement)),
+        (b"u\n0\n0,5e-6\n", "", "line 3: 2 columns, but the first row has 1; is a comma the decimal separator?"),
+        (b"t,u\n0,1\n0,5,1,5e-6\n", "--column u", "line 3: 4 columns, but the first row has 2; is a comma"),
+        (b"t,u\n0\n", "--column u", "line 2: only 1 of 2 columns"),
+        (b"t;u\n0;1,5E-06\n", "--column 2", "line 1: columns are separated by commas, not by semicolons"),
+        (b"t,u\n0,1\n", "", "line 1: --column must select one of the 2 columns"),
+        (b"0,5e-6\n", "", "line 1: --column must select one of the 2 columns"),
+        (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
+        (b"0,1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
+        (b"# c\n0,1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
+        (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units)"),
+        (b"u\n# c\n", "", "the table has no displacements"),
+        (b"", "", "the table has no displacements"),
+        (b"u\n1\n2 # \xb5m\n", "", "line 3: invalid UTF-8"),
     ] {
         shell.write("table.csv", table);
-        shell.check_error(
-            "microslip history flat.toml --displacements table.csv",
-            1,
-            &format!("microslip: table.csv: {text}"),
-        );
-        shell.check_error("microslip history flat.toml < table.csv", 1, &format!("microslip: standard input: {text}"));
+        let text = format!("table.csv: {text}");
+        shell.check_error(&format!("microslip history flat.toml --displacements table.csv {options}"), 1, &text);
+        let text = text.replace("table.csv", "standard input");
+        shell.check_error(&format!("microslip history flat.toml {options} < table.csv"), 1, &text);
     }
 }
 
@@ -472,9 +489,7 @@ fn every_command_draws() {
     for (table, picture) in [("one.csv", "one.png"), ("two.csv", "two.svg"), ("spiral.csv", "spiral.svg")] {
         draw(&format!("history flat.toml --displacements {table}"), picture);
     }
-    assert!(
-        shell.read("two.svg").split(" d=\"").any(|path| path.split('"').next().unwrap().matches('L').count() > 100)
-    );
+    assert!(shell.read("two.svg").matches('L').count() > 200);
     draw("loop flat.toml --amplitude 1e-6,2e-6", "loop.svg");
     for text in
         ["displacement [µm]", "force [N]", "±1.00 µm, ", "a = 50.0 µm, R = 5.00 mm, L = 10.0 mm, N = 150 N, μ = 0.4"]
@@ -518,10 +533,8 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
         let full = "trap '' XFSZ; ulimit -f 1; microslip loop flat.toml --out full.csv";
         shell.check_error(full, 1, "full.csv: File too large (os error 27); the file is incomplete");
         assert!(!shell.run("ulimit -f 1; microslip loop flat.toml --out full.csv").status.success());
-        assert_eq!(
-            shell.stdout("ls -A | tr '\n' ' '"),
-            "flat.toml full.csv link.csv new.csv picture.svg private.csv table.csv "
-        );
+        let files = "flat.toml full.csv link.csv new.csv picture.svg private.csv table.csv ";
+        assert_eq!(shell.stdout("ls -A | tr '\n' ' '"), files);
     }
 }
 
