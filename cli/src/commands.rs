@@ -326,7 +326,7 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
 }
 
 /// Points of a picture of a history: between the rows it follows the branches.
-const POINTS_OF_HISTORY: usize = 200_000;
+const POINTS_OF_HISTORY: usize = 100_000;
 
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let (contact, path, selected) = (&spec.contact, &options.displacements, options.column.as_deref());

@@ -62,18 +62,16 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
 
 /// Rejects outputs that would overwrite an input or each other.
 pub fn check_outputs(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
-    let resolved = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let files = |paths: &[&Path]| -> Vec<PathBuf> {
-        paths.iter().filter(|path| **path != Path::new("-")).map(|path| resolved(path)).collect()
+        let paths = paths.iter().filter(|path| **path != Path::new("-"));
+        paths.map(|path| fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())).collect()
     };
     let (inputs, outputs) = (files(inputs), files(outputs));
-    if let Some(path) = outputs.iter().find(|path| inputs.contains(path)) {
-        return usage(format!("{} is an input and is not overwritten", path.display()));
-    }
-    match &outputs[..] {
-        [table, picture] if table == picture => {
-            usage(format!("{} cannot be both the table and the picture", table.display()))
+    match outputs.iter().find(|path| inputs.contains(path)) {
+        Some(path) => usage(format!("{} is an input and is not overwritten", path.display())),
+        None if outputs.len() == 2 && outputs[0] == outputs[1] => {
+            usage("the table and the picture cannot be the same file")
         }
-        _ => Ok(()),
+        None => Ok(()),
     }
 }

@@ -508,7 +508,11 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
         (1, "tractions flat.toml --force 61 --out table.csv", "--force 61: "),
         (2, "curve flat.toml --out ./flat.toml", "flat.toml is an input and is not overwritten"),
         (2, "history flat.toml --displacements table.csv --out table.csv", "is an input and is not overwritten"),
-        (2, "curve flat.toml --out picture.svg --plot picture.svg", "cannot be both the table and the picture"),
+        (
+            2,
+            "curve flat.toml --out picture.svg --plot picture.svg",
+            "the table and the picture cannot be the same file",
+        ),
         (1, "curve flat.toml --out no/such/place.csv", "no/such/place.csv: No such file"),
         (1, "curve flat.toml --out .", ".: Is a directory"),
     ] {
