@@ -1,71 +1,66 @@
-//! What each command computes: a table, a picture, and the command that repeats both.
+//! The commands: each computes a table and a picture.
 
-use crate::arguments::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
-use crate::digits::{digits, list};
-use crate::parameters::{Described, Shape};
-use crate::path::{self, Row};
-use crate::picture::{Axis, Line, Panel, Picture, rounded};
-use crate::refusal::{Outcome, Refusal, input, usage};
-use crate::table::Table;
-use crate::units::Quantity;
+use crate::args::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
+use crate::contact_spec::ContactSpec;
+use crate::error::{CliError, Result, input, usage};
+use crate::number::{format_list, format_number};
+use crate::plot::{Axis, Line, Panel, Picture, rounded};
+use crate::table::{ColumnSpec, Table, read_column};
+use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::{Contact, Error};
+use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
 
 /// The result of a command.
-pub struct Answer {
-    /// The command that repeats it.
-    command: String,
-    /// Further comments.
-    remarks: Vec<String>,
+#[derive(Debug)]
+pub struct Report {
+    /// The program's version, the command that repeats the result, and remarks.
+    comments: Vec<String>,
+    pub warnings: Vec<String>,
     table: Table,
-    panels: Vec<Panel>,
-    described: Described,
+    pub picture: Picture,
 }
 
-impl Answer {
-    fn new(name: &str, described: Described, options: &str, table: Table, panels: Vec<Panel>) -> Answer {
-        let command = format!("microslip {name}{}{options}", described.flags());
-        Answer { command, remarks: Vec::new(), table, panels, described }
+impl Report {
+    fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, panels: Vec<Panel>) -> Report {
+        let given = &spec.given;
+        let sizes = [
+            ("a", given.flat_half_width, Length),
+            ("R", given.edge_radius, Length),
+            ("L", given.length, Length),
+            ("semi-axes b", given.semi_axis_x, Length),
+            ("l", given.semi_axis_y, Length),
+            ("N", given.normal_force, Force),
+        ];
+        let size = |(name, value, quantity): (&str, Option<f64>, Quantity)| {
+            value.map(|value| format!("{name} = {}, ", rounded(value, quantity, spec.units)))
+        };
+        let friction = format_number(given.friction_coefficient.unwrap_or_default());
+        let caption = format!("{}μ = {friction}", sizes.into_iter().filter_map(size).collect::<String>());
+        Report {
+            comments: vec![
+                format!("microslip {}", env!("CARGO_PKG_VERSION")),
+                format!("microslip {name}{}{options}", given.options()),
+            ],
+            warnings: Vec::new(),
+            table,
+            picture: Picture { caption, units: spec.units, panels },
+        }
     }
 
-    fn with_remark(mut self, remark: &str) -> Answer {
-        self.remarks.push(remark.to_owned());
+    fn with_remark(mut self, remark: &str) -> Report {
+        self.comments.push(remark.to_owned());
         self
     }
 
-    /// As CSV.
-    ///
-    /// # Errors
-    /// None are expected: it is written to memory.
-    pub fn table(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut comments = vec![format!("microslip {}", env!("CARGO_PKG_VERSION")), self.command.clone()];
-        comments.extend(self.remarks.iter().cloned());
-        self.table.csv(&comments)
-    }
-
-    pub fn picture(self) -> Picture {
-        let Described { units, shape, .. } = self.described;
-        let length = |name: &str, value: f64| format!("{name} = {}, ", rounded(value, Quantity::Length, units));
-        let (geometry, normal_force, friction_coefficient) = match shape {
-            Shape::RoundedFlat(p) => {
-                let sizes = [("a", p.flat_half_width), ("R", p.edge_radius), ("L", p.length)];
-                (sizes.map(|(name, value)| length(name, value)).concat(), p.normal_force, p.friction_coefficient)
-            }
-            Shape::Elliptic(p) => {
-                let sizes = [("semi-axes b", p.semi_axis_x), ("l", p.semi_axis_y)];
-                (sizes.map(|(name, value)| length(name, value)).concat(), p.normal_force, p.friction_coefficient)
-            }
-        };
-        let load = rounded(normal_force, Quantity::Force, units);
-        let caption = format!("{geometry}N = {load}, μ = {}", digits(friction_coefficient));
-        Picture { caption, units, panels: self.panels }
+    pub fn csv(&self) -> String {
+        self.table.csv(&self.comments)
     }
 }
 
-/// The given values, in units of the contact's own if relative.
+/// The given values, multiplied by the unit if they are relative.
 fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     let factor = if relative { unit } else { 1.0 };
     values.iter().map(|value| value * factor).collect()
@@ -76,18 +71,12 @@ fn grid(end: f64, points: u32) -> Vec<f64> {
     (0..points).map(|i| f64::from(i) / f64::from(points - 1) * end).collect()
 }
 
-/// Uniformly spaced in the logarithm; both ends are exact.
-fn logarithmic_grid(from: f64, to: f64, points: u32) -> Vec<f64> {
-    let between = |part: f64| from.powf(1.0 - part) * to.powf(part);
-    grid(1.0, points).into_iter().map(between).collect()
+/// From edge to edge of the contact, denser towards the edges: there are narrow slip zones and peaks of pressure.
+fn across(contact: &Contact, points: u32) -> Vec<f64> {
+    grid(PI, points).into_iter().map(|angle| -contact.half_width * angle.cos()).collect()
 }
 
-/// Across the contact from edge to edge, denser towards them: narrow slip zones and peaks of pressure are there.
-fn across(described: &Described, points: u32) -> Vec<f64> {
-    grid(PI, points).into_iter().map(|angle| -described.contact.half_width * angle.cos()).collect()
-}
-
-/// A line over a quantity that grows.
+/// A line over an increasing quantity.
 fn line_over(name: impl Into<String>, mut points: Vec<(f64, f64)>) -> Line {
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     Line { name: name.into(), points }
@@ -103,41 +92,56 @@ fn pairs(rows: &[Vec<f64>], x: usize, y: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row[x], row[y])).collect()
 }
 
-const DISPLACEMENT: Axis = Axis::linear("displacement", Quantity::Length);
-const AMPLITUDE: Axis = Axis::logarithmic("displacement amplitude", Quantity::Length);
-const ACROSS: Axis = Axis::linear("x", Quantity::Length);
-const STIFFNESS: Axis = Axis::linear("stiffness", Quantity::Stiffness);
-const FORCE: Axis = Axis::linear("force", Quantity::Force);
+const DISPLACEMENT: Axis = Axis::linear("displacement", Length);
+const AMPLITUDE: Axis = Axis::logarithmic("displacement amplitude", Length);
+const ACROSS: Axis = Axis::linear("x", Length);
+const STIFFNESS: Axis = Axis::linear("stiffness", Stiffness);
+const FORCE: Axis = Axis::linear("force", Force);
 
-pub fn contact(described: Described) -> Answer {
-    let contact = &described.contact;
-    let rows = [
-        ("composite_modulus", contact.composite_modulus, Quantity::Pressure),
-        ("half_width", contact.half_width, Quantity::Length),
-        ("slip_force", contact.slip_force, Quantity::Force),
-        ("slip_displacement", contact.slip_displacement, Quantity::Length),
-        ("initial_stiffness", contact.initial_stiffness, Quantity::Stiffness),
-        ("slip_energy", contact.slip_energy, Quantity::Energy),
-        ("maximum_pressure", maximum_pressure(&described), Quantity::Pressure),
-    ]
-    .map(|(name, value, quantity)| [name.to_owned(), digits(value), described.units.unit(quantity).to_owned()]);
-    let table = Table::of_text(["quantity", "value", "unit"], &rows);
-    let pressure = across(&described, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
-    let panels = vec![panel(ACROSS, Axis::linear("pressure", Quantity::Pressure), pressure)];
-    Answer::new("contact", described, "", table, panels)
+pub fn contact(spec: &ContactSpec) -> Report {
+    let contact = &spec.contact;
+    let properties = [
+        ("composite_modulus", contact.composite_modulus, Pressure),
+        ("half_width", contact.half_width, Length),
+        ("slip_force", contact.slip_force, Force),
+        ("slip_displacement", contact.slip_displacement, Length),
+        ("initial_stiffness", contact.initial_stiffness, Stiffness),
+        ("slip_energy", contact.slip_energy, Energy),
+        ("maximum_pressure", maximum_pressure(spec), Pressure),
+    ];
+    let row = |(name, value, quantity)| format!("{name},{},{}", format_number(value), spec.units.unit(quantity));
+    let table = Table::of_text("quantity,value,unit", properties.map(row).into());
+    let pressure = across(contact, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
+    let panels = vec![panel(ACROSS, Axis::linear("pressure", Pressure), pressure)];
+    Report { warnings: model_warnings(spec), ..Report::new("contact", spec, "", table, panels) }
 }
 
-/// The largest pressure, in the middle of a cylinder and of an ellipse. On a flat the pressure grows up to its end, where its
-/// slope is infinite, and has one maximum on the rounded edge: a golden section finds it.
-fn maximum_pressure(described: &Described) -> f64 {
-    let contact = &described.contact;
-    let flat = match described.shape {
-        Shape::RoundedFlat(parameters) if parameters.flat_half_width > 0.0 => parameters.flat_half_width,
-        _ => return contact.pressure(0.0),
-    };
+/// Dimensions for which the model is inaccurate.
+fn model_warnings(spec: &ContactSpec) -> Vec<String> {
+    let (half_width, mut warnings) = (spec.contact.half_width, Vec::new());
+    let size = |value: f64| rounded(value, Length, spec.units);
+    if let Some(radius) = spec.given.edge_radius.filter(|radius| half_width > *radius) {
+        let (b, radius) = (size(half_width), size(radius));
+        warnings.push(format!("half-width b = {b} exceeds the radius R = {radius}; the half-plane assumption needs b << R"));
+    }
+    if let Some(length) = spec.given.length.filter(|length| *length < 4.0 * half_width) {
+        let (b, ratio, length) = (size(half_width), length / (2.0 * half_width), size(length));
+        warnings.push(format!("L/2b = {ratio:.2} (L = {length}, b = {b}) is below 2; the model assumes a long contact, L >> b"));
+    }
+    warnings
+}
+
+/// The maximum pressure: in the middle of a cylinder or an ellipse; on the rounded edge of a flat, where a golden-section search
+/// finds the only maximum.
+fn maximum_pressure(spec: &ContactSpec) -> f64 {
+    let contact = &spec.contact;
+    let flat = spec.given.flat_half_width.unwrap_or_default();
+    if flat == 0.0 {
+        return contact.pressure(0.0);
+    }
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut low, mut high) = (flat.min(contact.half_width), contact.half_width);
-    // 0.618^80 is below the rounding of the interval.
+    // 0.618^80 is below the rounding error of the interval.
     for _ in 0..80 {
         let step = golden * (high - low);
         if contact.pressure(high - step) < contact.pressure(low + step) {
@@ -149,300 +153,248 @@ fn maximum_pressure(described: &Described) -> f64 {
     contact.pressure(0.5 * (low + high))
 }
 
-/// The library's message on a force, with the value of mu N if that is exceeded.
-fn refused_force(force: f64, contact: &Contact, error: Error) -> Refusal {
-    match Refusal::of_flag("--force", digits(force), error) {
-        Refusal::Input(sentence) if error == Error::ForceExceedsSlip => {
-            Refusal::Input(format!("{sentence}, which is {} N", digits(contact.slip_force)))
+/// The point of the monotonic curve at a force.
+fn point_at_force(contact: &Contact, force: f64) -> Result<CurvePoint<'_>> {
+    contact.curve_at_force(force).map_err(|error| match CliError::in_option("--force", force, error) {
+        CliError::Input(message) if error == Error::ForceExceedsSlip => {
+            CliError::Input(format!("{message}, which is {} N", format_number(contact.slip_force)))
         }
-        refusal => refusal,
-    }
+        other => other,
+    })
 }
 
-fn refused_amplitude(amplitude: f64, error: Error) -> Refusal {
-    Refusal::of_flag("--amplitude", digits(amplitude), error)
-}
-
-pub fn tractions(arguments: &Tractions, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
-    let mut forces = scaled(&arguments.force, arguments.relative, contact.slip_force);
+pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
+    let (contact, units) = (&spec.contact, spec.units);
+    let mut forces = scaled(&options.force, options.relative, contact.slip_force);
     if forces.is_empty() {
         forces.push(0.5 * contact.slip_force);
     }
-    let mut x = arguments.position.clone();
-    if let Some(bad) = x.iter().find(|x| !x.is_finite()) {
-        return Err(Refusal::of_flag("--position", digits(*bad), Error::BadPosition));
+    if let Some(bad) = options.position.iter().find(|x| !x.is_finite()) {
+        return Err(CliError::in_option("--position", *bad, Error::BadPosition));
     }
-    let mut options = format!(" --force {}", list(&forces));
-    if x.is_empty() {
-        x = across(&described, arguments.points);
-        options.push_str(&format!(" --points {}", arguments.points));
-    } else {
-        options.push_str(&format!(" --position {}", list(&x)));
-    }
-    let slips = matches!(described.shape, Shape::RoundedFlat(_));
+    let (x, repeat) = match &options.position[..] {
+        [] => (across(contact, options.points), format!("--points {}", options.points)),
+        x => (x.to_vec(), format!("--position {}", format_list(x))),
+    };
+    let repeat = format!(" --force {} {repeat}", format_list(&forces));
+    let has_slip = !spec.given.is_elliptic();
     let (mut rows, mut shear, mut slip) = (Vec::new(), Vec::new(), Vec::new());
     for force in forces {
-        let point = contact.curve_at_force(force).map_err(|error| refused_force(force, contact, error))?;
-        let row = |&x: &f64| {
-            let row = [
-                Some(force),
-                Some(x),
-                Some(contact.pressure(x)),
-                Some(point.shear(x)),
-                point.slip(x).ok(),
-                point.damage(x).ok(),
-            ];
-            row.into_iter().flatten().collect::<Vec<_>>()
-        };
-        let at_force: Vec<_> = x.iter().map(row).collect();
-        let size = rounded(force, Quantity::Force, units);
+        let point = point_at_force(contact, force)?;
+        let slip_at = |x| [point.slip(x), point.damage(x)].into_iter().flatten();
+        let row = |&x: &f64| [force, x, contact.pressure(x), point.shear(x)].into_iter().chain(slip_at(x)).collect();
+        let at_force: Vec<Vec<_>> = x.iter().map(row).collect();
+        let size = rounded(force, Force, units);
         shear.push(line_over(format!("shear at {size}"), pairs(&at_force, 1, 3)));
-        if slips {
+        if has_slip {
             slip.push(line_over(format!("slip at {size}"), pairs(&at_force, 1, 4)));
         }
         rows.extend(at_force);
     }
     shear.push(line_over("pressure", x.iter().map(|&x| (x, contact.pressure(x))).collect()));
-    let mut panels = vec![Panel { x: ACROSS, y: Axis::linear("pressure, shear", Quantity::Pressure), lines: shear }];
-    let mut columns = vec![
-        ("force", Quantity::Force),
-        ("x", Quantity::Length),
-        ("pressure", Quantity::Pressure),
-        ("shear", Quantity::Pressure),
-    ];
-    if slips {
-        panels.push(Panel { x: ACROSS, y: Axis::linear("slip", Quantity::Length), lines: slip });
-        columns.extend([("slip", Quantity::Length), ("damage", Quantity::Stiffness)]);
+    let mut panels = vec![Panel { x: ACROSS, y: Axis::linear("pressure, shear", Pressure), lines: shear }];
+    let mut columns = vec![("force", Force), ("x", Length), ("pressure", Pressure), ("shear", Pressure)];
+    if has_slip {
+        panels.push(Panel { x: ACROSS, y: Axis::linear("slip", Length), lines: slip });
+        columns.extend([("slip", Length), ("damage", Stiffness)]);
     }
-    let table = Table::of_numbers(&columns, units, &rows);
-    Ok(Answer::new("tractions", described, &options, table, panels))
+    Ok(Report::new("tractions", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels))
 }
 
-pub fn curve(arguments: &Curve, described: Described) -> Outcome<Answer> {
-    let (contact, units, relative) = (&described.contact, described.units, arguments.relative);
-    let forces = scaled(&arguments.force, relative, contact.slip_force);
-    let mut displacements = scaled(&arguments.displacement, relative, contact.slip_displacement);
+pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
+    let (contact, relative) = (&spec.contact, options.relative);
+    let forces = scaled(&options.force, relative, contact.slip_force);
+    let mut displacements = scaled(&options.displacement, relative, contact.slip_displacement);
     let at_force = |&force: &f64| {
-        let point = contact.curve_at_force(force).map_err(|error| refused_force(force, contact, error))?;
+        let point = point_at_force(contact, force)?;
         Ok(vec![point.displacement(), force, point.stiffness(), point.stick_half_width()])
     };
-    let at_displacement = |flag: &str, displacement: f64| {
+    let at_displacement = |option: &str, displacement: f64| {
         let point = contact.curve_at_displacement(displacement);
-        let point = point.map_err(|error| Refusal::of_flag(flag, digits(displacement), error))?;
+        let point = point.map_err(|error| CliError::in_option(option, displacement, error))?;
         Ok(vec![displacement, point.force(), point.stiffness(), point.stick_half_width()])
     };
-    let options = if !forces.is_empty() {
-        format!(" --force {}", list(&forces))
+    let repeat = if !forces.is_empty() {
+        format!(" --force {}", format_list(&forces))
     } else if !displacements.is_empty() {
-        format!(" --displacement {}", list(&displacements))
+        format!(" --displacement {}", format_list(&displacements))
     } else {
         let default = 1.25 * contact.slip_displacement;
-        let end = arguments.to.map_or(default, |to| if relative { to * contact.slip_displacement } else { to });
+        let end = options.to.map_or(default, |to| if relative { to * contact.slip_displacement } else { to });
         at_displacement("--to", end)?;
-        displacements = grid(end, arguments.points);
-        format!(" --to {} --points {}", digits(end), arguments.points)
+        displacements = grid(end, options.points);
+        format!(" --to {} --points {}", format_number(end), options.points)
     };
     let displacements = displacements.into_iter().map(|displacement| at_displacement("--displacement", displacement));
-    let rows = forces.iter().map(at_force).chain(displacements).collect::<Outcome<Vec<_>>>()?;
-    let columns = [
-        ("displacement", Quantity::Length),
-        ("force", Quantity::Force),
-        ("stiffness", Quantity::Stiffness),
-        ("stick_half_width", Quantity::Length),
-    ];
-    let table = Table::of_numbers(&columns, units, &rows);
+    let rows = forces.iter().map(at_force).chain(displacements).collect::<Result<Vec<_>>>()?;
+    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("stick_half_width", Length)];
     let panels = vec![
         panel(DISPLACEMENT, FORCE, pairs(&rows, 0, 1)),
         panel(DISPLACEMENT, STIFFNESS, pairs(&rows, 0, 2)),
-        panel(DISPLACEMENT, Axis::linear("stick half-width", Quantity::Length), pairs(&rows, 0, 3)),
+        panel(DISPLACEMENT, Axis::linear("stick half-width", Length), pairs(&rows, 0, 3)),
     ];
-    Ok(Answer::new("curve", described, &options, table, panels))
+    Ok(Report::new("curve", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
-pub fn hysteresis_loop(arguments: &Loop, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
-    let (given, relative) = match arguments.amplitude[..] {
+pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
+    let (contact, units) = (&spec.contact, spec.units);
+    let (given, relative) = match options.amplitude[..] {
         [] => (&[0.5, 1.0, 1.5][..], true),
-        _ => (&arguments.amplitude[..], arguments.relative),
+        _ => (&options.amplitude[..], options.relative),
     };
     let amplitudes = scaled(given, relative, contact.slip_displacement);
-    let options = format!(" --amplitude {} --points {}", list(&amplitudes), arguments.points);
+    let repeat = format!(" --amplitude {} --points {}", format_list(&amplitudes), options.points);
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     for amplitude in amplitudes {
-        let refuse = |error| refused_amplitude(amplitude, error);
-        let hysteresis = contact.hysteresis_loop(amplitude).map_err(refuse)?;
-        let dissipated = contact.complex_stiffness(amplitude).map_err(refuse)?.dissipated();
-        let n = arguments.points as usize;
+        let error = |error| CliError::in_option("--amplitude", amplitude, error);
+        let hysteresis = contact.hysteresis_loop(amplitude).map_err(error)?;
+        let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
+        let n = options.points as usize;
         let row = |i: usize| vec![amplitude, hysteresis.displacement(i, n), hysteresis.force(i, n), dissipated];
         let at_amplitude: Vec<_> = (0..=n).map(row).collect();
-        let size = rounded(amplitude, Quantity::Length, units);
-        let name = format!("±{size}, {}", rounded(dissipated, Quantity::Energy, units));
+        let size = rounded(amplitude, Length, units);
+        let name = format!("±{size}, {}", rounded(dissipated, Energy, units));
         lines.push(Line { name, points: pairs(&at_amplitude, 1, 2) });
         rows.extend(at_amplitude);
     }
-    let columns = [
-        ("amplitude", Quantity::Length),
-        ("displacement", Quantity::Length),
-        ("force", Quantity::Force),
-        ("dissipated", Quantity::Energy),
-    ];
-    let table = Table::of_numbers(&columns, units, &rows);
+    let columns = [("amplitude", Length), ("displacement", Length), ("force", Force), ("dissipated", Energy)];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }];
-    Ok(Answer::new("loop", described, &options, table, panels).with_remark("dissipated: energy per cycle"))
+    let report = Report::new("loop", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels);
+    Ok(report.with_remark("dissipated: energy per cycle"))
 }
 
 impl Amplitudes {
-    /// The amplitudes, and the flags that repeat them.
-    fn values(&self, contact: &Contact) -> Outcome<(Vec<f64>, String)> {
+    /// The amplitudes, and the options that repeat them.
+    fn values(&self, contact: &Contact) -> Result<(Vec<f64>, String)> {
         let unit = contact.slip_displacement;
         if !self.amplitude.is_empty() {
             let amplitudes = scaled(&self.amplitude, self.relative, unit);
-            let options = format!(" --amplitude {}", list(&amplitudes));
-            return Ok((amplitudes, options));
+            let repeat = format!(" --amplitude {}", format_list(&amplitudes));
+            return Ok((amplitudes, repeat));
         }
         if unit == 0.0 && (self.relative || self.from.is_none() || self.to.is_none()) {
-            return input(
-                "this contact carries no force and has no slip displacement: give --from and --to, or --amplitude",
-            );
+            return input("without friction or normal force there is no slip displacement: give --from and --to, or --amplitude");
         }
         let end = |given: Option<f64>, multiple: f64| match given {
             Some(value) if !self.relative => value,
             _ => given.unwrap_or(multiple) * unit,
         };
         let (from, to) = (end(self.from, 0.01), end(self.to, 100.0));
-        for (flag, amplitude) in [("--from", from), ("--to", to)] {
-            contact.complex_stiffness(amplitude).map_err(|error| Refusal::of_flag(flag, digits(amplitude), error))?;
+        for (option, amplitude) in [("--from", from), ("--to", to)] {
+            let error = |error| CliError::in_option(option, amplitude, error);
+            contact.complex_stiffness(amplitude).map_err(error)?;
         }
+        let [from_text, to_text] = [from, to].map(format_number);
         if !(from > 0.0 && from <= to) {
-            return usage(format!("0 < --from <= --to is needed, not {} and {}", digits(from), digits(to)));
+            return usage(format!("0 < --from <= --to is required, not {from_text} and {to_text}"));
         }
-        let options = format!(" --from {} --to {} --points {}", digits(from), digits(to), self.points);
-        Ok((logarithmic_grid(from, to, self.points), options))
+        // Uniform in the logarithm; both ends are exact.
+        let amplitude = |part: f64| from.powf(1.0 - part) * to.powf(part);
+        let repeat = format!(" --from {from_text} --to {to_text} --points {}", self.points);
+        Ok((grid(1.0, self.points).into_iter().map(amplitude).collect(), repeat))
     }
 }
 
-pub fn stiffness(arguments: &Amplitudes, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
-    let (amplitudes, options) = arguments.values(contact)?;
+pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
+    let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let complex = contact.complex_stiffness(amplitude).map_err(|error| refused_amplitude(amplitude, error))?;
-        Ok(vec![
-            amplitude,
-            complex.real(),
-            complex.imaginary(),
-            complex.d_real(),
-            complex.d_imag(),
-            complex.dissipated(),
-        ])
+        let k = spec.contact.complex_stiffness(amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
+        Ok(vec![amplitude, k.real(), k.imaginary(), k.d_real(), k.d_imag(), k.dissipated()])
     };
-    let rows = amplitudes.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
+    let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
     let columns = [
-        ("amplitude", Quantity::Length),
-        ("k_real", Quantity::Stiffness),
-        ("k_imag", Quantity::Stiffness),
-        ("dk_real", Quantity::StiffnessSlope),
-        ("dk_imag", Quantity::StiffnessSlope),
-        ("dissipated", Quantity::Energy),
+        ("amplitude", Length),
+        ("k_real", Stiffness),
+        ("k_imag", Stiffness),
+        ("dk_real", StiffnessSlope),
+        ("dk_imag", StiffnessSlope),
+        ("dissipated", Energy),
     ];
-    let table = Table::of_numbers(&columns, units, &rows);
     let lines = vec![line_over("K′", pairs(&rows, 0, 1)), line_over("K″", pairs(&rows, 0, 2))];
-    let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Quantity::Stiffness), lines }];
-    let answer = Answer::new("stiffness", described, &options, table, panels);
-    Ok(answer.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
+    let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Stiffness), lines }];
+    let report = Report::new("stiffness", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    Ok(report.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
 }
 
-pub fn history(arguments: &History, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
-    let path = path::read(&arguments.displacements, arguments.column.as_deref(), units)?;
-    // No path has more reversals than rows, so none is merged.
-    let mut state = vec![0.0; state_length(path.len())];
-    state_init(&mut state).map_err(|error| Refusal::in_file(&arguments.displacements, error))?;
-    // The picture follows the curve between the rows.
-    let between = u32::try_from(2000 / path.len()).unwrap_or(1).max(1);
-    let (mut rows, mut points) = (Vec::new(), vec![(0.0, 0.0)]);
-    for Row { number, displacement } in path {
-        let refuse = |error| Refusal::in_file(&arguments.displacements, format!("row {number}: {error}"));
-        let displacement = if arguments.relative { displacement * contact.slip_displacement } else { displacement };
-        check_step(&state, displacement).map_err(refuse)?;
-        let from = rows.last().map_or(0.0, |row: &Vec<f64>| row[0]);
-        for part in 1..between {
-            let on_the_way = from + (displacement - from) * f64::from(part) / f64::from(between);
-            points.push((on_the_way, step(contact, &state, on_the_way).force()));
-        }
+/// Points of a picture of a history: between the rows it follows the branches.
+const POINTS_OF_HISTORY: usize = 100_000;
+
+pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
+    let (contact, path, selected) = (&spec.contact, &options.displacements, options.column.as_deref());
+    let column = ColumnSpec { option: "--column", selected, name: "displacement", quantity: Length };
+    let displacements = read_column(path, &column, spec.units)?;
+    // A history has no more reversals than rows: none is merged, and the results are exact.
+    let mut state = vec![0.0; state_length(displacements.len())];
+    state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
+    let parts = (POINTS_OF_HISTORY / displacements.len()).clamp(1, 500) as u32;
+    let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
+    for (line, displacement) in displacements {
+        let displacement = if options.relative { displacement * contact.slip_displacement } else { displacement };
+        check_step(&state, displacement).map_err(|error| CliError::in_file(path, format!("line {line}: {error}")))?;
+        points.extend((1..parts).map(|part| {
+            let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
+            (between, step(contact, &state, between).force())
+        }));
         let (step, dissipated) = step_with_energy(contact, &state, displacement);
         points.push((displacement, step.force()));
         rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
         step.write(&mut state);
+        from = displacement;
     }
-    let mut options = format!(" --displacements {}", quoted(&arguments.displacements.to_string_lossy()));
-    if let Some(column) = &arguments.column {
-        options.push_str(&format!(" --column {}", quoted(column)));
-    }
-    if arguments.relative {
-        options.push_str(" --relative");
-    }
-    let columns = [
-        ("displacement", Quantity::Length),
-        ("force", Quantity::Force),
-        ("stiffness", Quantity::Stiffness),
-        ("dissipated", Quantity::Energy),
-    ];
-    let table = Table::of_numbers(&columns, units, &rows);
+    let column = selected.map_or(String::new(), |column| format!(" --column {}", quoted(column)));
+    let relative = if options.relative { " --relative" } else { "" };
+    let repeat = format!(" --displacements {}{column}{relative}", quoted(&path.to_string_lossy()));
+    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
-    Ok(Answer::new("history", described, &options, table, panels).with_remark("dissipated: energy of each step"))
+    let report = Report::new("history", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    Ok(report.with_remark("dissipated: energy of each step"))
 }
 
-/// For a shell, on one line.
+/// A word of a shell command, on one line.
 fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.to_owned();
     }
-    let word: String = word.chars().map(|letter| if letter.is_control() { '?' } else { letter }).collect();
-    format!("'{}'", word.replace('\'', r"'\''"))
+    format!("'{}'", word.replace(char::is_control, "?").replace('\'', r"'\''"))
 }
 
-pub fn jenkins_equivalent(arguments: &Amplitudes, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
-    let (amplitudes, options) = arguments.values(contact)?;
+pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
+    let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let slider = jenkins(contact, amplitude).map_err(|error| refused_amplitude(amplitude, error))?;
+        let slider = jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
         Ok(vec![amplitude, slider.stiffness, slider.slip_force])
     };
-    let rows = amplitudes.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
-    let columns =
-        [("amplitude", Quantity::Length), ("stiffness", Quantity::Stiffness), ("slip_force", Quantity::Force)];
-    let table = Table::of_numbers(&columns, units, &rows);
+    let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
+    let columns = [("amplitude", Length), ("stiffness", Stiffness), ("slip_force", Force)];
     let panels = vec![
         panel(AMPLITUDE, STIFFNESS, pairs(&rows, 0, 1)),
-        panel(AMPLITUDE, Axis::linear("slip force", Quantity::Force), pairs(&rows, 0, 2)),
+        panel(AMPLITUDE, Axis::linear("slip force", Force), pairs(&rows, 0, 2)),
     ];
-    Ok(Answer::new("jenkins", described, &options, table, panels))
+    Ok(Report::new("jenkins", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
-pub fn iwan_equivalent(arguments: &Iwan, described: Described) -> Outcome<Answer> {
-    let (contact, units) = (&described.contact, described.units);
+pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
+    let contact = &spec.contact;
     let mut sliders = Vec::new();
-    let error = iwan(contact, arguments.count as usize, |slider| sliders.push(slider))
-        .map_err(|error| Refusal::of_flag("--count", arguments.count, error))?;
-    let rows: Vec<_> =
-        sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
-    let columns = [("slider", Quantity::Number), ("stiffness", Quantity::Stiffness), ("slip_force", Quantity::Force)];
-    let table = Table::of_numbers(&columns, units, &rows);
+    let error = iwan(contact, options.count as usize, |slider| sliders.push(slider))
+        .map_err(|error| CliError::in_option("--count", f64::from(options.count), error))?;
+    let rows: Vec<_> = sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
+    let columns = [("slider", Number), ("stiffness", Stiffness), ("slip_force", Force)];
 
-    let mut places = grid(1.25 * contact.slip_displacement, 201);
-    // The corners too, as long as they can be seen.
+    let mut displacements = grid(1.25 * contact.slip_displacement, 201);
+    // The corners of the sum, as long as they are visible.
     let corner = |slider: &SpringSlider| slider.slip_force / slider.stiffness;
-    places.extend(sliders.iter().take(200).map(corner).filter(|place| place.is_finite()));
-    let of_slider = |slider: &SpringSlider, place: f64| (slider.stiffness * place).min(slider.slip_force);
-    let of_sliders = |place: f64| sliders.iter().map(|slider| of_slider(slider, place)).sum();
-    let of_contact = |place: f64| contact.curve_at_displacement(place).map_or(f64::NAN, |point| point.force());
+    displacements.extend(sliders.iter().take(200).map(corner).filter(|displacement| displacement.is_finite()));
+    let of_slider = |slider: &SpringSlider, at: f64| (slider.stiffness * at).min(slider.slip_force);
+    let of_sliders = |at: f64| sliders.iter().map(|slider| of_slider(slider, at)).sum();
+    let of_contact = |at: f64| contact.curve_at_displacement(at).map_or(f64::NAN, |point| point.force());
     let lines = vec![
-        line_over("contact", places.iter().map(|&place| (place, of_contact(place))).collect()),
-        line_over("spring-sliders", places.iter().map(|&place| (place, of_sliders(place))).collect()),
+        line_over("contact", displacements.iter().map(|&at| (at, of_contact(at))).collect()),
+        line_over("spring-sliders", displacements.iter().map(|&at| (at, of_sliders(at))).collect()),
     ];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }];
-    let answer = Answer::new("iwan", described, &format!(" --count {}", arguments.count), table, panels);
-    Ok(answer.with_remark(&format!("largest error of the force over mu N: {}", digits(error))))
+    let table = Table::of_numbers(&columns, spec.units, &rows);
+    let report = Report::new("iwan", spec, &format!(" --count {}", options.count), table, panels);
+    Ok(report.with_remark(&format!("largest error of the force over mu N: {}", format_number(error))))
 }

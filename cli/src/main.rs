@@ -1,27 +1,26 @@
-//! The command line of microslip, for whoever wants numbers before linking anything.
+//! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `arguments` is what can be asked, `parameters` and `path` are what is read, `commands` what is computed, `table` and
-//! `picture` how it is shown, `output` where it goes.
+//! `args` defines the command line, `contact_spec` and `table` read the input, `commands` compute, `plot` draws, and `files`
+//! reads and writes.
 
-mod arguments;
+mod args;
+mod canvas;
 mod commands;
-mod digits;
-mod output;
-mod parameters;
-mod path;
-mod picture;
-mod refusal;
+mod contact_spec;
+mod error;
+mod files;
+mod number;
+mod plot;
 mod table;
 mod units;
 
-use arguments::{About, Arguments, Command};
+use args::{Arguments, Command, ContactCommand};
+use canvas::Format;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser};
-use commands::Answer;
-use parameters::{Described, describe};
-use picture::Format;
-use refusal::{Outcome, Refusal, usage};
-use std::fmt::Display;
+use commands::Report;
+use contact_spec::ContactSpec;
+use error::{CliError, Result, usage};
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,64 +28,65 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     match run(&Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(Refusal::Input(sentence)) => {
-            // Where there is no standard error there is nobody to tell.
-            let _ = writeln!(io::stderr(), "microslip: {}", sentence.trim_end());
+        Err(CliError::Input(message)) => {
+            print_message(&message);
             ExitCode::from(1)
         }
-        Err(Refusal::Usage(sentence)) => Arguments::command().error(ErrorKind::ValueValidation, sentence).exit(),
+        Err(CliError::Usage(message)) => Arguments::command().error(ErrorKind::ValueValidation, message).exit(),
     }
 }
 
-fn run(command: &Command) -> Outcome<()> {
+/// Prints to standard error, if it is open.
+fn print_message(message: &str) {
+    let _ = writeln!(io::stderr(), "microslip: {message}");
+}
+
+fn run(command: &Command) -> Result<()> {
     match command {
-        Command::Contact(about) => give(about, None, |_, contact| Ok(commands::contact(contact))),
-        Command::Tractions(about) => give(about, None, commands::tractions),
-        Command::Curve(about) => give(about, None, commands::curve),
-        Command::Loop(about) => give(about, None, commands::hysteresis_loop),
-        Command::Stiffness(about) => give(about, None, commands::stiffness),
-        Command::History(about) => give(about, Some(&about.question.displacements), commands::history),
-        Command::Jenkins(about) => give(about, None, commands::jenkins_equivalent),
-        Command::Iwan(about) => give(about, None, commands::iwan_equivalent),
-        Command::Example { elliptic: false } => output::to_stdout(include_bytes!("../example.toml")),
-        Command::Example { elliptic: true } => output::to_stdout(include_bytes!("../example_elliptic.toml")),
+        Command::Contact(command) => execute(command, None, |_, spec| Ok(commands::contact(spec))),
+        Command::Tractions(command) => execute(command, None, commands::tractions),
+        Command::Curve(command) => execute(command, None, commands::curve),
+        Command::Loop(command) => execute(command, None, commands::hysteresis_loop),
+        Command::Stiffness(command) => execute(command, None, commands::stiffness),
+        Command::History(command) => execute(command, Some(&command.options.displacements), commands::history),
+        Command::Jenkins(command) => execute(command, None, commands::jenkins_equivalent),
+        Command::Iwan(command) => execute(command, None, commands::iwan_equivalent),
+        Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")),
+        Command::Example { elliptic: true } => files::write_stdout(include_bytes!("../example_elliptic.toml")),
     }
 }
 
-/// Computes the answer and writes it where the user wants it, all of it or nothing.
-fn give<Question: Args>(
-    about: &About<Question>,
-    displacements: Option<&Path>,
-    answer: impl FnOnce(&Question, Described) -> Outcome<Answer>,
-) -> Outcome<()> {
-    let About { question, source, output } = about;
-    let parameters = source.file.as_deref();
-    let inputs: Vec<_> = parameters.into_iter().chain(displacements).collect();
-    let outputs: Vec<_> = output.out.as_deref().into_iter().chain(output.plot.as_deref()).collect();
-    output::keep_apart(&inputs, &outputs)?;
-    let plot = output.plot.as_deref().map(|path| Ok((path, format_of(path)?))).transpose()?;
-    if [parameters, displacements] == [Some(Path::new("-")); 2] {
-        return usage("standard input cannot be both the parameter file and the displacements");
+/// Computes the report of a command, then writes its table and picture.
+fn execute<Options: Args>(
+    command: &ContactCommand<Options>,
+    data: Option<&Path>,
+    compute: impl FnOnce(&Options, &ContactSpec) -> Result<Report>,
+) -> Result<()> {
+    let ContactCommand { options, parameters, contact, output } = command;
+    let (parameters, out, plot) = (parameters.as_deref(), output.out.as_deref(), output.plot.as_deref());
+    let inputs: Vec<_> = parameters.into_iter().chain(data).collect();
+    files::check_outputs(&inputs, &out.into_iter().chain(plot).collect::<Vec<_>>())?;
+    if inputs == [Path::new("-"); 2] {
+        return usage("standard input cannot be both the parameter file and the table");
     }
-
-    let answer = answer(question, describe(parameters, &source.given)?)?;
-    let not_made = |error: &dyn Display| Refusal::Input(format!("the result cannot be written: {error}"));
-    let table = answer.table().map_err(|error| not_made(&error))?;
+    let plot = plot.map(|path| Ok((path, format_of(path)?))).transpose()?;
+    let report = compute(options, &ContactSpec::read(parameters, contact)?)?;
+    report.warnings.iter().for_each(|warning| print_message(&format!("warning: {warning}")));
     if let Some((path, format)) = plot {
-        let picture = answer.picture().draw(format).map_err(|error| not_made(&error))?;
-        output::to_file(path, &picture)?;
+        let picture = report.picture.draw(format).map_err(|error| CliError::in_file(path, error))?;
+        files::write_file(path, &picture)?;
     }
-    match &output.out {
-        Some(path) => output::to_file(path, &table),
-        None => output::to_stdout(&table),
+    match out {
+        Some(path) if path != Path::new("-") => files::write_file(path, report.csv().as_bytes()),
+        _ => files::write_stdout(report.csv().as_bytes()),
     }
 }
 
-fn format_of(path: &Path) -> Outcome<Format> {
-    let ends_with = |wanted| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted));
-    match [ends_with("svg"), ends_with("png")] {
-        [true, _] => Ok(Format::Svg),
-        [_, true] => Ok(Format::Png),
-        _ => usage(format!("--plot {}: the name must end with .svg or .png", path.display())),
+fn format_of(path: &Path) -> Result<Format> {
+    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    match extension.as_deref().and_then(|extension| extension.to_str()) {
+        Some("svg") => Ok(Format::Svg),
+        Some("png") => Ok(Format::Png),
+        _ => usage(format!("--plot {}: the extension must be .svg or .png", path.display())),
     }
 }

@@ -1,44 +1,116 @@
-//! A table of results as CSV: comments that say how to repeat it, a header with units, numbers in the shortest digits that
-//! read back as the same.
+//! Tables as CSV: results, and columns of an input file.
 
-use crate::digits::digits;
+use crate::error::{CliError, Result};
+use crate::files::read_text;
+use crate::number::{format_list, parse_number};
 use crate::units::{Quantity, Units};
+use std::path::Path;
 
+/// A table of results.
 #[derive(Debug)]
 pub struct Table {
-    header: Vec<String>,
-    rows: Vec<Vec<String>>,
+    header: String,
+    rows: Vec<String>,
 }
 
 impl Table {
-    /// Rows of numbers, under a name and a quantity for each column.
-    pub fn of_numbers<'a>(
-        columns: &[(&str, Quantity)],
-        units: Units,
-        rows: impl IntoIterator<Item = &'a Vec<f64>>,
-    ) -> Table {
+    /// Rows of numbers; each column has a name and a quantity.
+    pub fn of_numbers(columns: &[(&str, Quantity)], units: Units, rows: &[Vec<f64>]) -> Table {
         let header = |(name, quantity): &(&str, Quantity)| format!("{name} [{}]", units.unit(*quantity));
-        let cells = |row: &Vec<f64>| row.iter().map(|&value| digits(value)).collect();
-        Table { header: columns.iter().map(header).collect(), rows: rows.into_iter().map(cells).collect() }
+        let header = columns.iter().map(header).collect::<Vec<_>>().join(",");
+        Table { header, rows: rows.iter().map(|row| format_list(row)).collect() }
     }
 
-    pub fn of_text<const COLUMNS: usize>(header: [&str; COLUMNS], rows: &[[String; COLUMNS]]) -> Table {
-        Table { header: header.map(str::to_owned).into(), rows: rows.iter().map(|row| row.to_vec()).collect() }
+    pub fn of_text(header: &str, rows: Vec<String>) -> Table {
+        Table { header: header.to_owned(), rows }
     }
 
-    /// # Errors
-    /// None: it is written to memory.
-    pub fn csv(&self, comments: &[String]) -> Result<Vec<u8>, csv::Error> {
-        let mut bytes = Vec::new();
-        for comment in comments {
-            bytes.extend_from_slice(b"# ");
-            bytes.extend_from_slice(comment.as_bytes());
-            bytes.push(b'\n');
+    /// The table after lines of comments.
+    pub fn csv(&self, comments: &[String]) -> String {
+        let comments = comments.iter().map(|comment| format!("# {comment}\n"));
+        let rows = [&self.header].into_iter().chain(&self.rows).map(|row| format!("{row}\n"));
+        comments.chain(rows).collect()
+    }
+}
+
+/// A column of an input table: the value of each row, with its line number in the file.
+pub type Column = Vec<(usize, f64)>;
+
+/// A column that a command reads.
+#[derive(Debug, Clone, Copy)]
+pub struct ColumnSpec<'a> {
+    /// The option that selects it, and the value of that option: a name or a number from 1.
+    pub option: &'static str,
+    pub selected: Option<&'a str>,
+    /// Name in the header if no other is selected.
+    pub name: &'static str,
+    pub quantity: Quantity,
+}
+
+/// Reads a column of a CSV file: the selected one, the one of the default name, or the only one.
+pub fn read_column(path: &Path, spec: &ColumnSpec, units: Units) -> Result<Column> {
+    parse_column(&read_text(path)?, spec, units).map_err(|reason| CliError::in_file(path, reason))
+}
+
+fn parse_column(text: &str, spec: &ColumnSpec, units: Units) -> std::result::Result<Column, String> {
+    let split = |line: &'_ str| line.split(',').map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
+    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).zip(1..);
+    let mut rows = lines
+        .filter(|(line, _)| !line.is_empty() && !line.starts_with('#'))
+        .map(|(line, number)| -> (Vec<String>, usize) { (split(line), number) })
+        .peekable();
+    let no_numbers = || format!("the table has no {}s", spec.name);
+    let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
+    let index = spec.find(&first, units).map_err(|reason| format!("line {number}: {reason}"))?;
+    rows.next_if(|_| is_header(&first));
+    let mut column = Column::new();
+    for (cells, line) in rows {
+        let (count, expected) = (cells.len(), first.len());
+        if count < expected {
+            return Err(format!("line {line}: only {count} of {expected} columns"));
         }
-        let mut writer = csv::Writer::from_writer(bytes);
-        for row in [&self.header].into_iter().chain(&self.rows) {
-            writer.write_record(row)?;
+        if count > expected {
+            let cause = "is a comma the decimal separator? It must be a point";
+            return Err(format!("line {line}: {count} columns, but the first row has {expected}; {cause}"));
         }
-        writer.into_inner().map_err(|error| error.into_error().into())
+        let cell = &cells[index];
+        let error = |reason| format!("line {line}: {cell:?}: {reason}; columns are separated by commas");
+        column.push((line, parse_number(cell).map_err(error)?));
+    }
+    if column.is_empty() { Err(no_numbers()) } else { Ok(column) }
+}
+
+/// Whether the first row has names. A cell that starts like a number is a number, even if invalid.
+fn is_header(cells: &[String]) -> bool {
+    let starts_number = |cell: &str| cell.starts_with(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
+    cells.iter().all(|cell| !starts_number(cell) && parse_number(cell).is_err())
+}
+
+impl ColumnSpec<'_> {
+    /// Index of the column, from the cells of the first row.
+    fn find(&self, first: &[String], units: Units) -> std::result::Result<usize, String> {
+        if first.iter().any(|cell| cell.contains(';')) {
+            return Err("columns are separated by commas, not by semicolons".to_owned());
+        }
+        let name = self.selected.unwrap_or(self.name);
+        let names: Vec<_> = first.iter().map(|cell| cell.split('[').next().unwrap_or_default().trim()).collect();
+        if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
+            let expected = units.unit(self.quantity);
+            return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
+                Some(unit) if unit != expected => Err(format!("column {name} is in {unit}, not in {expected} (see --units)")),
+                _ => Ok(index),
+            };
+        }
+        let number = self.selected.and_then(|selected| selected.parse::<usize>().ok());
+        match (self.selected, number) {
+            (Some(_), Some(number)) if (1..=first.len()).contains(&number) => Ok(number - 1),
+            (Some(_), _) if is_header(first) => Err(format!("no column {name}; the columns are {}", names.join(", "))),
+            (Some(_), _) => Err(format!("no column {name}; the columns are 1 to {}", first.len())),
+            (None, _) if first.len() == 1 => Ok(0),
+            (None, _) => {
+                let (count, option) = (first.len(), self.option);
+                Err(format!("{option} must select one of the {count} columns, by its name in the header or its number"))
+            }
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Units. The law holds in every consistent set of them, so they are names, and only pictures convert.
+//! Units. The friction law holds in any consistent set of units: only pictures convert.
 
 use clap::ValueEnum;
 use serde::Deserialize;
@@ -17,39 +17,34 @@ pub enum Quantity {
     Number,
     Length,
     Force,
-    /// Also moduli.
+    /// Pressures and moduli.
     Pressure,
-    /// Also the damage parameter.
+    /// Stiffness, and the damage parameter.
     Stiffness,
     StiffnessSlope,
     Energy,
 }
 
 impl Units {
-    pub fn unit(self, quantity: Quantity) -> &'static str {
-        match (quantity, self) {
-            (Quantity::Number, _) => "-",
-            (Quantity::Length, Units::Si) => "m",
-            (Quantity::Length, Units::Mm) => "mm",
-            (Quantity::Force, _) => "N",
-            (Quantity::Pressure, Units::Si) => "Pa",
-            (Quantity::Pressure, Units::Mm) => "MPa",
-            (Quantity::Stiffness, Units::Si) => "N/m",
-            (Quantity::Stiffness, Units::Mm) => "N/mm",
-            (Quantity::StiffnessSlope, Units::Si) => "N/m^2",
-            (Quantity::StiffnessSlope, Units::Mm) => "N/mm^2",
-            (Quantity::Energy, Units::Si) => "J",
-            (Quantity::Energy, Units::Mm) => "mJ",
-        }
+    /// The unit of a quantity, and its value in SI units.
+    fn unit_and_factor(self, quantity: Quantity) -> (&'static str, f64) {
+        let (si, mm, factor) = match quantity {
+            Quantity::Number => ("-", "-", 1.0),
+            Quantity::Length => ("m", "mm", 1e-3),
+            Quantity::Force => ("N", "N", 1.0),
+            Quantity::Pressure => ("Pa", "MPa", 1e6),
+            Quantity::Stiffness => ("N/m", "N/mm", 1e3),
+            Quantity::StiffnessSlope => ("N/m^2", "N/mm^2", 1e6),
+            Quantity::Energy => ("J", "mJ", 1e-3),
+        };
+        if self == Units::Si { (si, 1.0) } else { (mm, factor) }
     }
 
-    /// This unit in SI units.
+    pub fn unit(self, quantity: Quantity) -> &'static str {
+        self.unit_and_factor(quantity).0
+    }
+
     pub fn in_si(self, quantity: Quantity) -> f64 {
-        match (quantity, self) {
-            (_, Units::Si) | (Quantity::Number | Quantity::Force, _) => 1.0,
-            (Quantity::Length | Quantity::Energy, Units::Mm) => 1e-3,
-            (Quantity::Pressure | Quantity::StiffnessSlope, Units::Mm) => 1e6,
-            (Quantity::Stiffness, Units::Mm) => 1e3,
-        }
+        self.unit_and_factor(quantity).1
     }
 }

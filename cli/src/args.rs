@@ -1,0 +1,224 @@
+//! The command line.
+
+use crate::contact_spec::ContactArgs;
+use crate::number::parse_number;
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Friction law of a contact: properties, curves, hysteresis loops and complex stiffness as CSV and as pictures.
+///
+/// The contact is a flat with rounded edges, a cylinder or an elliptical Hertz contact under a constant
+/// normal force. It is defined by a parameter file, by options, or by both: options override the file.
+#[derive(Debug, Parser)]
+#[command(name = "microslip", version, verbatim_doc_comment, after_help = GENERAL_HELP)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+macro_rules! units_help {
+    () => {
+        "Units:
+  Input and output are in SI units: m, N, Pa, N/m, J. With --units mm (in a parameter file: units = \"mm\")
+  they are in mm, N, MPa, N/mm, mJ. Forces are totals of the contact.\n\n"
+    };
+}
+
+/// Help after the options of a command: columns of its table, units, example.
+macro_rules! help {
+    ($columns:literal, $example:literal) => {
+        concat!("Columns:\n  ", $columns, "\n\n", units_help!(), "Example:\n  microslip ", $example)
+    };
+}
+
+const GENERAL_HELP: &str = concat!(
+    units_help!(),
+    "Numbers:
+  Exponents are written 1e-6 or 1d-6, lists 5e-7,1e-6 without blanks or \"5e-7, 1e-6\" in quotes.
+
+Results:
+  CSV on standard output or in the file of --out: comments (#) with the command that repeats the result, a header
+  with units, and numbers that are read back bit for bit. --plot also draws them.
+
+Exit status:
+  0: success; 1: invalid number or file; 2: invalid command line.
+
+Examples:
+  microslip example > contact.toml
+  microslip contact contact.toml
+  microslip loop contact.toml --amplitude 2e-6,5e-6 --out loop.csv --plot loop.svg
+  microslip stiffness contact.toml --normal-force 1200 --plot stiffness.png"
+);
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Half-width, slip force and displacement, initial stiffness, slip energy, maximum pressure
+    #[command(after_help = help!("quantity, value, unit", "contact contact.toml --plot pressure.svg"))]
+    Contact(ContactCommand<NoOptions>),
+    /// Pressure, shear, slip and frictional damage parameter along the width, under tangential forces
+    #[command(after_help = help!(
+        "force, x, pressure, shear; slip and damage (mu * pressure * |slip|) unless elliptical",
+        "tractions contact.toml --relative --force 0.5,0.9 --plot tractions.svg"
+    ))]
+    Tractions(ContactCommand<Tractions>),
+    /// Monotonic curve: force, stiffness and stick zone over the displacement
+    #[command(after_help = help!(
+        "displacement, force, stiffness, stick_half_width",
+        "curve contact.toml --to 2e-6 --points 401 --out curve.csv"
+    ))]
+    Curve(ContactCommand<Curve>),
+    /// Hysteresis loops between +amplitude and -amplitude, and their dissipated energy
+    #[command(after_help = help!(
+        "amplitude, displacement, force, dissipated (energy per cycle)",
+        "loop contact.toml --amplitude 5e-7,1e-6 --plot loop.svg"
+    ))]
+    Loop(ContactCommand<Loop>),
+    /// Complex stiffness K' + iK'' over the displacement amplitude
+    #[command(after_help = help!(
+        "amplitude, k_real, k_imag, dk_real and dk_imag (derivatives by the amplitude), dissipated (energy per cycle)",
+        "stiffness contact.toml --from 1e-8 --to 1e-4 --plot stiffness.svg"
+    ))]
+    Stiffness(ContactCommand<Amplitudes>),
+    /// Force, stiffness and dissipated energy along a displacement history
+    #[command(after_help = help!(
+        "displacement, force, stiffness, dissipated (energy of each step)",
+        "history contact.toml --displacements measured.csv --column u --plot history.svg"
+    ))]
+    History(ContactCommand<History>),
+    /// Equivalent Jenkins elements: spring-sliders of equal complex stiffness, over the displacement amplitude
+    #[command(after_help = help!(
+        "amplitude, stiffness, slip_force", "jenkins contact.toml --amplitude 1e-6"
+    ))]
+    Jenkins(ContactCommand<Amplitudes>),
+    /// Iwan model: parallel spring-sliders that approximate the monotonic curve
+    #[command(after_help = help!("slider, stiffness, slip_force", "iwan contact.toml --count 10 --plot iwan.svg"))]
+    Iwan(ContactCommand<Iwan>),
+    /// Print a parameter file with comments
+    #[command(after_help = "Example:\n  microslip example > contact.toml")]
+    Example {
+        /// Of an elliptical contact, in mm, N, MPa
+        #[arg(long)]
+        elliptic: bool,
+    },
+}
+
+/// A command about a contact: its own options, the contact, and the output.
+#[derive(Debug, Args)]
+pub struct ContactCommand<Options: Args> {
+    #[command(flatten)]
+    pub options: Options,
+    /// Parameter file (`microslip example` prints one); - is standard input
+    #[arg(value_name = "PARAMETERS.toml")]
+    pub parameters: Option<PathBuf>,
+    #[command(flatten)]
+    pub contact: ContactArgs,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub struct Output {
+    /// File of the table; - is standard output [default: -]
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// File of a picture, in the format of its extension
+    #[arg(long, value_name = "FILE.svg|FILE.png")]
+    pub plot: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct NoOptions {}
+
+const RELATIVE: &str = "Forces are multiples of the slip force, displacements of the slip displacement";
+
+#[derive(Debug, Args)]
+pub struct Tractions {
+    /// Tangential forces T, at most mu N in magnitude [default: half of mu N]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    pub force: Vec<f64>,
+    /// Positions along the width [default: points from -b to b, denser at the edges]
+    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with = "points")]
+    pub position: Vec<f64>,
+    /// Number of positions
+    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    pub points: u32,
+    #[arg(long, help = RELATIVE)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Curve {
+    /// Largest displacement of a uniform grid from 0 [default: 1.25 slip displacements]
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub to: Option<f64>,
+    /// Number of points of the grid
+    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    pub points: u32,
+    /// Displacements instead of a grid
+    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["to", "points"])]
+    pub displacement: Vec<f64>,
+    /// Forces, at most mu N in magnitude, instead of a grid
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["to", "points", "displacement"])]
+    pub force: Vec<f64>,
+    #[arg(long, help = RELATIVE)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Loop {
+    /// Displacement amplitudes [default: 0.5, 1 and 1.5 slip displacements]
+    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    pub amplitude: Vec<f64>,
+    /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
+    pub points: u32,
+    #[arg(long, help = RELATIVE)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Amplitudes {
+    /// Smallest amplitude of a logarithmic grid [default: 0.01 slip displacements]
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub from: Option<f64>,
+    /// Largest amplitude of the grid [default: 100 slip displacements]
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub to: Option<f64>,
+    /// Number of amplitudes of the grid
+    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    pub points: u32,
+    /// Amplitudes instead of a grid
+    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["from", "to", "points"])]
+    pub amplitude: Vec<f64>,
+    #[arg(long, help = RELATIVE)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct History {
+    /// Table of displacements, one per row, starting from the unloaded contact; - is standard input
+    #[arg(long, value_name = "FILE.csv", default_value = "-")]
+    pub displacements: PathBuf,
+    /// Column of the table: its name in the header, or its number from 1 [default: displacement, or the only one]
+    #[arg(long, value_name = "NAME")]
+    pub column: Option<String>,
+    #[arg(long, help = RELATIVE)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Iwan {
+    /// Number of spring-sliders
+    #[arg(long, value_name = "COUNT", default_value_t = 5)]
+    pub count: u32,
+}
+
+/// Number of points of a grid: both ends at least.
+fn at_least_two() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(2..=1_000_000)
+}

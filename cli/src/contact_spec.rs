@@ -1,0 +1,262 @@
+//! The contact: defined by a parameter file, by options, or by a file some of whose parameters are overridden by options.
+
+use crate::error::{CliError, Result, input, usage};
+use crate::files::read_text;
+use crate::number::{format_list, format_number, parse_number};
+use crate::units::{Quantity, Units};
+use clap::{Args, ValueEnum};
+use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
+use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use serde::Deserialize;
+use std::path::Path;
+
+/// Parameters of the file or of the options.
+#[derive(Debug, Default, Clone, Args, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[command(next_help_heading = "Contact (each option overrides the parameter file)")]
+pub struct ContactArgs {
+    /// Half-width a >= 0 of the flat; 0 is a cylinder
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub flat_half_width: Option<f64>,
+    /// Radius R > 0 of the rounded edges, or of the cylinder
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub edge_radius: Option<f64>,
+    /// Length L > 0 of the contact along its line
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub length: Option<f64>,
+    /// Elliptical contact: semi-axis b > 0 along the tangential force
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub semi_axis_x: Option<f64>,
+    /// Elliptical contact: semi-axis l > 0 across the tangential force
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub semi_axis_y: Option<f64>,
+    /// Normal force N >= 0, total; 0 is an open contact
+    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    pub normal_force: Option<f64>,
+    /// Coulomb's friction coefficient mu >= 0
+    #[arg(long, value_name = "NUMBER", value_parser = parse_number, allow_hyphen_values = true)]
+    pub friction_coefficient: Option<f64>,
+    /// Young's modulus of both bodies, or of each: 200e9,114e9
+    #[arg(long, value_name = "Pa", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[serde(skip)]
+    young_modulus: Vec<f64>,
+    /// Poisson's ratio of both bodies, or of each: 0.3,0.32
+    #[arg(long, value_name = "NUMBER", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[serde(skip)]
+    poisson_ratio: Vec<f64>,
+    /// Reference of the displacement [default: centre_point]
+    #[arg(long, value_name = "NAME")]
+    displacement_reference: Option<Reference>,
+    /// Units of input and output; must agree with those of a parameter file [default: si]
+    #[arg(long, value_name = "NAME")]
+    units: Option<Units>,
+    #[arg(skip)]
+    #[serde(default)]
+    material: Vec<MaterialTable>,
+}
+
+/// A table `[[material]]`.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialTable {
+    young_modulus: Option<f64>,
+    poisson_ratio: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[value(rename_all = "snake_case")]
+enum Reference {
+    /// The centre of the contact, under a line of uniform traction
+    CentrePoint,
+    /// A rigid strip, corrected to three-dimensional contact mechanics
+    RigidStrip,
+}
+
+/// A contact and the parameters that define it.
+#[derive(Debug)]
+pub struct ContactSpec {
+    pub contact: Contact,
+    pub given: ContactArgs,
+    pub units: Units,
+}
+
+impl ContactSpec {
+    /// The contact of the file, if any, and of the options.
+    pub fn read(file: Option<&Path>, options: &ContactArgs) -> Result<ContactSpec> {
+        let mut given = options.clone();
+        if let Some(path) = file {
+            given.add(parse(&read_text(path)?).map_err(|reason| CliError::in_file(path, reason))?)?;
+        }
+        given.check_presence()?;
+        let contact = given.contact(1.0)?.map_err(|error| {
+            let (message, parameter) = given.explain(error);
+            let is_in_file = |name| options.numbers().contains(&(name, Vec::new()));
+            match file {
+                Some(path) if parameter.is_some_and(is_in_file) => CliError::in_file(path, message),
+                _ => CliError::Input(message),
+            }
+        })?;
+        Ok(ContactSpec { contact, units: given.units.unwrap_or(Units::Si), given })
+    }
+}
+
+/// Parses a parameter file.
+fn parse(text: &str) -> std::result::Result<ContactArgs, String> {
+    let mut file: ContactArgs = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+    if file.material.len() > 2 {
+        return Err("a contact has two bodies: at most two tables [[material]]".to_owned());
+    }
+    let of_each = |value: fn(&MaterialTable) -> Option<f64>| file.material.iter().map(value).collect::<Option<Vec<_>>>();
+    let young_modulus = of_each(|body| body.young_modulus).unwrap_or_default();
+    file.poisson_ratio = of_each(|body| body.poisson_ratio).unwrap_or_default();
+    file.young_modulus = young_modulus;
+    Ok(file)
+}
+
+fn option_name(parameter: &str) -> String {
+    format!("--{}", parameter.replace('_', "-"))
+}
+
+impl ContactArgs {
+    pub fn is_elliptic(&self) -> bool {
+        self.semi_axis_x.is_some() || self.semi_axis_y.is_some()
+    }
+
+    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 7] {
+        [
+            ("flat_half_width", &mut self.flat_half_width),
+            ("edge_radius", &mut self.edge_radius),
+            ("length", &mut self.length),
+            ("semi_axis_x", &mut self.semi_axis_x),
+            ("semi_axis_y", &mut self.semi_axis_y),
+            ("normal_force", &mut self.normal_force),
+            ("friction_coefficient", &mut self.friction_coefficient),
+        ]
+    }
+
+    /// Values of the parameters by name: those of a rounded flat (3), of an ellipse (2), and common ones.
+    fn numbers(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let scalars = self.clone().scalars().map(|(name, value)| (name, Vec::from_iter(*value)));
+        let lists = [("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())];
+        scalars.into_iter().chain(lists).collect()
+    }
+
+    /// Adds the parameters of the file that are not given yet.
+    fn add(&mut self, mut file: ContactArgs) -> Result<()> {
+        if self.units.zip(file.units).is_some_and(|(option, file)| option != file) {
+            return input("--units differs from the units of the parameter file; numbers are not converted");
+        }
+        for ((_, to), (_, value)) in self.scalars().into_iter().zip(file.scalars()) {
+            *to = to.or(*value);
+        }
+        let lists = [(&mut self.young_modulus, file.young_modulus), (&mut self.poisson_ratio, file.poisson_ratio)];
+        for (to, values) in lists.into_iter().filter(|(to, _)| to.is_empty()) {
+            *to = values;
+        }
+        self.displacement_reference = self.displacement_reference.or(file.displacement_reference);
+        self.units = self.units.or(file.units);
+        Ok(())
+    }
+
+    /// Checks that the parameters of exactly one shape are given.
+    fn check_presence(&self) -> Result<()> {
+        let numbers = self.numbers();
+        let is_given = |(_, values): &(&str, Vec<f64>)| !values.is_empty();
+        let other = if self.is_elliptic() { 0..3 } else { 3..5 };
+        if numbers[other.clone()].iter().any(is_given) || (self.is_elliptic() && self.displacement_reference.is_some()) {
+            return input(
+                "parameters of two shapes: flat_half_width, edge_radius, length and displacement_reference define a flat \
+                 or a cylinder, semi_axis_x and semi_axis_y an ellipse",
+            );
+        }
+        let missing = numbers.iter().enumerate().filter(|(i, number)| !other.contains(i) && !is_given(number));
+        let names: Vec<_> = missing.map(|(_, (name, _))| *name).collect();
+        if names.is_empty() {
+            return Ok(());
+        }
+        let options = names.iter().map(|name| option_name(name)).collect::<Vec<_>>().join(", ");
+        usage(format!("missing parameters: {}; give them in a parameter file or by {options}", names.join(", ")))
+    }
+
+    /// The contact, with length and normal force multiplied by the same factor.
+    fn contact(&self, factor: f64) -> Result<std::result::Result<Contact, Error>> {
+        let of_both = |values: &[f64]| match *values {
+            [both] => Ok([both; 2]),
+            [first, second] => Ok([first, second]),
+            _ => usage("a contact has two bodies: give one number for both, or two"),
+        };
+        let [young_modulus, poisson_ratio] = [of_both(&self.young_modulus)?, of_both(&self.poisson_ratio)?];
+        let material = [0, 1].map(|i| Material { young_modulus: young_modulus[i], poisson_ratio: poisson_ratio[i] });
+        // Missing numbers were reported; the library rejects NaN.
+        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
+        Ok(if self.is_elliptic() {
+            let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
+            Contact::elliptic(&EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+        } else {
+            Contact::rounded_flat(&Parameters {
+                flat_half_width: number(self.flat_half_width),
+                edge_radius: number(self.edge_radius),
+                length: factor * number(self.length),
+                normal_force: factor * normal_force,
+                friction_coefficient,
+                material,
+                displacement_reference: match self.displacement_reference {
+                    Some(Reference::RigidStrip) => RIGID_STRIP,
+                    Some(Reference::CentrePoint) | None => CENTRE_POINT,
+                },
+                ..Parameters::default()
+            })
+        })
+    }
+
+    /// The message of an error, with the values of the parameter that it names, and the name of that parameter.
+    fn explain(&self, error: Error) -> (String, Option<&'static str>) {
+        let message = error.to_string();
+        let is_subject = |(name, _): &(&str, Vec<f64>)| message.split(' ').any(|word| word == *name);
+        let Some((name, values)) = self.numbers().into_iter().find(is_subject) else { return (message, None) };
+        let detail = match error {
+            Error::LengthTooShort => self.length_limits().unwrap_or_default(),
+            _ => format!(", not {}", format_list(&values)),
+        };
+        (message + &detail, Some(name))
+    }
+
+    /// Half-width b, and the smallest length that the library accepts under this normal force.
+    fn length_limits(&self) -> Option<String> {
+        // b depends on N/L only.
+        let half_width = self.contact(1e9).ok()?.ok()?.half_width;
+        let is_accepted = |length: f64| {
+            let longer = ContactArgs { length: Some(length), ..self.clone() };
+            longer.contact(1.0).is_ok_and(|contact| contact.is_ok())
+        };
+        let (length, unit) = (self.length?, self.units.unwrap_or(Units::Si).unit(Quantity::Length));
+        let mut high = (1..100).map(|i| length * f64::from(i).exp2()).find(|length| is_accepted(*length))?;
+        let mut low = 0.5 * high;
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            *(if is_accepted(middle) { &mut high } else { &mut low }) = middle;
+        }
+        // The limit is rounded up.
+        let (length, limit) = (format_number(length), 1.0005 * high);
+        Some(format!(
+            "; length = {length} {unit}, b = {half_width:.3e} {unit}; \
+             under this normal force length must exceed {limit:.3e} {unit}"
+        ))
+    }
+
+    /// The options that define the same contact.
+    pub fn options(&self) -> String {
+        let numbers = self.numbers().into_iter().filter(|(_, values)| !values.is_empty());
+        let mut options: String =
+            numbers.map(|(name, values)| format!(" {} {}", option_name(name), format_list(&values))).collect();
+        if self.displacement_reference == Some(Reference::RigidStrip) {
+            options.push_str(" --displacement-reference rigid_strip");
+        }
+        if self.units == Some(Units::Mm) {
+            options.push_str(" --units mm");
+        }
+        options
+    }
+}

@@ -1,0 +1,36 @@
+//! Errors of the program: messages for the user.
+
+use crate::number::format_number;
+use std::fmt::Display;
+use std::path::Path;
+
+#[derive(Debug)]
+pub enum CliError {
+    /// Invalid command line.
+    Usage(String),
+    /// Invalid number, parameter file or table, or a file that cannot be read or written.
+    Input(String),
+}
+
+pub type Result<T> = std::result::Result<T, CliError>;
+
+pub fn usage<T>(message: impl Into<String>) -> Result<T> {
+    Err(CliError::Usage(message.into()))
+}
+
+pub fn input<T>(message: impl Into<String>) -> Result<T> {
+    Err(CliError::Input(message.into()))
+}
+
+impl CliError {
+    /// An error in a file, or in standard input.
+    pub fn in_file(path: &Path, reason: impl Display) -> CliError {
+        let name = if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
+        CliError::Input(format!("{name}: {reason}"))
+    }
+
+    /// An error of the library about the value of an option.
+    pub fn in_option(option: &str, value: f64, error: microslip::Error) -> CliError {
+        CliError::Input(format!("{option} {}: {error}", format_number(value)))
+    }
+}

@@ -1,0 +1,73 @@
+//! Input and output. "-" is standard input or standard output.
+
+use crate::error::{CliError, Result, usage};
+use std::fs;
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+pub fn read_text(path: &Path) -> Result<String> {
+    let mut bytes = Vec::new();
+    let outcome = match path.to_str() {
+        Some("-") => io::stdin().read_to_end(&mut bytes),
+        _ => fs::File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)),
+    };
+    outcome.map_err(|error| CliError::in_file(path, error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
+        let line = 1 + valid.filter(|byte| **byte == b'\n').count();
+        CliError::in_file(path, format!("line {line}: invalid UTF-8; save the file as UTF-8 text"))
+    })
+}
+
+/// Whether the process was started without a standard output. The Rust runtime opens /dev/null in its place.
+static STDOUT_WAS_CLOSED: AtomicBool = AtomicBool::new(false);
+
+#[cfg(target_os = "linux")]
+mod before_main {
+    use super::{Ordering, STDOUT_WAS_CLOSED};
+
+    extern "C" fn check_stdout() {
+        // SAFETY: F_GETFD has no further argument and only reads the flags of the descriptor.
+        let closed = unsafe { libc::fcntl(libc::STDOUT_FILENO, libc::F_GETFD) } == -1;
+        STDOUT_WAS_CLOSED.store(closed, Ordering::Relaxed);
+    }
+
+    // SAFETY: the section holds pointers to functions that the C runtime calls before `main`; this one needs no Rust runtime.
+    #[used]
+    #[unsafe(link_section = ".init_array")]
+    static CHECK_STDOUT: extern "C" fn() = check_stdout;
+}
+
+/// Writes to standard output. A closed pipe is no error: its reader needs no more.
+pub fn write_stdout(bytes: &[u8]) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    let outcome = match STDOUT_WAS_CLOSED.load(Ordering::Relaxed) {
+        true => Err(io::Error::other("it is closed")),
+        false => stdout.write_all(bytes).and_then(|()| stdout.flush()),
+    };
+    match outcome {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::in_file(Path::new("standard output"), error)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file in place: links are followed, and the permissions of an existing file stay.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut file = fs::File::create(path).map_err(|error| CliError::in_file(path, error))?;
+    file.write_all(bytes).map_err(|error| CliError::in_file(path, format!("{error}; the file is incomplete")))
+}
+
+/// Rejects outputs that would overwrite an input or each other.
+pub fn check_outputs(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
+    let files = |paths: &[&Path]| -> Vec<PathBuf> {
+        let paths = paths.iter().filter(|path| **path != Path::new("-"));
+        paths.map(|path| fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())).collect()
+    };
+    let (inputs, outputs) = (files(inputs), files(outputs));
+    match outputs.iter().find(|path| inputs.contains(path)) {
+        Some(path) => usage(format!("{} is an input and is not overwritten", path.display())),
+        None if outputs.len() == 2 && outputs[0] == outputs[1] => usage("the table and the picture cannot be the same file"),
+        None => Ok(()),
+    }
+}

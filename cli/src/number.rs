@@ -1,0 +1,20 @@
+//! Numbers as text.
+
+/// The shortest digits that are read back as the same number.
+pub fn format_number(value: f64) -> String {
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
+}
+
+pub fn format_list(values: &[f64]) -> String {
+    values.iter().map(|value| format_number(*value)).collect::<Vec<_>>().join(",")
+}
+
+/// A number, also with the exponent of Fortran: 1.0D-06.
+pub fn parse_number(text: &str) -> Result<f64, &'static str> {
+    text.trim().replace(['d', 'D'], "e").parse().map_err(|_| match text.trim() {
+        "" => "a number is missing; lists are written without blanks, or in quotes",
+        text if text.contains(',') => "not a number; the decimal separator is a point",
+        _ => "not a number",
+    })
+}
