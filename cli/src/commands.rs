@@ -122,11 +122,15 @@ fn model_warnings(spec: &ContactSpec) -> Vec<String> {
     let size = |value: f64| rounded(value, Length, spec.units);
     if let Some(radius) = spec.given.edge_radius.filter(|radius| half_width > *radius) {
         let (b, radius) = (size(half_width), size(radius));
-        warnings.push(format!("half-width b = {b} exceeds the radius R = {radius}; the half-plane assumption needs b << R"));
+        warnings.push(format!(
+            "half-width b = {b} exceeds the radius R = {radius}; the half-plane assumption needs b << R"
+        ));
     }
     if let Some(length) = spec.given.length.filter(|length| *length < 4.0 * half_width) {
         let (b, ratio, length) = (size(half_width), length / (2.0 * half_width), size(length));
-        warnings.push(format!("L/2b = {ratio:.2} (L = {length}, b = {b}) is below 2; the model assumes a long contact, L >> b"));
+        warnings.push(format!(
+            "L/2b = {ratio:.2} (L = {length}, b = {b}) is below 2; the model assumes a long contact, L >> b"
+        ));
     }
     warnings
 }
@@ -273,7 +277,9 @@ impl Amplitudes {
             return Ok((amplitudes, repeat));
         }
         if unit == 0.0 && (self.relative || self.from.is_none() || self.to.is_none()) {
-            return input("without friction or normal force there is no slip displacement: give --from and --to, or --amplitude");
+            return input(
+                "without friction or normal force there is no slip displacement: give --from and --to, or --amplitude",
+            );
         }
         let end = |given: Option<f64>, multiple: f64| match given {
             Some(value) if !self.relative => value,
@@ -298,7 +304,10 @@ impl Amplitudes {
 pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let k = spec.contact.complex_stiffness(amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
+        let k = spec
+            .contact
+            .complex_stiffness(amplitude)
+            .map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
         Ok(vec![amplitude, k.real(), k.imaginary(), k.d_real(), k.d_imag(), k.dissipated()])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
@@ -362,7 +371,8 @@ fn quoted(word: &str) -> String {
 pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let (amplitudes, repeat) = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let slider = jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
+        let slider =
+            jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
         Ok(vec![amplitude, slider.stiffness, slider.slip_force])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
@@ -379,7 +389,8 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
     let mut sliders = Vec::new();
     let error = iwan(contact, options.count as usize, |slider| sliders.push(slider))
         .map_err(|error| CliError::in_option("--count", f64::from(options.count), error))?;
-    let rows: Vec<_> = sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
+    let rows: Vec<_> =
+        sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
     let columns = [("slider", Number), ("stiffness", Stiffness), ("slip_force", Force)];
 
     let mut displacements = grid(1.25 * contact.slip_displacement, 201);

@@ -107,7 +107,8 @@ fn parse(text: &str) -> std::result::Result<ContactArgs, String> {
     if file.material.len() > 2 {
         return Err("a contact has two bodies: at most two tables [[material]]".to_owned());
     }
-    let of_each = |value: fn(&MaterialTable) -> Option<f64>| file.material.iter().map(value).collect::<Option<Vec<_>>>();
+    let of_each =
+        |value: fn(&MaterialTable) -> Option<f64>| file.material.iter().map(value).collect::<Option<Vec<_>>>();
     let young_modulus = of_each(|body| body.young_modulus).unwrap_or_default();
     file.poisson_ratio = of_each(|body| body.poisson_ratio).unwrap_or_default();
     file.young_modulus = young_modulus;
@@ -164,7 +165,8 @@ impl ContactArgs {
         let numbers = self.numbers();
         let is_given = |(_, values): &(&str, Vec<f64>)| !values.is_empty();
         let other = if self.is_elliptic() { 0..3 } else { 3..5 };
-        if numbers[other.clone()].iter().any(is_given) || (self.is_elliptic() && self.displacement_reference.is_some()) {
+        if numbers[other.clone()].iter().any(is_given) || (self.is_elliptic() && self.displacement_reference.is_some())
+        {
             return input(
                 "parameters of two shapes: flat_half_width, edge_radius, length and displacement_reference define a flat \
                  or a cylinder, semi_axis_x and semi_axis_y an ellipse",
@@ -193,7 +195,13 @@ impl ContactArgs {
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
         Ok(if self.is_elliptic() {
             let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
-            Contact::elliptic(&EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+            Contact::elliptic(&EllipticParameters {
+                semi_axis_x,
+                semi_axis_y,
+                normal_force,
+                friction_coefficient,
+                material,
+            })
         } else {
             Contact::rounded_flat(&Parameters {
                 flat_half_width: number(self.flat_half_width),

@@ -47,7 +47,9 @@ pub fn write_stdout(bytes: &[u8]) -> Result<()> {
         false => stdout.write_all(bytes).and_then(|()| stdout.flush()),
     };
     match outcome {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::in_file(Path::new("standard output"), error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(CliError::in_file(Path::new("standard output"), error))
+        }
         _ => Ok(()),
     }
 }
@@ -67,7 +69,9 @@ pub fn check_outputs(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
     let (inputs, outputs) = (files(inputs), files(outputs));
     match outputs.iter().find(|path| inputs.contains(path)) {
         Some(path) => usage(format!("{} is an input and is not overwritten", path.display())),
-        None if outputs.len() == 2 && outputs[0] == outputs[1] => usage("the table and the picture cannot be the same file"),
+        None if outputs.len() == 2 && outputs[0] == outputs[1] => {
+            usage("the table and the picture cannot be the same file")
+        }
         None => Ok(()),
     }
 }

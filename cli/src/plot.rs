@@ -53,8 +53,12 @@ const MARGINS: [f64; 4] = [94.0, 24.0, 8.0, 54.0];
 const TICK_LENGTH: f64 = 4.0;
 
 /// Dashes and colours of the lines of a panel, lighter from line to line: they also differ in grey. The next four lines are thin.
-const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] =
-    [(None, [0, 0, 0]), (Some([14.0, 6.0]), [0, 90, 180]), (Some([5.0, 4.0]), [200, 70, 0]), (Some([2.0, 4.0]), [0, 140, 100])];
+const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] = [
+    (None, [0, 0, 0]),
+    (Some([14.0, 6.0]), [0, 90, 180]),
+    (Some([5.0, 4.0]), [200, 70, 0]),
+    (Some([2.0, 4.0]), [0, 140, 100]),
+];
 const AXIS: Stroke = Stroke { colour: [0, 0, 0], width: 1.0, dash: None };
 const GRID: Stroke = Stroke { colour: [214, 214, 214], width: 1.0, dash: None };
 
@@ -182,7 +186,8 @@ pub fn rounded(value: f64, quantity: Quantity, units: Units) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-const PREFIXES: [(i32, &str); 9] = [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
+const PREFIXES: [(i32, &str); 9] =
+    [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T")];
 
 /// The power of ten for which a number has one to three digits before the point, and the SI unit with that prefix.
 fn prefixed(size: f64, quantity: Quantity) -> (i32, String) {
@@ -254,7 +259,8 @@ impl Scale {
         // Four to eleven ticks; the step is 1, 2 or 5 times a power of ten.
         let rough = (end - start) / 10.0;
         let power = 10f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= rough).unwrap_or(10.0 * power);
+        let step =
+            [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= rough).unwrap_or(10.0 * power);
         let ticks = (start / step).ceil() as i64..=(end / step).floor() as i64;
         self.ticks = ticks.map(|i| i as f64 * step).collect();
         self.range = start..end;
@@ -317,9 +323,11 @@ mod tests {
     #[test]
     fn labels_have_suitable_units_and_digits() {
         let scale = |axis, units, values: [f64; 2]| Scale::of(axis, units, values.into_iter());
-        for (largest, quantity, label) in
-            [(2.5e-3, Quantity::Length, " [µm]"), (1500.0, Quantity::Pressure, " [GPa]"), (700.0, Quantity::Stiffness, " [kN/m]")]
-        {
+        for (largest, quantity, label) in [
+            (2.5e-3, Quantity::Length, " [µm]"),
+            (1500.0, Quantity::Pressure, " [GPa]"),
+            (700.0, Quantity::Stiffness, " [kN/m]"),
+        ] {
             assert_eq!(scale(Axis::linear("", quantity), Units::Mm, [0.0, largest]).label, label);
         }
         for (value, quantity, units, text) in [
@@ -341,7 +349,8 @@ mod tests {
 
     #[test]
     fn the_amplitude_0_is_not_drawn_on_a_logarithmic_axis() {
-        let svg = |points: &[Point]| picture(Axis::logarithmic("", Quantity::Length), points).draw(Format::Svg).unwrap();
+        let svg =
+            |points: &[Point]| picture(Axis::logarithmic("", Quantity::Length), points).draw(Format::Svg).unwrap();
         let points = [(0.0, 2.0), (1.0, 3.0), (10.0, 1.0)];
         assert_eq!(svg(&points), svg(&points[1..]));
         assert_ne!(svg(&points), svg(&[(0.5, 2.0), (1.0, 3.0), (10.0, 1.0)]));
@@ -371,8 +380,10 @@ mod tests {
             let lines = thinned(points.clone(), 4_000);
             let count = lines.iter().map(Vec::len).sum::<usize>();
             let (all, thinned) = (ink(&[points]), ink(&lines));
-            let [changed, total] =
-                [all.iter().zip(&thinned).filter(|(all, thinned)| all != thinned).count(), all.iter().filter(|all| **all).count()];
+            let [changed, total] = [
+                all.iter().zip(&thinned).filter(|(all, thinned)| all != thinned).count(),
+                all.iter().filter(|all| **all).count(),
+            ];
             assert!(count <= 4_000 && changed * 50 <= total, "{name}: {changed} of {total} pixels, {count} points");
         }
     }

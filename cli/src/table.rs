@@ -97,7 +97,9 @@ impl ColumnSpec<'_> {
         if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
             let expected = units.unit(self.quantity);
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
-                Some(unit) if unit != expected => Err(format!("column {name} is in {unit}, not in {expected} (see --units)")),
+                Some(unit) if unit != expected => {
+                    Err(format!("column {name} is in {unit}, not in {expected} (see --units)"))
+                }
                 _ => Ok(index),
             };
         }

@@ -41,7 +41,8 @@ fn flat() -> Contact {
 fn ellipse() -> Contact {
     let material = [(200e3, 0.3); 2].map(material);
     let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
-    Contact::elliptic(&EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }).unwrap()
+    Contact::elliptic(&EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+        .unwrap()
 }
 
 /// A shell in a directory of its own.
@@ -105,8 +106,9 @@ fn column(table: &str, index: usize) -> Vec<f64> {
 
 /// Checks header, number of rows, and every number bit for bit.
 fn assert_table(table: &str, header: &str, expected: &[Vec<f64>]) {
-    let bits =
-        |rows: &[Vec<f64>]| -> Vec<_> { rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect() };
+    let bits = |rows: &[Vec<f64>]| -> Vec<_> {
+        rows.iter().map(|row| row.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect()
+    };
     assert_eq!(cells(table).0, header);
     assert!(bits(&numbers(table)) == bits(expected), "{table}\n{expected:?}");
 }
@@ -156,12 +158,15 @@ fn results_equal_those_of_the_library() {
             let (amplitude, n) = (part * slip, 8);
             let hysteresis = contact.hysteresis_loop(amplitude).unwrap();
             let dissipated = contact.complex_stiffness(amplitude).unwrap().dissipated();
-            (0..=n).map(|i| vec![amplitude, hysteresis.displacement(i, n), hysteresis.force(i, n), dissipated]).collect()
+            (0..=n)
+                .map(|i| vec![amplitude, hysteresis.displacement(i, n), hysteresis.force(i, n), dissipated])
+                .collect()
         });
         assert_table(&stdout("loop", "--points 8"), &header, &expected.concat());
         assert_table(&stdout("loop", "--points 8 --amplitude 1 --relative"), &header, &expected[1]);
 
-        let header = format!("amplitude [{m}],k_real [{k}],k_imag [{k}],dk_real [{k}^2],dk_imag [{k}^2],dissipated [{j}]");
+        let header =
+            format!("amplitude [{m}],k_real [{k}],k_imag [{k}],dk_real [{k}^2],dk_imag [{k}^2],dissipated [{j}]");
         let complex = |amplitude: f64| {
             let k = contact.complex_stiffness(amplitude).unwrap();
             vec![amplitude, k.real(), k.imaginary(), k.d_real(), k.d_imag(), k.dissipated()]
@@ -186,8 +191,9 @@ fn results_equal_those_of_the_library() {
         assert_table(&stdout("jenkins", "--amplitude 0,1e-7,2e-3"), &jenkins_header, &amplitudes.map(slider));
 
         let mut expected = Vec::new();
-        let error =
-            iwan(&contact, 7, |slider| expected.push(vec![expected.len() as f64 + 1.0, slider.stiffness, slider.slip_force]));
+        let error = iwan(&contact, 7, |slider| {
+            expected.push(vec![expected.len() as f64 + 1.0, slider.stiffness, slider.slip_force])
+        });
         let table = stdout("iwan", "--count 7");
         assert_table(&table, &format!("slider [-],stiffness [{k}],slip_force [N]"), &expected);
         let remark = table.lines().find_map(|line| line.strip_prefix("# largest error of the force over mu N: "));
@@ -199,8 +205,14 @@ fn results_equal_those_of_the_library() {
         let x = [-contact.half_width, 0.0, 5e-5, contact.half_width];
         let row = |(force, x)| {
             let point = contact.curve_at_force(force).unwrap();
-            let row =
-                [Some(force), Some(x), Some(contact.pressure(x)), Some(point.shear(x)), point.slip(x).ok(), point.damage(x).ok()];
+            let row = [
+                Some(force),
+                Some(x),
+                Some(contact.pressure(x)),
+                Some(point.shear(x)),
+                point.slip(x).ok(),
+                point.damage(x).ok(),
+            ];
             row.into_iter().flatten().collect()
         };
         let rows: Vec<Vec<f64>> = forces.into_iter().flat_map(|force| x.map(|x| row((force, x)))).collect();
@@ -215,7 +227,8 @@ fn results_equal_those_of_the_library() {
 #[test]
 fn the_maximum_pressure_is_that_of_a_fine_grid() {
     let shell = Shell::new("pressure");
-    let maximum = |given: &str| cells(&shell.stdout(&format!("microslip contact {given}"))).1[6][1].parse::<f64>().unwrap();
+    let maximum =
+        |given: &str| cells(&shell.stdout(&format!("microslip contact {given}"))).1[6][1].parse::<f64>().unwrap();
     // 3N/(2π b l), up to the rounding of the products.
     let of_ellipse = 3.0 * 400.0 / (2.0 * std::f64::consts::PI * 0.2 * 0.6);
     assert!((maximum("$ELLIPSE") / of_ellipse - 1.0).abs() < 1e-15);
@@ -240,7 +253,8 @@ fn histories_equal_those_of_the_library() {
         let mut state = vec![0.0; state_length(n)];
         let [mut force, mut stiffness, mut dissipated] = [(); 3].map(|()| vec![0.0; n]);
         state_init(&mut state).unwrap();
-        let [force_out, stiffness_out, dissipated_out] = [&mut force, &mut stiffness, &mut dissipated].map(|x| Some(&mut x[..]));
+        let [force_out, stiffness_out, dissipated_out] =
+            [&mut force, &mut stiffness, &mut dissipated].map(|x| Some(&mut x[..]));
         let output = PathOutput { force: force_out, stiffness: stiffness_out, dissipated: dissipated_out };
         masing::path(&contact, &mut state, &path, output);
         let expected: Vec<_> = (0..n).map(|i| vec![path[i], force[i], stiffness[i], dissipated[i]]).collect();
@@ -346,7 +360,11 @@ fn messages_name_the_error_and_what_is_allowed() {
         (1, "contact $ELLIPSE si.toml", "--units differs from the units of the parameter file"),
         (1, "history $FLAT --displacements /", "/: Is a directory"),
         (2, "", "Usage: microslip <COMMAND>"),
-        (2, "contact ${FLAT%--poi*}", "missing parameters: poisson_ratio; give them in a parameter file or by --poisson-ratio"),
+        (
+            2,
+            "contact ${FLAT%--poi*}",
+            "missing parameters: poisson_ratio; give them in a parameter file or by --poisson-ratio",
+        ),
         (2, "contact", "--flat-half-width, --edge-radius, --length, --normal-force, --friction-coefficient, --young"),
         (2, "contact --semi-axis-x 1", "missing parameters: semi_axis_y, normal_force,"),
         (2, "curve $FLAT --poison-ratio 0.3", "a similar argument exists: '--poisson-ratio'"),
@@ -363,15 +381,18 @@ fn messages_name_the_error_and_what_is_allowed() {
         shell.check_error(&format!("microslip {arguments}"), status, text);
     }
     for reference in ["centre_point", "rigid_strip"] {
-        let contact =
-            |length: f64| shell.run(&format!("microslip contact flat.toml --displacement-reference {reference} --length {length}"));
+        let contact = |length: f64| {
+            shell.run(&format!("microslip contact flat.toml --displacement-reference {reference} --length {length}"))
+        };
         let message = String::from_utf8(contact(1e-6).stderr).unwrap();
         let limit: f64 = message.split("must exceed ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         assert!(contact(limit).status.success() && !contact(0.998 * limit).status.success(), "{message}");
     }
-    for (options, text, count) in
-        [("--edge-radius 1e-5", "exceeds the radius R = 10.0 µm", 1), ("--length 2e-4", "is below 2", 1), ("--length 0.1", "", 0)]
-    {
+    for (options, text, count) in [
+        ("--edge-radius 1e-5", "exceeds the radius R = 10.0 µm", 1),
+        ("--length 2e-4", "is below 2", 1),
+        ("--length 0.1", "", 0),
+    ] {
         let output = shell.run(&format!("microslip contact flat.toml {options}"));
         let warning = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && !output.stdout.is_empty());
@@ -470,7 +491,9 @@ fn every_command_draws() {
     }
     assert!(shell.read("two.svg").matches('L').count() > 200);
     draw("loop flat.toml --amplitude 1e-6,2e-6", "loop.svg");
-    for text in ["displacement [µm]", "force [N]", "±1.00 µm, ", "a = 50.0 µm, R = 5.00 mm, L = 10.0 mm, N = 150 N, μ = 0.4"] {
+    for text in
+        ["displacement [µm]", "force [N]", "±1.00 µm, ", "a = 50.0 µm, R = 5.00 mm, L = 10.0 mm, N = 150 N, μ = 0.4"]
+    {
         assert!(shell.read("loop.svg").contains(text), "{text}");
     }
 }
@@ -485,7 +508,11 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
         (1, "tractions flat.toml --force 61 --out table.csv", "--force 61: "),
         (2, "curve flat.toml --out ./flat.toml", "flat.toml is an input and is not overwritten"),
         (2, "history flat.toml --displacements table.csv --out table.csv", "is an input and is not overwritten"),
-        (2, "curve flat.toml --out picture.svg --plot picture.svg", "the table and the picture cannot be the same file"),
+        (
+            2,
+            "curve flat.toml --out picture.svg --plot picture.svg",
+            "the table and the picture cannot be the same file",
+        ),
         (1, "curve flat.toml --out no/such/place.csv", "no/such/place.csv: No such file"),
         (1, "curve flat.toml --out .", ".: Is a directory"),
     ] {
@@ -498,7 +525,8 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
     if cfg!(target_os = "linux") {
         shell.check_error("microslip contact flat.toml >&-", 1, "standard output: it is closed");
         shell.check_error("microslip contact flat.toml > /dev/full", 1, "standard output: No space left");
-        let pipe = "mkfifo pipe; timeout 10 cat pipe & microslip contact flat.toml --out pipe; wait; test -p pipe && rm pipe";
+        let pipe =
+            "mkfifo pipe; timeout 10 cat pipe & microslip contact flat.toml --out pipe; wait; test -p pipe && rm pipe";
         assert_eq!(shell.stdout(pipe), contact);
         // Links are followed; an existing file keeps its permissions, and a new one has those of the umask.
         let modes = "umask 027; echo old > private.csv; chmod 600 private.csv; ln -s private.csv link.csv; \
@@ -526,7 +554,14 @@ fn help_has_units_columns_and_an_example_for_each_command() {
     for command in ["contact", "tractions", "curve", "loop", "stiffness", "history", "jenkins", "iwan"] {
         assert!(general.contains(&format!("\n  {command} ")), "{command}");
         let help = shell.stdout(&format!("microslip {command} --help"));
-        for text in ["--edge-radius <m>", "--young-modulus <Pa>", "--normal-force <N>", "--plot <FILE", "[default: si]", "Units:"] {
+        for text in [
+            "--edge-radius <m>",
+            "--young-modulus <Pa>",
+            "--normal-force <N>",
+            "--plot <FILE",
+            "[default: si]",
+            "Units:",
+        ] {
             assert!(help.contains(text), "{command}: {text}");
         }
         // The example works, and its table has the columns.
