@@ -147,7 +147,7 @@ step 'archive: symbols and sections' tools/symbols.sh "$prefix"
 for group in arithmetic compilers links sanitizers valgrind threads process stack; do
     step "archive in every host: $group" verification/embedding/embedding.sh "$prefix" "$group"
 done
-step 'archive: instructions' benches/instruction_counts/run.sh "$prefix"
+step 'instructions' benches/instructions/run.sh
 
 for source in c_tests/*.c; do
     driver=$(basename "$source" .c)
