@@ -107,7 +107,7 @@ instructions:
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
-	@tools/dependencies.sh bench
+	@tools/dependencies.sh bench accuracy
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
 ## figures: compute and draw the figures of the paper, and check its claims, into docs/

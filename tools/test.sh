@@ -178,7 +178,6 @@ for kinds in '' "$wide" -fno-automatic; do
     done
 done
 step 'C interface: fuzzing, bounded' tools/fuzz.sh --check
-step 'benchmark: its own check' benches/check.sh "$prefix"
 calculix_results() {
     mkdir -p "$work/calculix" &&
         $FC -J "$work/calculix" "$prefix/include/microslip.f90" examples/calculix/compare.f90 $(flags) -llapack -lblas \
