@@ -158,14 +158,15 @@ void write_readme_table(FILE *file)
     fputs("| task | microslip | what one would use instead |\n|---|---:|---|\n", file);
     const summary *s = summary_of("microslip", "force", 0, 0, 0);
     fprintf(file, "| force and stiffness at a displacement | %s | "
-                  "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n", cell(&s->own), cell(&s->quadrature), cell(&s->one));
+                  "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n",
+            cell(&s->own), cell(&s->quadrature), cell(&s->one));
     s = summary_of("microslip", "stiffness", 0, 0, 0);
     fprintf(file, "| complex stiffness and derivatives | median %s, worst %s | "
                   "quadrature, error 1e-8: %s; one spring-slider: %s |\n",
             text_of(range.value[range.n / 2]), text_of(range.value[range.n - 1]), cell(&s->quadrature), cell(&s->one));
     s = summary_of("microslip", "harmonic", 5, 128, 1);
-    fprintf(file, "| harmonic force and Jacobian, 5 harmonics, 128 samples | %s | parallel sliders, error 1e-4: %s; one spring-slider: "
-                  "%s |\n", cell(&s->own), cell(&s->coarse), cell(&s->one));
+    fprintf(file, "| harmonic force and Jacobian, 5 harmonics, 128 samples | %s | "
+                  "parallel sliders, error 1e-4: %s; one spring-slider: %s |\n", cell(&s->own), cell(&s->coarse), cell(&s->one));
     s = summary_of("microslip", "time step", 0, 0, 0);
     fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
             cell(&s->own), cell(&s->coarse), cell(&s->one));
@@ -195,7 +196,8 @@ void write_tables(FILE *file, const char *machine)
     row(file, "preparation of a contact", "microslip", "preparation", 0, 0, 0);
 
     fputs("\nComplex stiffness with derivatives at 200 single amplitudes, uniformly spaced up to twice the displacement of "
-          "gross slip:\n\n| a/b | median | mean | worst | worst at this multiple of gross slip |\n|---:|---:|---:|---:|---:|\n", file);
+          "gross slip:\n\n"
+          "| a/b | median | mean | worst | worst at this multiple of gross slip |\n|---:|---:|---:|---:|---:|\n", file);
     double last = -1.0;
     for (const entry *e = entries; e < entries + entry_count; ++e) {
         if (!strcmp(e->task, "stiffness over amplitude") && e->shape != last) {
