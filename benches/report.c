@@ -26,7 +26,9 @@ void check_errors(void)
         { "force", "microslip", -1.0, 1e-13 }, { "stiffness", "microslip", -1.0, 1e-12 },
         { "time step", "microslip", -1.0, 1e-13 }, { "preparation", "microslip", -1.0, 1e-14 },
         { "force", "quadrature", 32.0, 1e-10 }, { "stiffness", "quadrature", 32.0, 1e-6 },
-        { "force", "sliders", 1024.0, 1e-5 }, { "time step", "sliders", 1024.0, 1e-5 }, { "harmonic", "sliders", 1024.0, 1e-5 },
+        { "force", "sliders", 1024.0, 1e-5 }, { "stiffness", "sliders", 1024.0, 1e-3 },
+        { "time step", "sliders", 1024.0, 1e-5 }, { "harmonic", "sliders", 1024.0, 1e-5 },
+        { "force", "spring-slider", -1.0, 0.1 }, { "time step", "spring-slider", -1.0, 0.1 },
     };
     for (const entry *e = entries; e < entries + entry_count; ++e) {
         char what[128];
