@@ -12,7 +12,7 @@ use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 
 /// The first count is below this ratio times the second, and why.
-const RELATIONS: [(&str, f64, &str, &str); 16] = [
+const RELATIONS: [(&str, f64, &str, &str); 22] = [
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
@@ -24,9 +24,15 @@ const RELATIONS: [(&str, f64, &str, &str); 16] = [
     ("harmonics_gross_slip", 0.5, "harmonics", "in gross slip no derivatives are summed"),
     ("harmonics_open", 0.08, "harmonics", "an open contact has no force"),
     ("harmonics_odd", 0.75, "harmonics", "only half a period of a half-wave symmetric motion is computed"),
-    ("batch_inactive", 0.05, "batch", "inactive items are skipped"),
-    ("batch_open", 0.1, "batch", "an open contact has no force"),
-    ("batch_shared", 1.05, "batch", "items may share a contact at no cost"),
+    ("batch_stiffness_inactive", 0.05, "batch_stiffness", "inactive items are skipped"),
+    ("batch_update_inactive", 0.05, "batch_update", "inactive items are skipped"),
+    ("batch_harmonics_inactive", 0.05, "batch_harmonics", "inactive items are skipped"),
+    ("batch_stiffness_open", 0.12, "batch_stiffness", "an open contact has no force"),
+    ("batch_update_open", 0.6, "batch_update", "an open contact has no force, but a state"),
+    ("batch_harmonics_open", 0.05, "batch_harmonics", "an open contact has no force"),
+    ("batch_stiffness_shared", 1.05, "batch_stiffness", "items may share a contact at no cost"),
+    ("batch_update_shared", 1.05, "batch_update", "items may share a contact at no cost"),
+    ("batch_harmonics_shared", 1.05, "batch_harmonics", "items may share a contact at no cost"),
     ("harmonics_force", 2.2, "curve_force", "a sample costs a point of the curve and two transforms"),
     ("event_driven_force", 4.0, "harmonics_force", "the documented cost of the event-driven rule"),
 ];
@@ -121,31 +127,52 @@ fn harmonics(rule: i32, normal_force: f64, displacement: [f64; N], requested: us
     prepared(move || unsafe { mslip_harmonic_force(&c, workspace, u.as_ptr(), force, jacobian, dissipated) })
 }
 
-/// One call of each function, for contacts of their own or one for all.
-fn batch(normal_force: f64, shared: bool, active: i32) -> Call {
-    let contacts = array(|_| contact(normal_force));
-    let index = if shared { array(|_| 0) } else { null_mut() };
-    let (n_contacts, active) = (if shared { 1 } else { POINTS }, array(|_| active));
-    let rule = MSLIP_UNIFORM_SAMPLING;
-    let length = mslip_harmonic_workspace_length(1, 64, rule);
-    let workspace = vec![0.0; length].leak().as_mut_ptr();
+struct Batch {
+    n_contacts: usize,
+    contacts: *mut mslip_contact,
+    index: *mut i32,
+    active: *mut i32,
+    u: *mut f64, // also amplitudes
+}
+
+/// Items of a contact each, or of one for all.
+fn batch(normal_force: f64, shared: bool, active: i32) -> Batch {
     let slip_displacement = contact(200.0).slip_displacement;
-    let u = array(|i| slip_displacement * (i as f64 + 0.5) / POINTS as f64);
-    let motion = array(|i| [0.05, 0.7, 0.2].map(|u| u * slip_displacement * (i as f64 + 0.5) / POINTS as f64)).cast();
-    let states = array(|_| [0.0; STATE]).cast::<f64>();
-    let states_new = array(|_| [0.0; STATE]).cast::<f64>();
-    let out: [*mut f64; 4] = outputs(4);
-    for i in 0..POINTS {
-        unsafe { assert_eq!(mslip_state_init(STATE, states.add(i * STATE)), MSLIP_OK) };
+    Batch {
+        n_contacts: if shared { 1 } else { POINTS },
+        contacts: array(|_| contact(normal_force)),
+        index: if shared { array(|_| 0) } else { null_mut() },
+        active: array(|_| active),
+        u: array(|i| slip_displacement * (i as f64 + 0.5) / POINTS as f64),
     }
-    unsafe { assert_eq!(mslip_harmonic_workspace_init(1, 64, rule, length, workspace), MSLIP_OK) };
+}
+
+fn batch_stiffness(b: Batch) -> Call {
+    let [p, q, r, s] = outputs(4);
     prepared(move || unsafe {
-        let [a, b, c, d] = out;
-        mslip_batch_complex_stiffness(POINTS, n_contacts, contacts, index, active, u, a, b, c, d)
-            | mslip_batch_masing_update(
-                POINTS, n_contacts, contacts, index, active, STATE, states, u, states_new, a, b, c,
-            )
-            | mslip_batch_harmonic_force(POINTS, n_contacts, contacts, index, active, workspace, motion, a, b, c)
+        mslip_batch_complex_stiffness(POINTS, b.n_contacts, b.contacts, b.index, b.active, b.u, p, q, r, s)
+    })
+}
+
+fn batch_update(b: Batch) -> Call {
+    let [old, new] = [0.0; 2].map(|initial| array(|_| [initial; STATE]).cast::<f64>());
+    let [p, q, r] = outputs(3);
+    for i in 0..POINTS {
+        unsafe { assert_eq!(mslip_state_init(STATE, old.add(i * STATE)), MSLIP_OK) };
+    }
+    prepared(move || unsafe {
+        mslip_batch_masing_update(POINTS, b.n_contacts, b.contacts, b.index, b.active, STATE, old, b.u, new, p, q, r)
+    })
+}
+
+fn batch_harmonics(b: Batch) -> Call {
+    let length = mslip_harmonic_workspace_length(1, 64, UNIFORM);
+    let workspace = vec![0.0; length].leak().as_mut_ptr();
+    let motion = unsafe { array(|i| [0.05, 0.7, 0.2].map(|u| u * *b.u.add(i))).cast() };
+    let [p, q, r] = outputs(3);
+    unsafe { assert_eq!(mslip_harmonic_workspace_init(1, 64, UNIFORM, length, workspace), MSLIP_OK) };
+    prepared(move || unsafe {
+        mslip_batch_harmonic_force(POINTS, b.n_contacts, b.contacts, b.index, b.active, workspace, motion, p, q, r)
     })
 }
 
@@ -172,10 +199,18 @@ const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.
 #[bench::harmonics_open(harmonics(UNIFORM, 0.0, EVEN, 2))]
 #[bench::event_driven(harmonics(EVENTS, 200.0, EVEN, 2))]
 #[bench::event_driven_force(harmonics(EVENTS, 200.0, EVEN, 1))]
-#[bench::batch(batch(200.0, false, 1))]
-#[bench::batch_shared(batch(200.0, true, 1))]
-#[bench::batch_inactive(batch(200.0, false, 0))]
-#[bench::batch_open(batch(0.0, false, 1))]
+#[bench::batch_stiffness(batch_stiffness(batch(200.0, false, 1)))]
+#[bench::batch_stiffness_shared(batch_stiffness(batch(200.0, true, 1)))]
+#[bench::batch_stiffness_inactive(batch_stiffness(batch(200.0, false, 0)))]
+#[bench::batch_stiffness_open(batch_stiffness(batch(0.0, false, 1)))]
+#[bench::batch_update(batch_update(batch(200.0, false, 1)))]
+#[bench::batch_update_shared(batch_update(batch(200.0, true, 1)))]
+#[bench::batch_update_inactive(batch_update(batch(200.0, false, 0)))]
+#[bench::batch_update_open(batch_update(batch(0.0, false, 1)))]
+#[bench::batch_harmonics(batch_harmonics(batch(200.0, false, 1)))]
+#[bench::batch_harmonics_shared(batch_harmonics(batch(200.0, true, 1)))]
+#[bench::batch_harmonics_inactive(batch_harmonics(batch(200.0, false, 0)))]
+#[bench::batch_harmonics_open(batch_harmonics(batch(0.0, false, 1)))]
 fn count(mut call: Call) -> i32 {
     call()
 }
