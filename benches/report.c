@@ -158,7 +158,7 @@ void write_readme_table(FILE *file)
     sample range = { .n = 0 };
     double mean, at;
     stiffness_range(-1.0, &range, &mean, &at);
-    fputs("| task | microslip | what one would use instead |\n|---|---:|---|\n", file);
+    fputs("| task | microslip | instead |\n|---|---:|---|\n", file);
     const summary *s = summary_of("microslip", "force", 0, 0, 0);
     fprintf(file, "| force and stiffness at a displacement | %s | "
                   "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n",
@@ -174,8 +174,7 @@ void write_readme_table(FILE *file)
     fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
             cell(&s->own), cell(&s->coarse), cell(&s->one));
     s = summary_of("microslip", "preparation", 0, 0, 0);
-    fprintf(file, "| preparation of a contact | %s | – |\n\n", cell(&s->own));
-    fputs("Times at equal error, the method and the pictures are in [docs/benchmarks.md](docs/benchmarks.md).\n", file);
+    fprintf(file, "| preparation of a contact | %s | – |\n", cell(&s->own));
 }
 
 void write_tables(FILE *file, const char *machine)

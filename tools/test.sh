@@ -147,7 +147,7 @@ step 'archive: symbols and sections' tools/symbols.sh "$prefix"
 for group in arithmetic compilers links sanitizers valgrind threads process stack; do
     step "archive in every host: $group" verification/embedding/embedding.sh "$prefix" "$group"
 done
-step 'instructions' benches/instructions/run.sh
+step 'archive: instructions' benches/instruction_counts/run.sh "$prefix"
 
 for source in c_tests/*.c; do
     driver=$(basename "$source" .c)
@@ -178,6 +178,7 @@ for kinds in '' "$wide" -fno-automatic; do
     done
 done
 step 'C interface: fuzzing, bounded' tools/fuzz.sh --check
+step 'benchmark: its own check' benches/check.sh "$prefix"
 calculix_results() {
     mkdir -p "$work/calculix" &&
         $FC -J "$work/calculix" "$prefix/include/microslip.f90" examples/calculix/compare.f90 $(flags) -llapack -lblas \
