@@ -16,8 +16,8 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
 products := $(addprefix dist/,$(files))
 
-.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions instructions-record \
-	counting-dependencies figures host stress fuzz check parallel header docs dist clean help
+.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
+	figures host stress fuzz check parallel header docs dist clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -104,20 +104,14 @@ accuracy:
 	$(CARGO) run --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package accuracy -- \
 		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
 
-## instructions: count the instructions of each call, and compare them with the record and with each other
-instructions: counting-dependencies all
-	benches/instruction_counts/run.sh dist
-
-## instructions-record: record the instructions of each call
-instructions-record: counting-dependencies all
-	benches/instruction_counts/run.sh --record dist
-
-counting-dependencies:
+## instructions: count the instructions of each call and check the relations between the counts
+instructions:
 	@tools/dependencies.sh instructions
+	benches/instructions/run.sh
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
-	@tools/dependencies.sh bench
+	@tools/dependencies.sh bench accuracy
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
 ## figures: compute and draw the figures of the paper, and check its claims, into docs/

@@ -1,41 +1,43 @@
-/* cases.h: the contacts and the motions. */
+/* cases.h: the contacts, the motions and the exact values. */
 #ifndef CASES_H
 #define CASES_H
 
-#include "law.h"
-#include "reference.h"
+#include "measure.h"
+#include "paper_quadrature.h"
 #include "sliders.h"
 
-enum { SHAPES = 4, AMPLITUDES = 4, ORDERS = 3, BANKS = 7 };
-extern const double shapes[SHAPES];         /* a/b, from the cylinder to nearly flat */
-extern const double amplitudes[AMPLITUDES]; /* over the displacement of gross slip */
-extern const int orders[ORDERS];            /* harmonics */
+/* The cases of a run: full, or quick. */
+typedef struct extent {
+    int shapes, amplitudes, orders;
+    const double *shape, *amplitude; /* a/b; displacement over that of gross slip */
+    const int *order;                /* harmonics */
+    int least_samples, most_samples; /* powers of 2 */
+    int most_sliders;                /* powers of 4 */
+    int most_contacts;               /* powers of 10 */
+} extent;
 
-/* A steel contact of half-width 0.5 mm under 800 N, and all that competitors derive from it. */
-typedef struct subject {
-    double shape;
+/* A steel contact of half-width 0.5 mm under 800 N, and what competitors derive from it. */
+enum { BANKS = 7, RULES = 6 };
+typedef struct test_case {
+    double shape; /* a/b */
     mslip_parameters parameters;
     mslip_contact contact;
-    law law;
-    reference *truth;
-    sliders bank[BANKS]; /* of 1, 4, 16, ... sliders: the best there are for the contact */
-    sliders even[BANKS]; /* as many, at equal steps of the displacement, as banks are made by hand */
-} subject;
+    sliders bank[BANKS]; /* 1, 4, 16, ... sliders, fitted by the library */
+    paper paper[RULES];  /* 4 to 32 nodes */
+} test_case;
 
-mslip_parameters parameters_of(double shape);
-subject subject_of(double shape, int most_sliders);
-void subject_free(subject *s);
+test_case case_of(double shape);
 
-/* Its bank of n = 1, 4, 16, ... sliders; one slider: initial stiffness and slip force. */
-const sliders *bank_of(const subject *s, int n);
-const sliders *even_bank_of(const subject *s, int n);
-/* The slider with the contact's K' and K'' at an amplitude. */
-sliders jenkins_of(const subject *s, double amplitude);
+/* A task adds entries for all amplitudes of a contact and measures them. A new one is a file and a line in main.c. */
+typedef void task(const test_case *c, const extent *x);
+task task_force, task_stiffness, task_harmonic, task_time_step, task_batch;
 
-/* Coefficients [c0, cos1, sin1, ...] of a motion with half the range `size`, its highest point a third of a step
-   away from a sample whenever the number of samples is a power of two. */
+/* Coefficients [mean, cos 1, sin 1, ...] of a motion with half range `size`, whose maximum lies a third of a step from a
+   sample for every power of two. */
 void motion_of(int harmonics, double size, double *coefficients);
 
-void succeed(int32_t status); /* or name the status and exit */
+/* Values of the multi-precision reference; NaN while `truth_rows` only lists its input. */
+void truth(const mslip_parameters *p, const char *task, int n, const double *arguments, int values, double *value);
+extern FILE *truth_rows, *truth_values; /* its input and, unless NULL, its output */
 
 #endif

@@ -1,38 +1,33 @@
 /* main.c: run time against error of microslip and of what one would use instead.
  *
- *   bench [--quick] DIRECTORY    measures, and writes bench.csv, summary.txt and table.md there
- *   bench --check GOLDEN         tests the benchmark itself against the reference tables */
-#include "check_benchmark.h"
-#include "measure.h"
-#include "summary.h"
-#include "tasks.h"
+ *   bench [--quick] rows DIRECTORY    writes rows.csv, the input of the multi-precision reference
+ *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and readme.md */
+#include "cases.h"
+#include "report.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const double few_shapes[] = { 0.0, 0.9 }, few_amplitudes[] = { 0.95 };
+static const double shapes[] = { 0.0, 0.3, 0.9, 0.999 }, amplitudes[] = { 0.01, 0.5, 0.95, 3.0 };
+static const double quick_shapes[] = { 0.3, 0.9 }, quick_amplitudes[] = { 0.95 };
+static const int orders[] = { 1, 5, 9 };
 
-static const extent full = { .name = "full", .shapes = SHAPES, .amplitudes = AMPLITUDES, .orders = ORDERS, .shape = shapes,
-    .amplitude = amplitudes, .order = orders, .least_samples = 16, .most_samples = 1024, .most_sliders = 4096,
-    .most_nodes = 1024, .most_contacts = 100000 };
+static const extent full = { .shapes = 4, .amplitudes = 4, .orders = 3, .shape = shapes, .amplitude = amplitudes,
+    .order = orders, .least_samples = 16, .most_samples = 1024, .most_sliders = 4096, .most_contacts = 100000 };
+static const extent quick = { .shapes = 2, .amplitudes = 1, .orders = 3, .shape = quick_shapes, .amplitude = quick_amplitudes,
+    .order = orders, .least_samples = 64, .most_samples = 128, .most_sliders = 1024, .most_contacts = 10000 };
 
-static const extent quick = { .name = "quick", .shapes = 2, .amplitudes = 1, .orders = ORDERS, .shape = few_shapes,
-    .amplitude = few_amplitudes, .order = orders, .least_samples = 64, .most_samples = 128, .most_sliders = 1024,
-    .most_nodes = 128, .most_contacts = 10000 };
+static const struct { const char *name; task *task; double shape; } tasks[] = {
+    { "force", task_force, -1.0 }, { "stiffness", task_stiffness, -1.0 }, { "harmonic force", task_harmonic, -1.0 },
+    { "time step", task_time_step, -1.0 }, { "batch", task_batch, 0.3 }, /* for one shape only */
+};
 
-static const char *const left_out =
-    "Left out: quadrature of Eq. 10 inside the harmonic force and the time march (each sample would cost what a force costs);\n"
-    "  the Jacobian of the closed form by Newton (it would need what the library has);\n"
-    "  an interpolated table of the curve (the same law once more, with tables to be kept for every contact);\n"
-    "  sliders beyond the largest bank; three-dimensional contact codes (minutes where these take microseconds);\n"
-    "  the error against equal samples beyond 128 samples (quadruple precision would take longer than all the rest).\n";
-
-static FILE *open_file(const char *directory, const char *name)
+static FILE *open_file(const char *directory, const char *name, const char *mode)
 {
     char path[1024];
     snprintf(path, sizeof path, "%s/%s", directory, name);
-    FILE *file = fopen(path, "w");
+    FILE *file = fopen(path, mode);
     if (!file) {
         perror(path);
         exit(1);
@@ -40,102 +35,76 @@ static FILE *open_file(const char *directory, const char *name)
     return file;
 }
 
-/* What the machine is: the times are its own. */
-static void machine_write(FILE *file)
+/* Processor, its caches, and the compiler. */
+static const char *machine(void)
 {
-    char text[256], model[128] = "unknown processor";
+    static char text[512], model[128] = "unknown processor";
     FILE *info = fopen("/proc/cpuinfo", "r");
     while (info && fgets(text, sizeof text, info)) {
-        const char *colon = strchr(text, ':');
-        if (!strncmp(text, "model name", 10) && colon) {
-            snprintf(model, sizeof model, "%.*s", (int)strcspn(colon + 2, "\n"), colon + 2);
+        if (sscanf(text, "model name : %127[^\n]", model) == 1) {
             break;
         }
     }
     if (info) {
         fclose(info);
     }
-    fprintf(file, "%s, GCC %s, %s; one logarithm of the C library takes %.3g ns", model, __VERSION__, COMPILER_FLAGS,
-            log_overall());
-}
-
-static void caches_write(FILE *file)
-{
-    fputs("Caches: ", file);
+    int end = snprintf(text, sizeof text, "%s, GCC %s, %s", model, __VERSION__, COMPILER_FLAGS);
 #ifdef _SC_LEVEL1_DCACHE_SIZE
-    fprintf(file, "L1 %ld kB, L2 %ld kB, L3 %ld kB", sysconf(_SC_LEVEL1_DCACHE_SIZE) / 1024,
-            sysconf(_SC_LEVEL2_CACHE_SIZE) / 1024, sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024);
-#else
-    fputs("sizes unknown", file);
+    end += snprintf(text + end, sizeof text - (size_t)end, "; caches L1 %ld kB, L2 %ld kB, L3 %ld kB",
+                    sysconf(_SC_LEVEL1_DCACHE_SIZE) / 1024, sysconf(_SC_LEVEL2_CACHE_SIZE) / 1024,
+                    sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024);
 #endif
-    fprintf(file, "; a contact has %zu B, with a state of 8 reversals %zu B: what an interface reads no longer fits where\n"
-            "  contacts times bytes exceed these.\n", sizeof(mslip_contact),
-            sizeof(mslip_contact) + mslip_state_length(8) * sizeof(double));
+    snprintf(text + end, sizeof text - (size_t)end, ".\nA contact has %zu bytes, with a state of 8 reversals %zu",
+             sizeof(mslip_contact), sizeof(mslip_contact) + mslip_state_length(8) * sizeof(double));
+    return text;
 }
 
-static void run(const extent *x)
+static void run_tasks(const extent *x)
 {
-    const double start = seconds();
     for (int i = 0; i < x->shapes; ++i) {
-        subject s = subject_of(x->shape[i], x->most_sliders);
-        fprintf(stderr, "a/b = %-5g  force", s.shape);
-        task_force(&s, x);
-        fputs(", complex stiffness", stderr);
-        task_stiffness(&s, x);
-        for (int h = 0; h < x->orders; ++h) {
-            fprintf(stderr, ", %s%d", h ? "" : "harmonics ", x->order[h]);
-            task_harmonic(&s, x, x->order[h]);
+        const size_t mark = memory_mark();
+        const test_case c = case_of(x->shape[i]);
+        for (size_t k = 0; k < sizeof tasks / sizeof *tasks; ++k) {
+            if (tasks[k].shape < 0.0 || tasks[k].shape == c.shape) {
+                fprintf(stderr, rounds ? "a/b = %g: %s\n" : "", c.shape, tasks[k].name);
+                tasks[k].task(&c, x);
+            }
         }
-        fputs(", time march", stderr);
-        task_march(&s, x);
-        fputs(", preparation", stderr);
-        task_prepare(&s);
-        if (i == 1) {
-            fprintf(stderr, ", %zu contacts", x->most_contacts);
-            task_many(&s, x);
-        }
-        fprintf(stderr, " (%.0f s)\n", seconds() - start);
-        subject_free(&s);
+        free_to(mark);
     }
 }
 
 int main(int argc, char **argv)
 {
-    const int is_quick = argc == 3 && !strcmp(argv[1], "--quick");
-    if (argc == 3 && !strcmp(argv[1], "--check")) {
-        return check_benchmark(argv[2]);
-    }
-    if (argc != 2 && !is_quick) {
-        fprintf(stderr, "usage: %s [--quick] DIRECTORY\n       %s --check GOLDEN\n", argv[0], argv[0]);
+    const int is_quick = argc > 1 && !strcmp(argv[1], "--quick");
+    if (argc != 3 + is_quick || (strcmp(argv[argc - 2], "rows") && strcmp(argv[argc - 2], "run"))) {
+        fprintf(stderr, "usage: %s [--quick] rows|run DIRECTORY\n", argv[0]);
         return 2;
     }
+    const int run = !strcmp(argv[argc - 2], "run");
     const char *directory = argv[argc - 1];
-    rounds = is_quick ? 7 : 15;
-    run(is_quick ? &quick : &full);
-
-    FILE *csv = open_file(directory, "bench.csv"), *summary = open_file(directory, "summary.txt"),
-         *table = open_file(directory, "table.md");
-    entries_write(csv);
-    table_write(table);
-    fputs("\nMedians over contacts from the cylinder to a/b = 0.999 and over amplitudes from 0.01 to 3 times the "
-          "displacement of gross slip; quadrature without gross slip. Errors are relative to quadruple precision, those of the harmonic force at equal "
-          "samples; times marked * are beyond the largest bank of sliders, which step every sample. Left out: quadrature inside "
-          "the harmonic force and the time march (a sample would cost what a force costs), the closed form's Jacobian (it would "
-          "need what the library has), interpolated tables of the curve (the same law again, with tables to be kept for every "
-          "contact), three-dimensional contact codes (minutes where these take microseconds). ", table);
-    machine_write(table);
-    fputs(".\n", table);
-    FILE *const outputs[] = { stdout, summary };
-    for (int i = 0; i < 2; ++i) {
-        machine_write(outputs[i]);
-        fputs(".\n\n", outputs[i]);
-        summary_write(outputs[i]);
-        caches_write(outputs[i]);
-        fputs(left_out, outputs[i]);
+    const extent *x = is_quick ? &quick : &full;
+    truth_rows = open_file(directory, "rows.csv", run ? "r" : "w");
+    if (!run) {
+        rounds = 0;
+        run_tasks(x);
+        return fclose(truth_rows) != 0;
     }
+    truth_values = open_file(directory, "truth.csv", "r");
+    rounds = is_quick ? 7 : 15;
+    run_tasks(x);
+    check_errors();
+
+    FILE *csv = open_file(directory, "bench.csv", "w"), *tables = open_file(directory, "tables.md", "w"),
+         *readme = open_file(directory, "readme.md", "w");
+    entries_write(csv);
+    write_tables(tables, machine());
+    write_tables(stdout, machine());
+    write_readme_table(readme);
     fclose(csv);
-    fclose(summary);
-    fclose(table);
+    fclose(tables);
+    fclose(readme);
     free(entries);
-    return 0;
+    printf("\nerrors: %d passed, %d failed\n", checks_passed, checks_failed);
+    return checks_failed > 0;
 }

@@ -1,7 +1,7 @@
-/* measure.c: times of interleaved methods: medians over rounds, with the 10th and 90th percentile. */
+/* measure.c: times of interleaved methods, as medians over rounds with the 10th and 90th percentile. */
 #include "measure.h"
 
-#include <math.h>
+#include <microslip.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -9,49 +9,70 @@
 entry *entries;
 size_t entry_count;
 int rounds = 15;
-double log_median;
-volatile double sink;
+int checks_passed, checks_failed;
 
-static size_t entry_room;
-static struct { void *thing; void (*release)(void *); } things[4096];
-static size_t thing_count;
-static double log_medians[1024];
-static size_t log_count;
+static void *blocks[65536];
+static size_t block_count;
+static volatile double sink;
+
+void require(int32_t status)
+{
+    if (status != MSLIP_OK) {
+        fprintf(stderr, "microslip: %s\n", mslip_status_text(status));
+        exit(1);
+    }
+}
+
+void *allocate(size_t bytes)
+{
+    const size_t padded = (bytes + 63) / 64 * 64;
+    void *block = block_count < sizeof blocks / sizeof *blocks ? aligned_alloc(64, padded) : NULL;
+    if (!block) {
+        fputs("out of memory\n", stderr);
+        exit(1);
+    }
+    return memset(blocks[block_count++] = block, 0, padded);
+}
+
+size_t memory_mark(void)
+{
+    return block_count;
+}
+
+void free_to(size_t mark)
+{
+    while (block_count > mark) {
+        free(blocks[--block_count]);
+    }
+}
+
+void check_below(const char *what, double value, double bound)
+{
+    const int passed = value >= 0.0 && value < bound;
+    checks_passed += passed;
+    checks_failed += !passed;
+    if (!passed) {
+        printf("%s: %g, not below %g\n", what, value, bound);
+    }
+}
 
 entry *entry_add(const char *task, const char *method, work *run, void *context, double items)
 {
-    if (entry_count == entry_room) {
-        entry_room = entry_room ? 2 * entry_room : 1024;
-        entries = realloc(entries, entry_room * sizeof *entries);
+    static size_t capacity;
+    if (entry_count == capacity) {
+        capacity = capacity ? 2 * capacity : 1024;
+        entries = realloc(entries, capacity * sizeof *entries);
     }
-    entries[entry_count] = (entry) { .task = task, .method = method, .shape = -1.0, .amplitude = -1.0, .error = -1.0,
-                                     .sample_error = -1.0, .run = run, .context = context, .items = items,
-                                     .per_jenkins = -1.0 };
+    entries[entry_count] = (entry) { .task = task, .method = method, .run = run, .context = context, .items = items,
+                                     .parameter = -1.0, .error = -1.0, .sample_error = -1.0 };
     return &entries[entry_count++];
 }
 
-void release_later(void *thing, void (*release)(void *))
-{
-    if (thing_count == sizeof things / sizeof *things) {
-        fputs("too many things in a group\n", stderr);
-        exit(1);
-    }
-    things[thing_count].thing = thing;
-    things[thing_count++].release = release;
-}
-
-void *context_of(size_t bytes)
-{
-    void *context = calloc(1, bytes);
-    release_later(context, free);
-    return context;
-}
-
-double seconds(void)
+static double nanoseconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
 static int ascending(const void *a, const void *b)
@@ -60,11 +81,11 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double quantile_of(const double *sorted, size_t n, double q)
+static double quantile_of(const double *sorted, size_t n, double q)
 {
-    const double place = q * (double)(n - 1);
-    const size_t below = (size_t)place;
-    const double part = place - (double)below;
+    const double position = q * (double)(n - 1);
+    const size_t below = (size_t)position;
+    const double part = position - (double)below;
     return below + 1 < n ? (1.0 - part) * sorted[below] + part * sorted[below + 1] : sorted[below];
 }
 
@@ -74,129 +95,61 @@ double median_of(double *values, size_t n)
     return quantile_of(values, n, 0.5);
 }
 
-enum { LOGS = 1000, MOST_ROUNDS = 64 };
-
-static double logarithms(void *context)
-{
-    const double *x = context;
-    double sum = 0.0;
-    for (int i = 0; i < LOGS; ++i) {
-        sum += log(x[i]);
-    }
-    return sum;
-}
-
-/* Long enough for the clock, short enough for many rounds. */
-static const double batch = 40e-6, slow = 2e-3;
-
+enum { MOST_ROUNDS = 64 };
 typedef struct { int repeats, rounds; double times[MOST_ROUNDS]; } series;
 
-static void prepare(series *s, work *run, void *context, double items)
+/* Time of one run of an entry, repeated. */
+static double time_of(const entry *e, int repeats)
 {
-    sink = run(context); /* caches, tables and branch predictors */
-    const double start = seconds();
-    sink = run(context);
-    const double once = seconds() - start;
-    s->repeats = once < batch ? (int)(batch / (once + 2e-8)) + 1 : 1;
-    s->times[0] = 1e9 * once / items;
-    s->rounds = once < slow ? rounds : once < 10.0 * slow ? (rounds + 2) / 3 : once < 100.0 * slow ? 3 : 1;
-}
-
-static void time_once(series *s, work *run, void *context, double items, int round)
-{
-    /* The one round of what takes longest was in `prepare`. */
-    if (s->rounds > 1 && round < s->rounds) {
-        const double start = seconds();
-        for (int i = 0; i < s->repeats; ++i) {
-            sink = run(context);
-        }
-        s->times[round] = 1e9 * (seconds() - start) / (s->repeats * items);
+    const double start = nanoseconds();
+    for (int i = 0; i < repeats; ++i) {
+        sink = e->run(e->context);
     }
+    return (nanoseconds() - start) / repeats;
 }
 
-static int same_call(const entry *a, const entry *b)
+void measure(size_t first, double shape, double amplitude, size_t mark)
 {
-    return !strcmp(a->task, b->task) && a->harmonics == b->harmonics && a->samples == b->samples
-        && a->jacobian == b->jacobian && (a->parameter == b->parameter || strcmp(a->task, "many"));
-}
-
-void measure(size_t first)
-{
+    /* Long enough for the clock, short enough for many rounds. */
+    const double batch = 40e3, slow = 2e6;
     const size_t n = entry_count - first;
-    series *all = calloc(n + 1, sizeof *all), *logs = all + n;
-    double arguments[LOGS];
-    for (int i = 0; i < LOGS; ++i) {
-        arguments[i] = 0.5 + 0.0019 * (i * 7919 % LOGS);
-    }
-    prepare(logs, logarithms, arguments, LOGS);
-    for (size_t i = 0; i < n; ++i) {
-        prepare(&all[i], entries[first + i].run, entries[first + i].context, entries[first + i].items);
+    series *all = calloc(n + 1, sizeof *all);
+    for (size_t i = 0; i < n && rounds > 0; ++i) {
+        sink = entries[first + i].run(entries[first + i].context); /* caches and branch predictors */
+        const double once = time_of(&entries[first + i], 1);
+        all[i].repeats = once < batch ? (int)(batch / (once + 20.0)) + 1 : 1;
+        all[i].rounds = once < slow ? rounds : once < 10.0 * slow ? (rounds + 2) / 3 : 1;
+        all[i].times[0] = once;
     }
     for (int round = 0; round < rounds; ++round) {
-        time_once(logs, logarithms, arguments, LOGS, round);
         for (size_t i = 0; i < n; ++i) {
-            const entry *e = &entries[first + i];
-            time_once(&all[i], e->run, e->context, e->items, round);
-        }
-    }
-    log_median = median_of(logs->times, (size_t)logs->rounds);
-    log_medians[log_count++ % 1024] = log_median;
-    for (size_t i = 0; i < n; ++i) {
-        entry *e = &entries[first + i];
-        const size_t m = (size_t)all[i].rounds;
-        e->median = median_of(all[i].times, m);
-        e->low = quantile_of(all[i].times, m, 0.1);
-        e->high = quantile_of(all[i].times, m, 0.9);
-        e->per_log = e->median / log_median;
-    }
-    for (size_t i = 0; i < n; ++i) {
-        entry *e = &entries[first + i];
-        for (size_t j = 0; j < n; ++j) {
-            const entry *yardstick = &entries[first + j];
-            if (yardstick->is_yardstick && same_call(e, yardstick)) {
-                e->per_jenkins = e->median / yardstick->median;
+            if (all[i].rounds > 1 && round < all[i].rounds) {
+                all[i].times[round] = time_of(&entries[first + i], all[i].repeats);
             }
         }
     }
-    while (thing_count) {
-        --thing_count;
-        things[thing_count].release(things[thing_count].thing);
+    for (size_t i = 0; i < n; ++i) {
+        entry *e = &entries[first + i];
+        const size_t m = all[i].rounds > 0 ? (size_t)all[i].rounds : 1;
+        e->shape = shape;
+        e->amplitude = amplitude;
+        e->median = median_of(all[i].times, m) / e->items;
+        e->low = quantile_of(all[i].times, m, 0.1) / e->items;
+        e->high = quantile_of(all[i].times, m, 0.9) / e->items;
     }
     free(all);
-}
-
-double log_overall(void)
-{
-    double copy[1024];
-    const size_t n = log_count < 1024 ? log_count : 1024;
-    memcpy(copy, log_medians, n * sizeof *copy);
-    return n ? median_of(copy, n) : 0.0;
-}
-
-/* What is not there stays empty. */
-static void number(FILE *file, double value)
-{
-    if (value >= 0.0) {
-        fprintf(file, ",%.4g", value);
-    } else {
-        fputc(',', file);
-    }
+    free_to(mark);
 }
 
 void entries_write(FILE *file)
 {
-    fputs("task,shape,amplitude,harmonics,samples,jacobian,method,parameter,error,error_same_samples,"
-          "median_ns,p10_ns,p90_ns,per_log,per_jenkins\n", file);
-    for (size_t i = 0; i < entry_count; ++i) {
-        const entry *e = &entries[i];
-        fputs(e->task, file);
-        number(file, e->shape);
-        number(file, e->amplitude);
-        fprintf(file, ",%d,%d,%d,%s", e->harmonics, e->samples, e->jacobian, e->method);
-        const double numbers[] = { e->parameter, e->error, e->sample_error, e->median, e->low, e->high, e->per_log,
-                                   e->per_jenkins };
+    fputs("task,shape,amplitude,harmonics,samples,jacobian,method,parameter,error,error_same_samples,median_ns,p10_ns,p90_ns\n",
+          file);
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        fprintf(file, "%s,%g,%g,%d,%d,%d,%s", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->jacobian, e->method);
+        const double numbers[] = { e->parameter, e->error, e->sample_error, e->median, e->low, e->high };
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
-            number(file, numbers[k]);
+            fprintf(file, numbers[k] >= 0.0 ? ",%.4g" : ",", numbers[k]);
         }
         fputc('\n', file);
     }

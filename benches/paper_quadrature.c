@@ -1,46 +1,30 @@
-/* paper_quadrature.c: Eq. 10 with the mended tractions of Eq. 17 and 22, and its inverse by root finding.
+/* paper_quadrature.c: Eq. 10 with the corrected tractions of Eq. 17 and 22 by quadrature, and its inverse.
  *
- * The unknown of the root finding is the stick zone, so that Eq. 1 need not be solved once more for every force, and its
- * slope is the tangent compliance (Eq. 8): the paper's way at its best. */
+ * The unknown of the root finding is the stick zone, so that Eq. 1 is solved once per contact only; the slope is the tangent
+ * compliance of Eq. 8. Both make the paper's method faster than as printed. */
 #include "paper_quadrature.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-void gauss_legendre(int n, const double **nodes, const double **weights)
+/* Eq. 1, corrected: the load that makes c = sqrt(a^2 + w^2) the half-width, times 4R/E*. */
+static double scaled_load(double flat, double w)
 {
-    enum { LARGEST = 1024 };
-    static double *kept[LARGEST + 1];
-    if (!kept[n]) {
-        kept[n] = malloc(2 * (size_t)n * sizeof **kept);
-        for (int i = 0; i < n; ++i) {
-            long double x = cosl(3.14159265358979323846L * (i + 0.75L) / (n + 0.5L)), slope = 1.0L;
-            for (int k = 0; k < 8; ++k) {
-                long double p = 1.0L, before = 0.0L;
-                for (int j = 1; j <= n; ++j) {
-                    const long double next = ((2 * j - 1) * x * p - (j - 1) * before) / j;
-                    before = p;
-                    p = next;
-                }
-                slope = n * (x * p - before) / (x * x - 1.0L);
-                x -= p / slope;
-            }
-            kept[n][i] = (double)(0.5L * (1.0L - x));
-            kept[n][n + i] = (double)(1.0L / ((1.0L - x * x) * slope * slope));
-        }
-    }
-    *nodes = kept[n];
-    *weights = kept[n] + n;
+    return 2.0 * (flat * flat + w * w) * atan2(w, flat) - 2.0 * flat * w;
 }
 
-/* Pressure under the flat with rounded edges, half-width c, load P: Eq. 17 as mended. */
-typedef struct { double half_width, phi0, opening, unit; } pressure;
+static double scaled_load_slope(double flat, double w)
+{
+    return 4.0 * w * atan2(w, flat);
+}
+
+/* Pressure of a flat with rounded edges, half-width c, load per length P: Eq. 17, corrected. */
+typedef struct { double half_width, phi0, opening, scale; } pressure;
 
 static pressure pressure_of(double flat, double w, double load)
 {
     pressure p = { .half_width = hypot(flat, w), .phi0 = atan2(flat, w) };
     p.opening = PI - 2.0 * p.phi0;
-    p.unit = 2.0 / PI * load / p.half_width / (p.opening - sin(2.0 * p.phi0));
+    p.scale = 2.0 / PI * load / p.half_width / (p.opening - sin(2.0 * p.phi0));
     return p;
 }
 
@@ -55,113 +39,147 @@ static double pressure_at(const pressure *p, double x)
         value += sine * log(fabs(sin(phi + p->phi0) / sin(phi - p->phi0)))
             + sin(p->phi0) * log(fabs(tan(0.5 * (phi + p->phi0)) * tan(0.5 * (phi - p->phi0))));
     }
-    return p->unit * value;
+    return p->scale * value;
 }
 
-typedef struct { pressure outer, inner; double half_width, load; int sticks; } traction;
+/* Eq. 22: the shear traction over mu is a pressure minus that of the stick zone. */
+typedef struct { pressure contact, stick; double half_width, load; int sticks; } traction;
 
-/* -q ln(x/b) over mu, at x = b sin(angle), times dx/d(angle). */
+/* -(q/mu) ln(x/b) at x = b sin(angle), times dx/d(angle). */
 static double integrand(const traction *q, double angle)
 {
     const double sine = sin(angle), x = q->half_width * sine;
-    const double stuck = q->sticks ? pressure_at(&q->inner, x) : 0.0;
-    return -(pressure_at(&q->outer, x) - stuck) * log(sine) * q->half_width * cos(angle);
+    const double stick = q->sticks ? pressure_at(&q->stick, x) : 0.0;
+    return -(pressure_at(&q->contact, x) - stick) * log(sine) * q->half_width * cos(angle);
 }
 
-static double gauss(const traction *q, int n)
+/* tanh-sinh rule: exponentially convergent for the kinks and logarithms at the ends of the interval. */
+static double integral(const traction *q, double from, double to, int nodes)
 {
-    const double *nodes, *weights;
+    const double h = 3.2 / nodes;
     double sum = 0.0;
-    gauss_legendre(n, &nodes, &weights);
-    for (int i = 0; i < n; ++i) {
-        sum += weights[i] * integrand(q, 0.5 * PI * nodes[i]);
+    for (int k = -nodes; k <= nodes; ++k) {
+        const double s = 0.5 * PI * sinh(k * h), weight = 0.5 * PI * h * cosh(k * h) / (cosh(s) * cosh(s));
+        sum += weight * integrand(q, from + (to - from) / (1.0 + exp(-2.0 * s)));
     }
-    return 0.5 * PI * sum;
+    return 0.5 * (to - from) * sum;
 }
 
-/* Gauss-Kronrod 7-15, halved until both agree. */
-static double adaptive(const traction *q, double from, double to, double tolerance, int depth)
+static double force_at(const paper *p, double w)
 {
-    static const double node[8] = { 0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
-        0.864864423359769072789712788640926, 0.741531185599394439863864773280788, 0.586087235467691130294144691693507,
-        0.405845151377397166906606412076961, 0.207784955007898467600689403773245, 0.0 };
-    static const double kronrod[8] = { 0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
-        0.104790010322250183839876322541518, 0.140653259715525918745189590510238, 0.169004726639267902826583426598550,
-        0.190350578064785409913256402421014, 0.204432940075298892414161999234649, 0.209482141084727828012999174891714 };
-    static const double seven[4] = { 0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
-        0.381830050505118944950369775488975, 0.417959183673469387755102040816327 };
-    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-    double fine = 0.0, coarse = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        double sum = integrand(q, middle + half * node[i]);
-        if (i < 7) {
-            sum += integrand(q, middle - half * node[i]);
-        }
-        fine += kronrod[i] * sum;
-        coarse += i % 2 ? seven[i / 2] * sum : 0.0;
-    }
-    fine *= half;
-    coarse *= half;
-    if (fabs(fine - coarse) <= tolerance || depth == 0) {
-        return fine;
-    }
-    /* Halved no further than rounding allows. */
-    const double half_tolerance = fmax(0.5 * tolerance, 1e-15 * q->load);
-    return adaptive(q, from, middle, half_tolerance, depth - 1) + adaptive(q, middle, to, half_tolerance, depth - 1);
+    return p->slip_force * (1.0 - scaled_load(p->flat, w) / scaled_load(p->flat, p->w));
 }
 
-double paper_displacement(const void *context, double w)
+/* Eq. 10. */
+static double displacement_at(const paper *p, double w)
 {
-    const paper *paper = context;
-    const law *law = &paper->law;
-    const double sticks = law_size_of_load(law->flat, w) / law->size_of_load;
-    const double force = law->friction * law->load * (1.0 - sticks);
-    traction q = { .outer = pressure_of(law->flat, law->w, law->load), .half_width = law->half_width, .load = law->load,
-                   .sticks = w > 0.0 && sticks > 0.0 };
-    if (q.sticks) {
-        q.inner = pressure_of(law->flat, w, law->load * sticks);
+    const double load = p->load * scaled_load(p->flat, w) / scaled_load(p->flat, p->w);
+    const traction q = { .contact = pressure_of(p->flat, p->w, p->load), .half_width = p->half_width, .load = p->load,
+                         .sticks = w > 0.0, .stick = w > 0.0 ? pressure_of(p->flat, w, load) : (pressure) { 0 } };
+    /* The tractions have kinks at the edges of the flat and of the stick zone. */
+    const double edges[4] = { 0.0, asin(p->flat / p->half_width), asin(fmin(1.0, hypot(p->flat, w) / p->half_width)),
+                              0.5 * PI };
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        sum += edges[i + 1] > edges[i] ? integral(&q, edges[i], edges[i + 1], p->nodes) : 0.0;
     }
-    double integral;
-    if (paper->nodes > 0) {
-        integral = gauss(&q, paper->nodes);
-    } else {
-        /* The tractions have kinks at the edge of the flat and of the stick zone. */
-        const double edges[4] = { 0.0, asin(law->flat / law->half_width),
-                                  asin(fmin(1.0, hypot(law->flat, w) / law->half_width)), 0.5 * PI };
-        integral = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            if (edges[i + 1] > edges[i]) {
-                integral += adaptive(&q, edges[i], edges[i + 1], paper->tolerance * law->load, 40);
-            }
-        }
-    }
-    return 2.0 / (PI * law->modulus)
-        * (2.0 * law->friction * integral + force * (log(law->length / law->half_width) + law->poisson));
+    const double tangential = p->friction * (p->load - load);
+    return 2.0 / (PI * p->modulus)
+        * (2.0 * p->friction * sum + tangential * (log(p->length / p->half_width) + p->poisson));
 }
 
-paper paper_of(const law *law, int nodes, double tolerance)
+/* Eq. 8. */
+static double stiffness_at(const paper *p, double w)
 {
-    paper paper = { .law = *law, .nodes = nodes, .tolerance = tolerance };
-    paper.slip_displacement = paper_displacement(&paper, 0.0);
+    return 0.5 * PI * p->modulus * p->length / (p->poisson + log(2.0 * p->length / hypot(p->flat, w)));
+}
+
+/* d(displacement)/dw <= 0. */
+static double slope_at(const paper *p, double w)
+{
+    return -p->slip_force * scaled_load_slope(p->flat, w) / scaled_load(p->flat, p->w) / stiffness_at(p, w);
+}
+
+paper paper_of(const mslip_parameters *p, int nodes)
+{
+    const double nu = p->material[0].poisson_ratio;
+    paper paper = { .flat = p->flat_half_width, .length = p->length, .friction = p->friction_coefficient,
+                    .load = p->normal_force / p->length, .modulus = 0.5 * p->material[0].young_modulus / (1.0 - nu * nu),
+                    .poisson = nu / (1.0 - nu), .slip_force = p->friction_coefficient * p->normal_force,
+                    .nodes = nodes };
+    /* Eq. 1 by Newton's method from above: the load is convex in w. */
+    const double load = 4.0 * p->edge_radius * paper.load / paper.modulus;
+    double step;
+    paper.w = sqrt(load / PI);
+    while (scaled_load(paper.flat, paper.w) < load) {
+        paper.w *= 2.0;
+    }
+    do {
+        step = (scaled_load(paper.flat, paper.w) - load) / scaled_load_slope(paper.flat, paper.w);
+        paper.w -= step;
+    } while (fabs(step) > 1e-15 * paper.w);
+    paper.half_width = hypot(paper.flat, paper.w);
+    paper.slip_displacement = displacement_at(&paper, 0.0);
     return paper;
 }
 
-double paper_stick(const paper *paper, double displacement)
+/* The stick zone at 0 <= displacement < slip_displacement, by Newton's method with bisection. */
+static double stick_zone(const paper *p, double displacement)
 {
-    const double tolerance = paper->nodes > 0 ? 1e-10 : fmax(0.1 * paper->tolerance, 1e-12);
-    return law_stick(&paper->law, displacement, paper->slip_displacement, tolerance, paper_displacement, paper);
+    const double tolerance = 1e-9 * p->w; /* of the last step but one: convergence is quadratic */
+    const double remaining = 1.0 - displacement / p->slip_displacement; /* scales as w^2 (cylinder) to w^3 (flat) */
+    double low = 0.0, high = p->w, w = p->w * pow(remaining, 1.0 / (2.0 + p->flat / p->half_width)), step = p->w;
+    for (int i = 0; i < 60 && step > tolerance; ++i) {
+        const double excess = displacement_at(p, w) - displacement;
+        if (excess > 0.0) {
+            low = w;
+        } else {
+            high = w;
+        }
+        double next = w - excess / slope_at(p, w);
+        if (!(next > low && next < high)) {
+            next = fabs(next - w) < tolerance ? w : 0.5 * (low + high);
+        }
+        step = fabs(next - w);
+        w = next;
+    }
+    return w;
 }
 
 void paper_curve(const void *context, size_t n, const double *displacement, double *force, double *stiffness)
 {
-    const paper *paper = context;
+    const paper *p = context;
     for (size_t i = 0; i < n; ++i) {
-        force[i] = paper->law.slip_force;
-        stiffness[i] = 0.0;
-        if (displacement[i] < paper->slip_displacement) {
-            const double w = paper_stick(paper, displacement[i]);
-            force[i] = law_force(&paper->law, w);
-            stiffness[i] = law_stiffness(&paper->law, w);
-        }
+        const int slips = displacement[i] >= p->slip_displacement;
+        const double w = slips ? 0.0 : stick_zone(p, displacement[i]);
+        force[i] = force_at(p, w);
+        stiffness[i] = slips ? 0.0 : stiffness_at(p, w);
     }
+}
+
+void paper_stiffness(const void *context, double amplitude, double result[4])
+{
+    const paper *p = context;
+    const int slips = amplitude >= p->slip_displacement, n = p->nodes;
+    const double inner = slips ? 0.0 : stick_zone(p, amplitude), half = 0.5 * (p->w - inner);
+    const double top = force_at(p, inner), k = slips ? 0.0 : stiffness_at(p, inner);
+    double real = 0.0, d_real = 0.0, area = 0.0;
+    /* Stick zones at Chebyshev nodes: Gauss-Chebyshev weights for the square roots at both ends, Fejer's for smooth integrands. */
+    for (int i = 0; i < n; ++i) {
+        const double angle = PI * (i + 0.5) / n, w = inner + half * (1.0 + cos(angle));
+        double fejer = 1.0;
+        for (int j = 1; j <= n / 2; ++j) {
+            fejer -= 2.0 * cos(2.0 * j * angle) / (4.0 * j * j - 1.0);
+        }
+        const double u = displacement_at(p, w), x = fmin(fmax(u / amplitude, 0.0), 1.0 - 1e-16);
+        const double du = -slope_at(p, w) * half, dt = stiffness_at(p, w) * du;
+        real += sqrt(x * (1.0 - x)) * dt * PI / n * sin(angle);
+        d_real += sqrt(x / (1.0 - x)) * (1.0 - 2.0 * x) * dt * PI / n * sin(angle);
+        area += (force_at(p, w) * du - u * dt) * 2.0 / n * fejer;
+    }
+    const double beyond = slips ? amplitude - p->slip_displacement : 0.0;
+    result[0] = 8.0 / (PI * amplitude) * real;
+    result[1] = 4.0 * (area + top * beyond) / (PI * amplitude * amplitude);
+    result[2] = (-4.0 / (PI * amplitude) * d_real - result[0]) / amplitude;
+    result[3] = 4.0 * (top - amplitude * k) / (PI * amplitude * amplitude) - 2.0 * result[1] / amplitude;
 }

@@ -1,24 +1,25 @@
-/* paper_quadrature.h: the law as the paper computes it, Eq. 10 by numerical quadrature of the tractions. */
+/* paper_quadrature.h: the law as Allara (2009) computes it: Eq. 10 by quadrature of the tractions, inverted by root finding. */
 #ifndef PAPER_QUADRATURE_H
 #define PAPER_QUADRATURE_H
 
-#include "law.h"
+#include <microslip.h>
 
+#define PI 3.14159265358979323846
+
+/* A contact of two bodies of the same material. Stick zones are measured by w = sqrt(c^2 - a^2), c their half-width. */
 typedef struct paper {
-    law law;
-    int nodes;                /* of one Gauss-Legendre rule over the half-width; 0: adaptive */
-    double tolerance;         /* of the adaptive rule */
-    double slip_displacement; /* as this quadrature sees it */
+    double flat, half_width, w;    /* a, b, and w of the whole contact */
+    double load, modulus, length, friction, poisson; /* P = N/L, E*, L, mu, nu/(1 - nu) */
+    double slip_force, slip_displacement;
+    int nodes;                     /* of the quadrature: 2 nodes + 1 on each smooth part of the tractions */
 } paper;
 
-paper paper_of(const law *law, int nodes, double tolerance);
+paper paper_of(const mslip_parameters *p, int nodes);
 
-/* Displacement at a stick zone, Eq. 10. */
-double paper_displacement(const void *paper, double w);
-double paper_stick(const paper *paper, double displacement);
+/* Force and tangent stiffness on the initial loading curve at n displacements >= 0. */
 void paper_curve(const void *paper, size_t n, const double *displacement, double *force, double *stiffness);
 
-/* Nodes and weights of Gauss-Legendre on (0, 1), kept for later calls. */
-void gauss_legendre(int n, const double **nodes, const double **weights);
+/* Section 3.4: K', K'' and their derivatives with respect to the amplitude. */
+void paper_stiffness(const void *paper, double amplitude, double result[4]);
 
 #endif

@@ -1,14 +1,11 @@
-/* task_force.c: force and stiffness at given displacements, 1,000 at once. */
-#include "measure.h"
-#include "paper_quadrature.h"
-#include "tasks.h"
+/* task_force.c: force and stiffness at a displacement, 1,000 points per call; and the preparation of a contact. */
+#include "cases.h"
 
 #include <math.h>
 
-/* Whatever takes too long for all points has every 100th; errors are taken at these. */
+/* Slow methods and errors take every 100th point. */
 enum { POINTS = 1000, STRIDE = 100, FEW = POINTS / STRIDE };
-
-static double points[POINTS], few[FEW], truth[FEW];
+static double points[POINTS], few[FEW], exact[FEW];
 
 typedef void curve(const void *law, size_t n, const double *displacement, double *force, double *stiffness);
 typedef struct { curve *curve; const void *law; int all; } job;
@@ -18,9 +15,9 @@ static void microslip_curve(const void *contact, size_t n, const double *displac
     mslip_monotonic_force(contact, n, displacement, force, stiffness, NULL);
 }
 
-static void jenkins_curve(const void *contact, size_t n, const double *displacement, double *force, double *stiffness)
+static void jenkins_curve(const void *bank, size_t n, const double *displacement, double *force, double *stiffness)
 {
-    const double k = ((const mslip_contact *)contact)->initial_stiffness, slip = ((const mslip_contact *)contact)->slip_force;
+    const double k = *((const sliders *)bank)->stiffness, slip = *((const sliders *)bank)->slip;
     for (size_t i = 0; i < n; ++i) {
         const double trial = k * displacement[i];
         force[i] = trial < slip ? trial : slip;
@@ -37,9 +34,9 @@ static double run(void *context)
     return force[n - 1] + stiffness[n / 2];
 }
 
-static entry *add(const char *method, curve *curve, const void *law, double parameter, int all)
+static void add(const char *method, curve *curve, const void *law, double parameter, int all)
 {
-    job *j = context_of(sizeof *j);
+    job *j = allocate(sizeof *j);
     double force[FEW], stiffness[FEW];
     *j = (job) { curve, law, all };
     entry *e = entry_add("force", method, run, j, all ? POINTS : FEW);
@@ -47,48 +44,45 @@ static entry *add(const char *method, curve *curve, const void *law, double para
     e->error = 0.0;
     curve(law, FEW, few, force, stiffness);
     for (int i = 0; i < FEW; ++i) {
-        e->error = fmax(e->error, fabs(force[i] / truth[i] - 1.0));
+        e->error = fmax(e->error, fabs(force[i] / exact[i] - 1.0));
     }
-    return e;
 }
 
-static const paper *quadrature(const subject *s, int nodes, double tolerance)
+static double prepare(void *parameters)
 {
-    paper *p = context_of(sizeof *p);
-    *p = paper_of(&s->law, nodes, tolerance);
-    return p;
+    mslip_contact contact;
+    mslip_contact_init(parameters, &contact);
+    return contact.slip_displacement;
 }
 
-void task_force(const subject *s, const extent *x)
+void task_force(const test_case *c, const extent *x)
 {
     for (int a = 0; a < x->amplitudes; ++a) {
-        const double reached = x->amplitude[a] * s->contact.slip_displacement;
-        const size_t first = entry_count;
+        const size_t first = entry_count, mark = memory_mark();
+        const double largest = x->amplitude[a] * c->contact.slip_displacement;
         for (int i = 0; i < POINTS; ++i) {
-            /* From half of it to all of it, in no order: nothing may be guessed from the point before. */
-            points[i] = reached * (0.5 + 0.5 * (1 + i * 617 % POINTS) / POINTS);
+            points[i] = largest * (0.5 + 0.5 * (1 + i * 617 % POINTS) / POINTS); /* in irregular order */
         }
         for (int i = 0; i < FEW; ++i) {
-            double ignored;
+            double value[2];
             few[i] = points[i * STRIDE];
-            reference_curve(s->truth, few[i], &truth[i], &ignored);
+            truth(&c->parameters, "force", 1, &few[i], 2, value);
+            exact[i] = value[0];
         }
-        add("microslip", microslip_curve, &s->contact, 0, 1);
-        add("closed form by Newton", closed_form_curve, &s->law, 0, 1);
-        for (int n = 8; n <= x->most_nodes; n *= 2) {
-            add("Eq. 10 by Gauss-Legendre", paper_curve, quadrature(s, n, 0.0), n, 0);
+        add("microslip", microslip_curve, &c->contact, -1.0, 1);
+        for (int k = 0; k < RULES; ++k) {
+            add("quadrature", paper_curve, &c->paper[k], c->paper[k].nodes, 0);
         }
-        for (double tolerance = 1e-2; tolerance > 5e-13; tolerance *= 0.01) {
-            add("Eq. 10 by adaptive Gauss-Kronrod", paper_curve, quadrature(s, 0, tolerance), tolerance, 0);
+        for (int k = 1; k < BANKS && (int)c->bank[k].n <= x->most_sliders; ++k) {
+            add("sliders", sliders_curve, &c->bank[k], (double)c->bank[k].n, c->bank[k].n <= 256);
         }
-        for (int n = 4; n <= x->most_sliders; n *= 4) {
-            add("sliders", sliders_curve, bank_of(s, n), n, n <= 256);
-        }
-        add("Jenkins", jenkins_curve, &s->contact, 0, 1)->is_yardstick = 1;
-        for (size_t i = first; i < entry_count; ++i) {
-            entries[i].shape = s->shape;
-            entries[i].amplitude = x->amplitude[a];
-        }
-        measure(first);
+        add("spring-slider", jenkins_curve, &c->bank[0], -1.0, 1);
+        measure(first, c->shape, x->amplitude[a], mark);
     }
+    const size_t first = entry_count;
+    double value[5];
+    truth(&c->parameters, "contact", 0, NULL, 5, value);
+    entry *e = entry_add("preparation", "microslip", prepare, (void *)&c->parameters, 1);
+    e->error = fabs(c->contact.slip_displacement / value[2] - 1.0);
+    measure(first, c->shape, -1.0, memory_mark());
 }

@@ -1,143 +1,121 @@
-/* task_harmonic.c: harmonic force of a motion of 1 to 9 harmonics by samples, with and without its Jacobian. */
-#include "measure.h"
-#include "tasks.h"
+/* task_harmonic.c: harmonic force of a motion of one to nine harmonics from samples, with and without its Jacobian. */
+#include "cases.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 19, MOST_SAMPLES = 1024 };
-
-typedef void aft_method(aft *a, const sliders *s, const double *displacement, double *force, double *jacobian);
+enum { MOST = 19, COMPARED = 128 }; /* coefficients; samples at which sliders are compared at equal samples */
 
 typedef struct {
-    aft_method *method; /* NULL: microslip, or the closed form where there is a law */
-    const law *law;
+    aft_method *method; /* NULL: microslip */
     aft *aft;
     const sliders *sliders;
     const mslip_contact *contact;
     double *workspace;
-    int n, samples;
+    int jacobian_requested;
     double displacement[MOST], force[MOST], jacobian[MOST * MOST];
 } job;
 
 static double run(void *context)
 {
     job *j = context;
-    double *jacobian = j->n > 0 ? j->jacobian : NULL;
+    double *jacobian = j->jacobian_requested ? j->jacobian : NULL;
     if (j->method) {
         j->method(j->aft, j->sliders, j->displacement, j->force, jacobian);
-    } else if (j->law) {
-        static double forces[2 * MOST_SAMPLES], stiffness[2 * MOST_SAMPLES];
-        const size_t samples = (size_t)j->samples;
-        closed_form_path(j->law, 2 * samples, aft_displacements(j->aft, j->displacement), forces, stiffness);
-        aft_transform(j->aft, forces + samples, j->force);
     } else {
         mslip_harmonic_force(j->contact, j->workspace, j->displacement, j->force, jacobian, NULL);
     }
     return j->force[1] + j->jacobian[1];
 }
 
-static void release_aft(void *a)
-{
-    aft_free(a);
-}
-
 /* Error of the first harmonic, relative to it. */
-static double first_harmonic(const double *got, const double *truth)
+static double first_harmonic(const double *got, const double *exact)
 {
-    return hypot(got[1] - truth[1], got[2] - truth[2]) / hypot(truth[1], truth[2]);
+    return hypot(got[1] - exact[1], got[2] - exact[2]) / hypot(exact[1], exact[2]);
 }
 
-typedef struct { const double *displacement, *limit, *sums; int harmonics, samples, jacobian; } call;
+typedef struct { int harmonics, samples, jacobian; const double *displacement, *exact, *sums; } call;
 
-static entry *add(const call *c, const char *method, job j, double parameter)
+static job *add(const call *c, const char *method, job j, double parameter)
 {
-    job *kept = context_of(sizeof *kept);
+    job *kept = allocate(sizeof *kept);
     *kept = j;
-    kept->samples = c->samples;
-    kept->n = c->jacobian ? 2 * c->harmonics + 1 : 0;
+    kept->jacobian_requested = c->jacobian;
     memcpy(kept->displacement, c->displacement, sizeof(double) * (size_t)(2 * c->harmonics + 1));
     entry *e = entry_add("harmonic", method, run, kept, 1);
     e->harmonics = c->harmonics;
     e->samples = c->samples;
     e->jacobian = c->jacobian;
     e->parameter = parameter;
-    sink = run(kept);
-    e->error = first_harmonic(kept->force, c->limit);
-    if (c->sums) {
+    run(kept);
+    e->error = first_harmonic(kept->force, c->exact);
+    if (c->samples == COMPARED) {
         e->sample_error = first_harmonic(kept->force, c->sums);
     }
-    return e;
-}
-
-static aft *tables(int harmonics, int samples, size_t n)
-{
-    aft *a = aft_of(harmonics, samples, n);
-    release_later(a, release_aft);
-    return a;
+    return kept;
 }
 
 static double *workspace_of(int harmonics, int samples, int32_t rule)
 {
-    const size_t h = (size_t)harmonics, n = (size_t)samples;
-    const size_t length = mslip_harmonic_workspace_length(h, n, rule);
-    double *workspace = context_of(length * sizeof *workspace);
-    succeed(mslip_harmonic_workspace_init(h, n, rule, length, workspace));
+    const size_t h = (size_t)harmonics, n = (size_t)samples, length = mslip_harmonic_workspace_length(h, n, rule);
+    double *workspace = allocate(length * sizeof *workspace);
+    require(mslip_harmonic_workspace_init(h, n, rule, length, workspace));
     return workspace;
 }
 
-void task_harmonic(const subject *s, const extent *x, int harmonics)
+/* Largest difference of the Jacobians of two methods, over the initial stiffness. */
+static double jacobian_difference(const test_case *t, int n, const job *a, const job *b)
 {
-    for (int a = 0; a < x->amplitudes; ++a) {
-        const double size = x->amplitude[a] * s->contact.slip_displacement;
-        const size_t first = entry_count;
-        const sliders *jenkins = kept(jenkins_of(s, size));
-        double displacement[MOST], limit[MOST];
-        motion_of(harmonics, size, displacement);
-        reference_harmonics(s->truth, harmonics, displacement, limit);
+    double difference = 0.0;
+    for (int i = 0; i < n * n; ++i) {
+        difference = fmax(difference, fabs(a->jacobian[i] - b->jacobian[i]) / t->contact.initial_stiffness);
+    }
+    return difference;
+}
 
-        for (int samples = x->least_samples; samples <= x->most_samples; samples *= 2) {
-            if (samples <= 2 * harmonics) {
-                continue;
-            }
-            double sums[MOST];
-            /* In quadruple precision many samples take long. */
-            const int known = samples <= 128;
-            if (known) {
-                reference_samples(s->truth, harmonics, samples, displacement, sums);
-            }
-            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-                const call c = { displacement, limit, known ? sums : NULL, harmonics, samples, jacobian };
-                job j = { .contact = &s->contact, .workspace = workspace_of(harmonics, samples, MSLIP_UNIFORM_SAMPLING) };
-                add(&c, "microslip", j, 0);
-                j.workspace = workspace_of(harmonics, samples, MSLIP_EVENT_DRIVEN);
-                add(&c, "microslip event-driven", j, 0)->sample_error = -1.0;
-                if (!jacobian) {
-                    j = (job) { .law = &s->law, .aft = tables(harmonics, samples, 1) };
-                    add(&c, "closed form by Newton", j, 0);
-                }
-                j = (job) { .sliders = jenkins, .aft = tables(harmonics, samples, 1) };
-                j.method = jenkins_stepped;
-                add(&c, "Jenkins", j, 0)->is_yardstick = 1;
-                j.method = sliders_by_reversals;
-                add(&c, "Jenkins by reversals", j, 0);
-                for (int n = 4; samples == 128 && n <= x->most_sliders; n *= 4) {
-                    j = (job) { .sliders = bank_of(s, n), .aft = tables(harmonics, samples, (size_t)n) };
-                    j.method = sliders_stepped;
-                    add(&c, "sliders", j, n);
-                    j.method = sliders_by_reversals;
-                    add(&c, "sliders by reversals", j, n);
-                    j.sliders = even_bank_of(s, n);
-                    j.method = sliders_stepped;
-                    add(&c, "sliders evenly spaced", j, n);
-                }
-            }
+static void add_methods(const test_case *t, const call *c, const extent *x, const sliders *jenkins)
+{
+    const int h = c->harmonics, n = c->samples;
+    job j = { .contact = &t->contact, .workspace = workspace_of(h, n, MSLIP_EVENT_DRIVEN) };
+    add(c, "microslip event-driven", j, -1.0);
+    j.workspace = workspace_of(h, n, MSLIP_UNIFORM_SAMPLING);
+    const job *own = add(c, "microslip", j, -1.0);
+    j = (job) { .method = jenkins_aft, .sliders = jenkins, .aft = aft_of(h, n) };
+    const job *stepped = add(c, "spring-slider", j, -1.0);
+    j.method = sliders_aft;
+    const job *other = add(c, "spring-slider by reversals", j, -1.0);
+    if (c->jacobian) {
+        check_below("Jacobian of a slider, by two methods", jacobian_difference(t, 2 * h + 1, stepped, other), 1e-12);
+    }
+    for (int k = 1; n == COMPARED && k < BANKS && (int)t->bank[k].n <= x->most_sliders; ++k) {
+        j.sliders = &t->bank[k];
+        other = add(c, "sliders", j, (double)t->bank[k].n);
+        if (t->bank[k].n == 1024 && c->jacobian) {
+            check_below("Jacobian of 1024 sliders", jacobian_difference(t, 2 * h + 1, own, other), 1e-2);
         }
-        for (size_t i = first; i < entry_count; ++i) {
-            entries[i].shape = s->shape;
-            entries[i].amplitude = x->amplitude[a];
+    }
+}
+
+void task_harmonic(const test_case *t, const extent *x)
+{
+    for (int o = 0; o < x->orders; ++o) {
+        for (int a = 0; a < x->amplitudes; ++a) {
+            const int harmonics = x->order[o], coefficients = 2 * harmonics + 1;
+            const double size = x->amplitude[a] * t->contact.slip_displacement;
+            const size_t first = entry_count, mark = memory_mark();
+            const sliders jenkins = jenkins_fitted(&t->contact, size);
+            double arguments[1 + MOST] = { 0.0 }, exact[MOST], sums[MOST];
+            motion_of(harmonics, size, arguments + 1);
+            truth(&t->parameters, "harmonic", 1 + coefficients, arguments, coefficients, exact);
+            arguments[0] = COMPARED;
+            truth(&t->parameters, "harmonic", 1 + coefficients, arguments, coefficients, sums);
+            for (int samples = x->least_samples; samples <= x->most_samples; samples *= 2) {
+                for (int jacobian = 0; samples > 2 * harmonics && jacobian <= 1; ++jacobian) {
+                    const call c = { harmonics, samples, jacobian, arguments + 1, exact, sums };
+                    add_methods(t, &c, x, &jenkins);
+                }
+            }
+            measure(first, t->shape, x->amplitude[a], mark);
         }
-        measure(first);
     }
 }

@@ -19,7 +19,7 @@ if cargo-deny fetch db > /dev/null 2>&1; then
 else
     echo 'The database of advisories cannot be reached: advisories and withdrawn versions are NOT checked.'
 fi
-for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
+for manifest in Cargo.toml benches/instructions/Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
     grep -q '^\[workspace\]' "$manifest" || continue # a member is checked with its workspace
     for subject in $subjects; do
         check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --locked --config deny.toml check "$subject"

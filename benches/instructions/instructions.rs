@@ -1,0 +1,247 @@
+//! Instruction counts of calls of the C interface, and relations between them that the documentation promises to users.
+//!
+//! Counts under callgrind are reproducible to the instruction, unlike times, but depend on the compiler and on the C library.
+//! Relations between counts of one build do not; they are checked after the last benchmark, and a violated one fails the run.
+//! `run.sh --save-baseline=main` and later `run.sh --baseline=main` compare two builds count by count.
+
+use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
+use microslip::ffi::*;
+use microslip::{Material, Parameters};
+use std::f64::consts::TAU;
+use std::mem::MaybeUninit;
+use std::ptr::null_mut;
+
+/// The first count is below this ratio times the second, and why.
+const RELATIONS: [(&str, f64, &str, &str); 22] = [
+    ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
+    ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
+    ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
+    ("update_force", 0.9, "update", "the force does not need the energy"),
+    ("harmonics_force", 0.9, "harmonics", "the force does not need the Jacobian"),
+    ("event_driven_force", 0.9, "event_driven", "the force does not need the Jacobian"),
+    ("curve_gross_slip", 0.25, "curve", "in gross slip no interpolant is evaluated"),
+    ("path_gross_slip", 0.5, "path", "in gross slip no interpolant is evaluated"),
+    ("harmonics_gross_slip", 0.5, "harmonics", "in gross slip no derivatives are summed"),
+    ("harmonics_open", 0.08, "harmonics", "an open contact has no force"),
+    ("harmonics_odd", 0.75, "harmonics", "only half a period of a half-wave symmetric motion is computed"),
+    ("batch_stiffness_inactive", 0.05, "batch_stiffness", "inactive items are skipped"),
+    ("batch_update_inactive", 0.05, "batch_update", "inactive items are skipped"),
+    ("batch_harmonics_inactive", 0.05, "batch_harmonics", "inactive items are skipped"),
+    ("batch_stiffness_open", 0.12, "batch_stiffness", "an open contact has no force"),
+    ("batch_update_open", 0.6, "batch_update", "an open contact has no force, but a state"),
+    ("batch_harmonics_open", 0.05, "batch_harmonics", "an open contact has no force"),
+    ("batch_stiffness_shared", 1.05, "batch_stiffness", "items may share a contact at no cost"),
+    ("batch_update_shared", 1.05, "batch_update", "items may share a contact at no cost"),
+    ("batch_harmonics_shared", 1.05, "batch_harmonics", "items may share a contact at no cost"),
+    ("harmonics_force", 2.2, "curve_force", "a sample costs a point of the curve and two transforms"),
+    ("event_driven_force", 4.0, "harmonics_force", "the documented cost of the event-driven rule"),
+];
+
+const POINTS: usize = 128; // of the curve, of a path, samples and items
+const HARMONICS: usize = 5;
+const N: usize = 2 * HARMONICS + 1;
+const STATE: usize = 5 + 3 * 16; // 16 reversals
+
+type Call = Box<dyn FnMut() -> i32>;
+
+/// Lazy initialisation belongs to the first call, which is not counted.
+fn prepared(mut call: impl FnMut() -> i32 + 'static) -> Call {
+    assert_eq!(call(), MSLIP_OK);
+    Box::new(call)
+}
+
+/// Arrays live until the process ends: one call is counted in each.
+fn array<T>(item: impl FnMut(usize) -> T) -> *mut T {
+    (0..POINTS).map(item).collect::<Vec<_>>().leak().as_mut_ptr()
+}
+
+/// The first `requested` outputs; the others are NULL.
+fn outputs<const K: usize>(requested: usize) -> [*mut f64; K] {
+    std::array::from_fn(|k| if k < requested { vec![0.0; POINTS * N * N].leak().as_mut_ptr() } else { null_mut() })
+}
+
+fn contact(normal_force: f64) -> mslip_contact {
+    let parameters = Parameters {
+        flat_half_width: 3e-4,
+        edge_radius: 2e-3,
+        length: 2e-2,
+        normal_force,
+        friction_coefficient: 0.4,
+        material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+        ..Parameters::default()
+    };
+    let mut contact = MaybeUninit::uninit();
+    // SAFETY: valid pointers; the contact is initialised if the status is MSLIP_OK.
+    unsafe {
+        assert_eq!(mslip_contact_init(&parameters, contact.as_mut_ptr()), MSLIP_OK);
+        contact.assume_init()
+    }
+}
+
+// All pointers below are NULL or point to arrays of `array` and `outputs` that are long enough.
+
+fn curve(first: f64, last: f64, requested: usize) -> Call {
+    let c = contact(200.0);
+    let u = array(|i| c.slip_displacement * (first + (last - first) * (i + 1) as f64 / POINTS as f64));
+    let [force, stiffness, stick] = outputs(requested);
+    prepared(move || unsafe { mslip_monotonic_force(&c, POINTS, u, force, stiffness, stick) })
+}
+
+fn stiffness(imaginary_alone: bool) -> Call {
+    let c = contact(200.0);
+    let amplitude = array(|i| c.slip_displacement * (i as f64 + 0.5) / POINTS as f64);
+    let [imaginary, real, d_real, d_imaginary] = outputs(if imaginary_alone { 1 } else { 4 });
+    prepared(move || unsafe { mslip_complex_stiffness(&c, POINTS, amplitude, real, imaginary, d_real, d_imaginary) })
+}
+
+fn update(requested: usize) -> Call {
+    let c = contact(200.0);
+    let [old, new] = [0.0; 2].map(|initial| array(|_| initial));
+    let reversals = array(|i| c.slip_displacement * [0.8, -0.6, 0.4, -0.2][i % 4]);
+    let [force, stiffness, dissipated] = outputs(requested);
+    let [none] = outputs(0);
+    unsafe {
+        assert_eq!(mslip_state_init(STATE, old), MSLIP_OK);
+        assert_eq!(mslip_masing_path(&c, STATE, old, 4, reversals, old, none, none, none), MSLIP_OK);
+    }
+    let u = 0.1 * c.slip_displacement;
+    prepared(move || unsafe { mslip_masing_update(&c, STATE, old, u, new, force, stiffness, dissipated) })
+}
+
+fn path(displacement: fn(f64) -> f64) -> Call {
+    let c = contact(200.0);
+    let [old, new] = [0.0; 2].map(|initial| array(|_| initial));
+    let u = array(|i| c.slip_displacement * displacement((i as f64 + 0.5) / POINTS as f64));
+    let [force, stiffness, dissipated] = outputs(3);
+    unsafe { assert_eq!(mslip_state_init(STATE, old), MSLIP_OK) };
+    prepared(move || unsafe { mslip_masing_path(&c, STATE, old, POINTS, u, new, force, stiffness, dissipated) })
+}
+
+fn harmonics(rule: i32, normal_force: f64, displacement: [f64; N], requested: usize) -> Call {
+    let (c, slip_displacement) = (contact(normal_force), contact(200.0).slip_displacement);
+    let length = mslip_harmonic_workspace_length(HARMONICS, POINTS, rule);
+    let workspace = vec![0.0; length].leak().as_mut_ptr();
+    let u = displacement.map(|u| u * slip_displacement);
+    let [force, jacobian, dissipated] = outputs(requested);
+    unsafe { assert_eq!(mslip_harmonic_workspace_init(HARMONICS, POINTS, rule, length, workspace), MSLIP_OK) };
+    prepared(move || unsafe { mslip_harmonic_force(&c, workspace, u.as_ptr(), force, jacobian, dissipated) })
+}
+
+struct Batch {
+    n_contacts: usize,
+    contacts: *mut mslip_contact,
+    index: *mut i32,
+    active: *mut i32,
+    u: *mut f64, // also amplitudes
+}
+
+/// Items of a contact each, or of one for all.
+fn batch(normal_force: f64, shared: bool, active: i32) -> Batch {
+    let slip_displacement = contact(200.0).slip_displacement;
+    Batch {
+        n_contacts: if shared { 1 } else { POINTS },
+        contacts: array(|_| contact(normal_force)),
+        index: if shared { array(|_| 0) } else { null_mut() },
+        active: array(|_| active),
+        u: array(|i| slip_displacement * (i as f64 + 0.5) / POINTS as f64),
+    }
+}
+
+fn batch_stiffness(b: Batch) -> Call {
+    let [p, q, r, s] = outputs(4);
+    prepared(move || unsafe {
+        mslip_batch_complex_stiffness(POINTS, b.n_contacts, b.contacts, b.index, b.active, b.u, p, q, r, s)
+    })
+}
+
+fn batch_update(b: Batch) -> Call {
+    let [old, new] = [0.0; 2].map(|initial| array(|_| [initial; STATE]).cast::<f64>());
+    let [p, q, r] = outputs(3);
+    for i in 0..POINTS {
+        unsafe { assert_eq!(mslip_state_init(STATE, old.add(i * STATE)), MSLIP_OK) };
+    }
+    prepared(move || unsafe {
+        mslip_batch_masing_update(POINTS, b.n_contacts, b.contacts, b.index, b.active, STATE, old, b.u, new, p, q, r)
+    })
+}
+
+fn batch_harmonics(b: Batch) -> Call {
+    let length = mslip_harmonic_workspace_length(1, 64, UNIFORM);
+    let workspace = vec![0.0; length].leak().as_mut_ptr();
+    let motion = unsafe { array(|i| [0.05, 0.7, 0.2].map(|u| u * *b.u.add(i))).cast() };
+    let [p, q, r] = outputs(3);
+    unsafe { assert_eq!(mslip_harmonic_workspace_init(1, 64, UNIFORM, length, workspace), MSLIP_OK) };
+    prepared(move || unsafe {
+        mslip_batch_harmonic_force(POINTS, b.n_contacts, b.contacts, b.index, b.active, workspace, motion, p, q, r)
+    })
+}
+
+const UNIFORM: i32 = MSLIP_UNIFORM_SAMPLING;
+const EVENTS: i32 = MSLIP_EVENT_DRIVEN;
+const ODD: [f64; N] = [0.0, 0.7, 0.2, 0.0, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.0];
+const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.0];
+
+#[library_benchmark]
+#[bench::curve(curve(0.0, 0.99, 3))]
+#[bench::curve_force(curve(0.0, 0.99, 1))]
+#[bench::curve_no_output(curve(0.0, 0.99, 0))]
+#[bench::curve_gross_slip(curve(2.0, 9.0, 3))]
+#[bench::stiffness(stiffness(false))]
+#[bench::stiffness_imaginary(stiffness(true))]
+#[bench::update(update(3))]
+#[bench::update_force(update(2))]
+#[bench::path(path(|t| 0.8 * (2.0 * TAU * t).sin()))]
+#[bench::path_gross_slip(path(|t| 2.0 + t))]
+#[bench::harmonics(harmonics(UNIFORM, 200.0, EVEN, 2))]
+#[bench::harmonics_force(harmonics(UNIFORM, 200.0, EVEN, 1))]
+#[bench::harmonics_odd(harmonics(UNIFORM, 200.0, ODD, 2))]
+#[bench::harmonics_gross_slip(harmonics(UNIFORM, 200.0, EVEN.map(|u| 1e3 * u), 2))]
+#[bench::harmonics_open(harmonics(UNIFORM, 0.0, EVEN, 2))]
+#[bench::event_driven(harmonics(EVENTS, 200.0, EVEN, 2))]
+#[bench::event_driven_force(harmonics(EVENTS, 200.0, EVEN, 1))]
+#[bench::batch_stiffness(batch_stiffness(batch(200.0, false, 1)))]
+#[bench::batch_stiffness_shared(batch_stiffness(batch(200.0, true, 1)))]
+#[bench::batch_stiffness_inactive(batch_stiffness(batch(200.0, false, 0)))]
+#[bench::batch_stiffness_open(batch_stiffness(batch(0.0, false, 1)))]
+#[bench::batch_update(batch_update(batch(200.0, false, 1)))]
+#[bench::batch_update_shared(batch_update(batch(200.0, true, 1)))]
+#[bench::batch_update_inactive(batch_update(batch(200.0, false, 0)))]
+#[bench::batch_update_open(batch_update(batch(0.0, false, 1)))]
+#[bench::batch_harmonics(batch_harmonics(batch(200.0, false, 1)))]
+#[bench::batch_harmonics_shared(batch_harmonics(batch(200.0, true, 1)))]
+#[bench::batch_harmonics_inactive(batch_harmonics(batch(200.0, false, 0)))]
+#[bench::batch_harmonics_open(batch_harmonics(batch(0.0, false, 1)))]
+fn count(mut call: Call) -> i32 {
+    call()
+}
+
+/// Instructions of a benchmark, from the profile that callgrind wrote.
+fn instructions(output: &str, name: &str) -> f64 {
+    let path = format!("{output}/instructions/instructions/calls/count.{name}/callgrind.count.{name}.out");
+    let profile = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let total = profile.lines().find_map(|line| line.strip_prefix("totals: ")).expect("a line of totals");
+    total.trim().parse().expect("a count of instructions")
+}
+
+/// Writes a report, which run.sh prints.
+fn check_relations() {
+    let output = std::env::var("GUNGRAUN_HOME").expect("the output directory, set by run.sh");
+    let (mut report, mut failed) = (String::new(), 0);
+    for (smaller, bound, larger, reason) in RELATIONS {
+        let ratio = instructions(&output, smaller) / instructions(&output, larger);
+        let holds = ratio < bound;
+        failed += usize::from(!holds);
+        report += if holds { "ok    " } else { "FAIL  " };
+        report += &format!("{smaller} < {bound} {larger}: {ratio:.3}; {reason}\n");
+    }
+    report += &format!("{} passed, {failed} failed\n", RELATIONS.len() - failed);
+    std::fs::write(output + "/relations", report).expect("a report");
+    assert!(failed == 0, "{failed} relations do not hold");
+}
+
+library_benchmark_group!(name = calls, benchmarks = count);
+main!(
+    config = LibraryBenchmarkConfig::default().tool(Callgrind::with_args(["--cache-sim=no"])),
+    teardown = check_relations(),
+    library_benchmark_groups = calls
+);

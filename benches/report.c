@@ -1,0 +1,232 @@
+/* report.c: errors within their bounds, times at equal error, and medians over contacts and amplitudes as tables. */
+#include "report.h"
+#include "measure.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST = 4096 };
+typedef struct { double value[MOST]; size_t n; int extrapolated; } sample;
+
+static void put(sample *s, double value)
+{
+    if (s->n < MOST && value >= 0.0) {
+        s->value[s->n++] = value;
+    }
+}
+
+static double error_of(const entry *e)
+{
+    return e->sample_error >= 0.0 ? e->sample_error : e->error;
+}
+
+void check_errors(void)
+{
+    static const struct { const char *task, *method; double parameter, bound; } checks[] = {
+        { "force", "microslip", -1.0, 1e-13 }, { "stiffness", "microslip", -1.0, 1e-12 },
+        { "time step", "microslip", -1.0, 1e-13 }, { "preparation", "microslip", -1.0, 1e-14 },
+        { "force", "quadrature", 32.0, 1e-10 }, { "stiffness", "quadrature", 32.0, 1e-6 },
+        { "force", "sliders", 1024.0, 1e-5 }, { "stiffness", "sliders", 1024.0, 1e-3 },
+        { "time step", "sliders", 1024.0, 1e-5 }, { "harmonic", "sliders", 1024.0, 1e-5 },
+        { "force", "spring-slider", -1.0, 0.1 }, { "time step", "spring-slider", -1.0, 0.1 },
+    };
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        char what[128];
+        snprintf(what, sizeof what, "%s, %s, a/b = %g, u = %g u_s", e->task, e->method, e->shape, e->amplitude);
+        for (size_t k = 0; k < sizeof checks / sizeof *checks; ++k) {
+            if (!strcmp(e->task, checks[k].task) && !strcmp(e->method, checks[k].method)
+                && fabs(e->parameter - checks[k].parameter) < 1e-15) {
+                check_below(what, error_of(e), checks[k].bound);
+            }
+        }
+        if (!strcmp(e->task, "harmonic") && !strcmp(e->method, "microslip") && e->sample_error >= 0.0) {
+            check_below(what, e->sample_error, 1e-13);
+        }
+    }
+}
+
+static int same_call(const entry *a, const entry *b)
+{
+    return !strcmp(a->task, b->task) && a->shape == b->shape && a->amplitude == b->amplitude && a->harmonics == b->harmonics
+        && a->samples == b->samples && a->jacobian == b->jacobian;
+}
+
+/* Time of a method at an error, or -1. The error of sliders decreases as sliders^-2: times are interpolated between their
+   numbers and extrapolated beyond the largest. */
+static double time_at(const entry *at, const char *method, double level, int *extrapolated)
+{
+    const int sliders = !strcmp(method, "sliders");
+    const entry *before = NULL;
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (!same_call(e, at) || strcmp(e->method, method)) {
+            continue;
+        }
+        if (error_of(e) <= level) {
+            const double ratio = sliders && before ? log(error_of(before) / level) / log(error_of(before) / error_of(e)) : 1.0;
+            return before ? before->median * pow(e->median / before->median, ratio) : e->median;
+        }
+        before = e;
+    }
+    if (!sliders || !before) {
+        return -1.0;
+    }
+    *extrapolated = 1;
+    return before->median * sqrt(error_of(before) / level);
+}
+
+/* Medians over shapes and amplitudes of one call, for the method whose cost is in the second column. */
+typedef struct { sample own, quadrature, coarse, fine, one; double error; } summary;
+
+static const summary *summary_of(const char *own, const char *task, int harmonics, int samples, int jacobian)
+{
+    static summary s;
+    memset(&s, 0, sizeof s);
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (strcmp(e->task, task) || e->harmonics != harmonics || e->samples != samples || e->jacobian != jacobian) {
+            continue;
+        }
+        if (!strcmp(e->method, "spring-slider")) {
+            const double other = time_at(e, "spring-slider by reversals", INFINITY, &s.one.extrapolated);
+            put(&s.one, other >= 0.0 ? fmin(e->median, other) : e->median);
+        } else if (!strcmp(e->method, own)) {
+            put(&s.own, e->median);
+            if (strcmp(own, "microslip")) { /* event-driven: against exact integrals, not at equal samples */
+                s.error = fmax(s.error, e->error);
+                continue;
+            }
+            s.error = fmax(s.error, error_of(e));
+            if (e->amplitude < 1.0) { /* gross slip needs no quadrature */
+                put(&s.quadrature, time_at(e, "quadrature", 1e-8, &s.quadrature.extrapolated));
+            }
+            put(&s.coarse, time_at(e, "sliders", 1e-4, &s.coarse.extrapolated));
+            put(&s.fine, time_at(e, "sliders", 1e-8, &s.fine.extrapolated));
+        }
+    }
+    return &s;
+}
+
+static const char *text_of(double nanoseconds)
+{
+    static char text[8][32];
+    static int next;
+    char *t = text[next++ % 8];
+    const double units[] = { 1.0, 1e3, 1e6 };
+    const int k = nanoseconds < 999.5 ? 0 : nanoseconds < 999.5e3 ? 1 : 2;
+    static const char *const names[] = { "ns", "µs", "ms" };
+    snprintf(t, sizeof text[0], "%.3g %s", nanoseconds / units[k], names[k]);
+    return t;
+}
+
+static const char *cell(const sample *s)
+{
+    static char text[8][40];
+    static int next;
+    char *t = text[next++ % 8];
+    sample copy = *s;
+    snprintf(t, sizeof text[0], "%s%s", s->n ? text_of(median_of(copy.value, copy.n)) : "–", s->extrapolated ? " *" : "");
+    return t;
+}
+
+static void row(FILE *file, const char *title, const char *own, const char *task, int harmonics, int samples, int jacobian)
+{
+    const summary *s = summary_of(own, task, harmonics, samples, jacobian);
+    if (s->own.n) {
+        fprintf(file, "| %s | %s | %.0e | %s | %s | %s | %s |\n", title, cell(&s->own), s->error, cell(&s->quadrature),
+                cell(&s->coarse), cell(&s->fine), cell(&s->one));
+    }
+}
+
+/* Times of complex stiffness over a uniform range of amplitudes. */
+static void stiffness_range(double shape, sample *s, double *mean, double *worst_at)
+{
+    double worst = 0.0;
+    *mean = 0.0;
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (!strcmp(e->task, "stiffness over amplitude") && (shape < 0.0 || e->shape == shape)) {
+            put(s, e->median);
+            *mean += e->median;
+            *worst_at = e->median > worst ? e->amplitude : *worst_at;
+            worst = fmax(worst, e->median);
+        }
+    }
+    *mean /= s->n ? (double)s->n : 1.0;
+    median_of(s->value, s->n); /* sorts */
+}
+
+void write_readme_table(FILE *file)
+{
+    sample range = { .n = 0 };
+    double mean, at;
+    stiffness_range(-1.0, &range, &mean, &at);
+    fputs("| task | microslip | instead |\n|---|---:|---|\n", file);
+    const summary *s = summary_of("microslip", "force", 0, 0, 0);
+    fprintf(file, "| force and stiffness at a displacement | %s | "
+                  "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n",
+            cell(&s->own), cell(&s->quadrature), cell(&s->one));
+    s = summary_of("microslip", "stiffness", 0, 0, 0);
+    fprintf(file, "| complex stiffness and derivatives | median %s, worst %s | "
+                  "quadrature, error 1e-8: %s; one spring-slider: %s |\n",
+            text_of(range.value[range.n / 2]), text_of(range.value[range.n - 1]), cell(&s->quadrature), cell(&s->one));
+    s = summary_of("microslip", "harmonic", 5, 128, 1);
+    fprintf(file, "| harmonic force and Jacobian, 5 harmonics, 128 samples | %s | "
+                  "parallel sliders, error 1e-4: %s; one spring-slider: %s |\n", cell(&s->own), cell(&s->coarse), cell(&s->one));
+    s = summary_of("microslip", "time step", 0, 0, 0);
+    fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
+            cell(&s->own), cell(&s->coarse), cell(&s->one));
+    s = summary_of("microslip", "preparation", 0, 0, 0);
+    fprintf(file, "| preparation of a contact | %s | – |\n", cell(&s->own));
+}
+
+void write_tables(FILE *file, const char *machine)
+{
+    char title[96];
+    fprintf(file, "Measured on: %s.\n\n", machine);
+    fputs("| task | microslip | error | Eq. 10 by quadrature, 1e-8 | parallel sliders, 1e-4 | parallel sliders, 1e-8 "
+          "| one spring-slider |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
+    row(file, "force and stiffness at a displacement", "microslip", "force", 0, 0, 0);
+    row(file, "complex stiffness and derivatives", "microslip", "stiffness", 0, 0, 0);
+    for (int h = 1; h <= 9; h += 4) {
+        for (int events = 0; events <= 1; ++events) {
+            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
+                snprintf(title, sizeof title, "harmonic force%s%s, H = %d, 128 %s", jacobian ? " and Jacobian" : "",
+                         events ? ", event-driven" : "", h, events ? "nodes" : "samples");
+                row(file, title, events ? "microslip event-driven" : "microslip", "harmonic", h, 128, jacobian);
+            }
+        }
+    }
+    row(file, "step of a time integration", "microslip", "time step", 0, 0, 0);
+    row(file, "preparation of a contact", "microslip", "preparation", 0, 0, 0);
+
+    fputs("\nComplex stiffness with derivatives at 200 single amplitudes, uniformly spaced up to twice the displacement of "
+          "gross slip:\n\n"
+          "| a/b | median | mean | worst | worst at this multiple of gross slip |\n|---:|---:|---:|---:|---:|\n", file);
+    double last = -1.0;
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (!strcmp(e->task, "stiffness over amplitude") && e->shape != last) {
+            sample range = { .n = 0 };
+            double mean, at = 0.0;
+            last = e->shape;
+            stiffness_range(last, &range, &mean, &at);
+            fprintf(file, "| %g | %s | %s | %s | %.2f |\n", last, text_of(range.value[range.n / 2]), text_of(mean),
+                    text_of(range.value[range.n - 1]), at);
+        }
+    }
+
+    fputs("\nOne item of a batch of contacts with different loads, a/b = 0.3, at 0.7 of gross slip (harmonic force and Jacobian "
+          "of one harmonic\nwith 64 samples; force and stiffness of a time step):\n\n"
+          "| contacts | complex stiffness | harmonic force | time step | time step of one spring-slider |\n"
+          "|---:|---:|---:|---:|---:|\n", file);
+    for (double n = 1.0; n <= 1e6; n *= 10.0) {
+        static const char *const methods[] = { "mslip_batch_complex_stiffness", "mslip_batch_harmonic_force",
+                                               "mslip_batch_masing_update", "spring-slider, one step" };
+        sample s[4] = { { .n = 0 } };
+        for (const entry *e = entries; e < entries + entry_count; ++e) {
+            for (int k = 0; k < 4; ++k) {
+                put(&s[k], !strcmp(e->task, "batch") && !strcmp(e->method, methods[k]) && e->parameter == n ? e->median : -1.0);
+            }
+        }
+        if (s[0].n) {
+            fprintf(file, "| %g | %s | %s | %s | %s |\n", n, cell(&s[0]), cell(&s[1]), cell(&s[2]), cell(&s[3]));
+        }
+    }
+}
