@@ -8,7 +8,6 @@ use microslip::ffi::*;
 use microslip::{EllipticParameters, Material, Parameters};
 use std::alloc::{Layout, alloc, dealloc};
 use std::ffi::CStr;
-use std::mem::MaybeUninit;
 use std::ptr::{self, null, null_mut};
 use std::sync::OnceLock;
 
@@ -74,32 +73,29 @@ fn flat(flat_half_width: f64, length: f64) -> Parameters {
 /// Slightly flattened, elliptical, and without friction; initialised once, which takes seconds under Miri.
 fn contacts() -> [Memory<mslip_contact>; 3] {
     static INITIALISED: OnceLock<[mslip_contact; 3]> = OnceLock::new();
-    let initialised = INITIALISED.get_or_init(|| {
-        let rounded = |p: Parameters| {
-            let mut contact = MaybeUninit::uninit();
-            // SAFETY: valid pointers; the contact is initialised after MSLIP_OK.
-            unsafe {
-                assert_eq!(mslip_contact_init(&p, contact.as_mut_ptr()), MSLIP_OK);
-                contact.assume_init()
-            }
-        };
-        let mut ellipse = MaybeUninit::uninit();
-        let p = EllipticParameters {
+    let initialised = |init: &dyn Fn(*mut mslip_contact) -> i32| {
+        let contact = Memory::new(1);
+        assert_eq!(init(contact.start), MSLIP_OK);
+        // SAFETY: one contact, initialised.
+        unsafe { contact.start.read() }
+    };
+    let contacts = INITIALISED.get_or_init(|| {
+        let rounded = flat(1e-6, 0.02);
+        let frictionless = Parameters { friction_coefficient: 0.0, ..flat(1e-4, 0.02) };
+        let ellipse = EllipticParameters {
             semi_axis_x: 1e-4,
             semi_axis_y: 3e-4,
             normal_force: 100.0,
             friction_coefficient: 0.3,
             material: [STEEL; 2],
         };
-        // SAFETY: as above.
-        let ellipse = unsafe {
-            assert_eq!(mslip_contact_init_elliptic(&p, ellipse.as_mut_ptr()), MSLIP_OK);
-            ellipse.assume_init()
-        };
-        let frictionless = Parameters { friction_coefficient: 0.0, ..flat(1e-4, 0.02) };
-        [rounded(flat(1e-6, 0.02)), ellipse, rounded(frictionless)]
+        [
+            initialised(&|contact| unsafe { mslip_contact_init(&rounded, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init_elliptic(&ellipse, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init(&frictionless, contact) }),
+        ]
     });
-    initialised.each_ref().map(copy)
+    contacts.each_ref().map(copy)
 }
 
 /// Contacts may be copied as bytes.

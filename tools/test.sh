@@ -144,7 +144,7 @@ if [ ! -e "$prefix/lib/libmicroslip.a" ]; then
     exit 1
 fi
 step 'archive: symbols and sections' tools/symbols.sh "$prefix"
-for group in arithmetic compilers links sanitizers valgrind threads process stack; do
+for group in arithmetic compilers links sanitizers valgrind threads stack; do
     step "archive in every host: $group" verification/embedding/embedding.sh "$prefix" "$group"
 done
 step 'archive: instructions' benches/instruction_counts/run.sh "$prefix"
