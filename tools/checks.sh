@@ -1,6 +1,6 @@
 # shellcheck shell=sh
-# checks.sh, to be sourced: `check NAME COMMAND...` runs a check, `counts` prints the last line and returns the status of the script.
-# $work is a temporary directory. Commands of several steps are functions that join them by &&: `set -e` is ignored in them.
+# checks.sh, to be sourced: `check NAME COMMAND...` runs a check, `counts` prints the last line and returns the status of the
+# script. $work is a temporary directory. Commands of several steps are functions that join them by &&: `set -e` is ignored there.
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,6 +1,6 @@
 #!/bin/sh
-# miri.sh: tests/ffi.rs under Miri, with stacked borrows and the baseline processor, and with tree borrows and AVX2. Needs the nightly
-# toolchain with Miri, which it installs by rustup; exit status 77 if that is not possible.
+# miri.sh: tests/ffi.rs under Miri, with stacked borrows and the baseline processor, and with tree borrows and AVX2. Needs the
+# nightly toolchain with Miri, which it installs by rustup; exit status 77 if that is not possible.
 set -eu
 
 cd "$(dirname "$0")/.."

@@ -59,7 +59,8 @@ constants() {
     sed -n "$2" "$1" | sed 's/^MSLIP_ABI_VERSION/MSLIP_MODULE_ABI_VERSION/' | grep -v '^MSLIP_VERSION_' | sort
 }
 constants "$prefix/include/microslip.h" 's/^#define \(MSLIP_[A-Z_]*\) \([0-9][0-9]*\)$/\1 \2/p' > "$work/c_constants"
-constants "$prefix/include/microslip.f90" 's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' > "$work/fortran_constants"
+constants "$prefix/include/microslip.f90" \
+    's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' > "$work/fortran_constants"
 
 check 'the archive exports the functions of the header' exports_interface
 check 'the archive depends on the mathematical library only' only_mathematics

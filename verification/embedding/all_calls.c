@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POINTS = 9, HARMONICS = 3, COEFFICIENTS = 2 * HARMONICS + 1, SAMPLES = 64, REVERSALS = 6, STEPS = 41, ITEMS = 2, SLIDERS = 7 };
+enum { POINTS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 6, STEPS = 41, ITEMS = 2, SLIDERS = 7 };
 
 static uint64_t hashed(uint64_t hash, const void *bytes, size_t n)
 {

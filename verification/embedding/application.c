@@ -1,4 +1,4 @@
-/* application.c: prints the hash of all results. The calls leave errno, the rounding mode and the floating-point traps as they were. */
+/* application.c: prints the hash of all results. The calls do not change errno, the rounding mode or the floating-point traps. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* feenableexcept */
 #endif

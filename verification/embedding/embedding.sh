@@ -1,6 +1,6 @@
 #!/bin/sh
-# embedding.sh PREFIX [GROUP...]: the installed archive as an embedded library in calling applications. Negative controls show that a
-# check can fail.
+# embedding.sh PREFIX [GROUP...]: the installed archive as an embedded library in calling applications. Negative controls show
+# that a check can fail.
 #
 #   arithmetic  the library does not replace functions of the application's compiler runtime: results are equal to the last bit
 #   compilers   standards of C and C++, with warnings as errors
@@ -139,8 +139,8 @@ links() {
 
 # --- sanitizers, valgrind, threads ---
 
-# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented. The option is not yet stable, and the compiled parts of
-# Rust's library are not instrumented.
+# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented. The option is not yet stable, and the compiled
+# parts of Rust's library are not instrumented.
 instrument() {
     triple=$(rustc -vV | sed -n 's/^host: //p')
     instrumented=target/$1/$triple/release/libmicroslip.a

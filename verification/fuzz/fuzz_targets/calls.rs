@@ -68,7 +68,8 @@ enum Function {
 #[derive(Arbitrary, Clone, Copy, Debug, PartialEq)]
 enum Fault {
     None,
-    NoneEither,
+    /// The same, for as many valid as invalid pointers.
+    NoneAgain,
     NullContact,
     NullState,
     NullWorkspace,
@@ -572,6 +573,7 @@ impl Memory {
         let contact = |i: usize| index.as_ref().map_or(i, |index: &Vec<i32>| index[i] as usize);
         let is_active = |i: usize| active.as_ref().is_none_or(|active: &Vec<i32>| active[i] != 0);
         let slots = (0..n).map(|i| is_active(i).then(|| contact(i))).collect();
+        // Indices beyond the contacts, rarely.
         let n_contacts = if call.omitted < 0xf0 { CONTACTS } else { call.omitted as usize % CONTACTS };
         Items { n_contacts, index, active, slots, contacts: self.contacts.as_ptr().cast() }
     }

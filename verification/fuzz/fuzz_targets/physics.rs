@@ -101,7 +101,7 @@ impl Stepper {
         (force, stiffness, dissipated)
     }
 
-    /// The values in use: a header of 5 doubles, whose first holds the number of reversals in its last 40 bits, and 3 doubles for each.
+    /// The values in use: a header of 5 doubles, whose first holds the number of reversals in its last 40 bits, and 3 for each.
     fn used(&self) -> Vec<f64> {
         let depth = self.state[0].to_bits() & 0xff_ffff_ffff;
         self.state[..5 + 3 * depth as usize].to_vec()

@@ -18,27 +18,10 @@ pub enum Number {
     Bits(u64),
 }
 
+#[rustfmt::skip]
 const SPECIAL: [f64; 20] = [
-    0.0,
-    -0.0,
-    1.0,
-    -1.0,
-    5e-324,
-    -5e-324,
-    f64::MIN_POSITIVE,
-    1e-300,
-    1e-160,
-    1e-8,
-    0.5,
-    1e150,
-    -1e150,
-    1.000_000_000_000_000_2e150,
-    1e160,
-    f64::MAX,
-    f64::MIN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::NAN,
+    0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, f64::MIN_POSITIVE, 1e-300, 1e-160, 1e-8, 0.5, 1e150, -1e150, 1.000_000_000_000_000_2e150,
+    1e160, f64::MAX, f64::MIN, f64::INFINITY, f64::NEG_INFINITY, f64::NAN,
 ];
 
 /// The numbers of an input so far: return points and neighbouring values need repetitions.
