@@ -4,6 +4,11 @@
 //! Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access, use of an
 //! invalidated reference and race between threads is an error.
 
+#![allow(
+    clippy::undocumented_unsafe_blocks,
+    reason = "all calls: each pointer is rejected or valid for the length that is passed"
+)]
+
 use microslip::ffi::*;
 use microslip::{EllipticParameters, Material, Parameters};
 use std::alloc::{Layout, alloc, dealloc};
@@ -90,9 +95,9 @@ fn contacts() -> [Memory<mslip_contact>; 3] {
             material: [STEEL; 2],
         };
         [
-            initialised(&|contact| unsafe { mslip_contact_init(&rounded, contact) }),
-            initialised(&|contact| unsafe { mslip_contact_init_elliptic(&ellipse, contact) }),
-            initialised(&|contact| unsafe { mslip_contact_init(&frictionless, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init(&raw const rounded, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init_elliptic(&raw const ellipse, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init(&raw const frictionless, contact) }),
         ]
     });
     contacts.each_ref().map(copy)

@@ -1,7 +1,7 @@
 #!/bin/sh
-# coverage.sh [PERCENT]: line coverage of src/, without its test modules, by the Rust tests and the C drivers that they run; fails
-# below 98 %. Lists the lines that are not covered. Needs the Rust component llvm-tools, which it installs by rustup; exit status 77
-# if that is not possible.
+# coverage.sh [PERCENT]: line coverage of src/, without its test modules, by the unit tests and tests/ffi.rs; fails below 98 %. Lists
+# the lines that are not covered. Needs the Rust component llvm-tools, which it installs by rustup; exit status 77 if that is not
+# possible.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -20,14 +20,13 @@ mkdir -p "$build"
 printf '#!/bin/sh\nexec "$@" -Cinstrument-coverage\n' > "$build/rustc"
 chmod +x "$build/rustc"
 export RUSTC_WORKSPACE_WRAPPER="$build/rustc" CARGO_TARGET_DIR="$build" LLVM_PROFILE_FILE="$build/profiles/%m-%p.profraw"
-"$CARGO" test --release --locked --package microslip --no-fail-fast > "$build/log" 2>&1 ||
+"$CARGO" test --release --locked --package microslip --lib --test ffi > "$build/log" 2>&1 ||
     { cat "$build/log"; echo '0 passed, 1 failed'; exit 1; }
 "$tools/llvm-profdata" merge --sparse "$build"/profiles/*.profraw -o "$build/merged.profdata"
 
 # Each program separately: llvm-cov omits functions of which there are different copies.
-for program in $(sed -n 's/^ *Running .*(\(.*\))$/\1/p' "$build/log") "$build"/tmp/c_drivers/*; do
-    [ ! -f "$program" ] || [ ! -x "$program" ] ||
-        "$tools/llvm-cov" export --format=lcov --instr-profile "$build/merged.profdata" "$program" --sources src
+sed -n 's/^ *Running .*(\(.*\))$/\1/p' "$build/log" | while read -r program; do
+    "$tools/llvm-cov" export --format=lcov --instr-profile "$build/merged.profdata" "$program" --sources src
 done > "$build/lcov"
 
 # A test module is the end of its file.
