@@ -1,7 +1,7 @@
 #!/bin/sh
-# coverage.sh [PERCENT]: line coverage of src/, without its test modules, by the unit tests and tests/ffi.rs; fails below 98 %. Lists
-# the lines that are not covered. Needs the Rust component llvm-tools, which it installs by rustup; exit status 77 if that is not
-# possible.
+# coverage.sh [PERCENT]: line coverage of src/, without its test modules, by the unit tests and tests/ffi.rs; fails below 98 %.
+# Lists the lines that are not covered. Needs the Rust component llvm-tools, which it installs by rustup; exit status 77 if that
+# is not possible.
 set -eu
 
 cd "$(dirname "$0")/.."
