@@ -1,18 +1,22 @@
 //! Calls of every function of the C interface with memory of exact length: each array is an allocation of its own, and outputs are
 //! uninitialised.
 //!
-//! Without Miri these are plain tests. With it (`tools/miri.sh`) each access beyond an array, each read of uninitialised memory,
-//! each misaligned access, each use of an invalidated reference and each race between threads is an error.
+//! Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access, use of an
+//! invalidated reference and race between threads is an error.
+
+#![allow(
+    clippy::undocumented_unsafe_blocks,
+    reason = "all calls: each pointer is rejected or valid for the length that is passed"
+)]
 
 use microslip::ffi::*;
 use microslip::{EllipticParameters, Material, Parameters};
 use std::alloc::{Layout, alloc, dealloc};
 use std::ffi::CStr;
-use std::mem::MaybeUninit;
 use std::ptr::{self, null, null_mut};
 use std::sync::OnceLock;
 
-/// Uninitialised memory, as from C's malloc.
+/// Uninitialised memory on the heap.
 struct Memory<T> {
     start: *mut T,
     length: usize,
@@ -20,13 +24,13 @@ struct Memory<T> {
 
 impl<T> Memory<T> {
     fn new(length: usize) -> Memory<T> {
-        // SAFETY: the layout has a size, of one item at least.
+        // SAFETY: the size of the layout is not 0.
         let start: *mut T = unsafe { alloc(Memory::<T>::layout(length)) }.cast();
-        assert!(!start.is_null(), "no memory");
+        assert!(!start.is_null(), "out of memory");
         Memory { start, length }
     }
 
-    /// For no items a byte, so that there is an address.
+    /// At least one byte.
     fn layout(length: usize) -> Layout {
         let layout = Layout::array::<T>(length).unwrap();
         Layout::from_size_align(layout.size().max(1), layout.align()).unwrap()
@@ -42,9 +46,9 @@ impl<T> Memory<T> {
         memory
     }
 
-    /// The values, which must have been written.
+    /// The values, all of which were written.
     fn values(&self) -> &[T] {
-        // SAFETY: valid for the length; the test has written it.
+        // SAFETY: valid for the length, and written.
         unsafe { std::slice::from_raw_parts(self.start, self.length) }
     }
 }
@@ -71,35 +75,32 @@ fn flat(flat_half_width: f64, length: f64) -> Parameters {
     }
 }
 
-/// Slightly flattened, elliptical, and without friction: initialised once, because that takes Miri seconds.
+/// Slightly flattened, elliptical, and without friction; initialised once, which takes seconds under Miri.
 fn contacts() -> [Memory<mslip_contact>; 3] {
     static INITIALISED: OnceLock<[mslip_contact; 3]> = OnceLock::new();
-    let initialised = INITIALISED.get_or_init(|| {
-        let rounded = |p: Parameters| {
-            let mut contact = MaybeUninit::uninit();
-            // SAFETY: parameters, and memory of a contact, which is one after MSLIP_OK.
-            unsafe {
-                assert_eq!(mslip_contact_init(&p, contact.as_mut_ptr()), MSLIP_OK);
-                contact.assume_init()
-            }
-        };
-        let mut ellipse = MaybeUninit::uninit();
-        let p = EllipticParameters {
+    let initialised = |init: &dyn Fn(*mut mslip_contact) -> i32| {
+        let contact = Memory::new(1);
+        assert_eq!(init(contact.start), MSLIP_OK);
+        // SAFETY: one contact, initialised.
+        unsafe { contact.start.read() }
+    };
+    let contacts = INITIALISED.get_or_init(|| {
+        let rounded = flat(1e-6, 0.02);
+        let frictionless = Parameters { friction_coefficient: 0.0, ..flat(1e-4, 0.02) };
+        let ellipse = EllipticParameters {
             semi_axis_x: 1e-4,
             semi_axis_y: 3e-4,
             normal_force: 100.0,
             friction_coefficient: 0.3,
             material: [STEEL; 2],
         };
-        // SAFETY: as above.
-        let ellipse = unsafe {
-            assert_eq!(mslip_contact_init_elliptic(&p, ellipse.as_mut_ptr()), MSLIP_OK);
-            ellipse.assume_init()
-        };
-        let smooth = Parameters { friction_coefficient: 0.0, ..flat(1e-4, 0.02) };
-        [rounded(flat(1e-6, 0.02)), ellipse, rounded(smooth)]
+        [
+            initialised(&|contact| unsafe { mslip_contact_init(&raw const rounded, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init_elliptic(&raw const ellipse, contact) }),
+            initialised(&|contact| unsafe { mslip_contact_init(&raw const frictionless, contact) }),
+        ]
     });
-    initialised.each_ref().map(copy)
+    contacts.each_ref().map(copy)
 }
 
 /// Contacts may be copied as bytes.
@@ -129,13 +130,13 @@ fn slip(contact: &Memory<mslip_contact>) -> (f64, f64) {
     (contact.slip_force, contact.slip_displacement)
 }
 
-/// Accepts the call with all of its outputs, each alone, and none; output k has `lengths[k]` doubles. Requested outputs are
-/// written and not NaN. A misaligned output is rejected.
-fn accepted(lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
-    // The C drivers have every subset; Miri takes too long.
+type Outputs<'a> = &'a [*mut f64];
+
+/// Accepted with all outputs, each alone, and none; requested outputs are written and not NaN. A misaligned output is rejected.
+fn accepted(lengths: &[usize], call: impl Fn(Outputs) -> i32) {
+    // The C drivers request every subset; Miri takes too long.
     let alone = if cfg!(miri) { 1 } else { lengths.len() };
-    let each = (0..alone).map(|k| 1 << k);
-    for subset in each.chain([0, u32::MAX]) {
+    for subset in (0..alone).map(|k| 1 << k).chain([0, u32::MAX]) {
         let outputs: Vec<Option<Memory<f64>>> =
             (0..).zip(lengths).map(|(k, &length)| (subset >> k & 1 == 1).then(|| Memory::new(length))).collect();
         let pointers: Vec<*mut f64> =
@@ -152,8 +153,8 @@ fn accepted(lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
     }
 }
 
-/// The call is rejected with this status and modifies no output.
-fn rejected(status: i32, lengths: &[usize], call: impl Fn(&[*mut f64]) -> i32) {
+/// Rejected with this status; no output is modified.
+fn rejected(status: i32, lengths: &[usize], call: impl Fn(Outputs) -> i32) {
     const BEFORE: f64 = 77.0;
     let outputs: Vec<Memory<f64>> = lengths.iter().map(|&length| Memory::of(vec![BEFORE; length])).collect();
     let pointers: Vec<*mut f64> = outputs.iter().map(|output| output.start).collect();
@@ -167,7 +168,7 @@ fn misaligned<T>(pointer: *const T) -> *mut T {
 }
 
 /// NULL, misaligned and invalid contacts are rejected.
-fn needs_contact(lengths: &[usize], call: impl Fn(*const mslip_contact, &[*mut f64]) -> i32) {
+fn check_contact(lengths: &[usize], call: impl Fn(*const mslip_contact, Outputs) -> i32) {
     rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), out));
     let [contact, ..] = contacts();
     rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(misaligned(contact.start), out));
@@ -176,9 +177,89 @@ fn needs_contact(lengths: &[usize], call: impl Fn(*const mslip_contact, &[*mut f
     }
 }
 
+/// A function of a contact and a value: accepted; invalid contacts and values are rejected.
+fn check_value(
+    contact: &Memory<mslip_contact>,
+    lengths: &[usize],
+    value: f64,
+    invalid: &[(i32, f64)],
+    call: impl Fn(*const mslip_contact, f64, Outputs) -> i32,
+) {
+    accepted(lengths, |out| call(contact.start, value, out));
+    check_contact(lengths, |contact, out| call(contact, value, out));
+    for &(status, value) in invalid {
+        rejected(status, lengths, |out| call(contact.start, value, out));
+    }
+}
+
+/// A function of a contact and an array: accepted; NULL, a misaligned array, and an invalid last value are rejected.
+fn check_array(
+    contact: &Memory<mslip_contact>,
+    lengths: &[usize],
+    values: &[f64],
+    invalid: &[(i32, f64)],
+    call: impl Fn(*const mslip_contact, *const f64, Outputs) -> i32,
+) {
+    let x = Memory::of(values.to_vec());
+    accepted(lengths, |out| call(contact.start, x.start, out));
+    check_contact(lengths, |contact, out| call(contact, x.start, out));
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(contact.start, null(), out));
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contact.start, misaligned(x.start), out));
+    for &(status, value) in invalid {
+        let mut values = values.to_vec();
+        values[x.length - 1] = value;
+        let x = Memory::of(values);
+        rejected(status, lengths, |out| call(contact.start, x.start, out));
+    }
+}
+
+/// An array of no values may be NULL; a length beyond the address space is rejected.
+fn check_length(outputs: usize, call: impl Fn(usize, *const f64, Outputs) -> i32) {
+    let x = Memory::of([0.0]);
+    accepted(&vec![0; outputs], |out| call(0, null(), out));
+    rejected(MSLIP_BAD_ARRAY_SIZE, &vec![1; outputs], |out| call(usize::MAX / 8, x.start, out));
+}
+
+/// Number of doubles in a state of two reversals, the shortest.
+const LEAST: usize = 11;
+
+fn unloaded(reversals: usize) -> Memory<f64> {
+    let state = Memory::new(mslip_state_length(reversals));
+    assert_eq!(unsafe { mslip_state_init(state.length, state.start) }, MSLIP_OK);
+    state
+}
+
+/// NULL, misaligned, short, uninitialised and truncated states are rejected; `lengths` are those of the outputs.
+fn check_state(lengths: &[usize], call: impl Fn(usize, *const f64, Outputs) -> i32) {
+    let state = unloaded(2);
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(LEAST, null(), out));
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(0, null(), out));
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(LEAST, misaligned(state.start), out));
+    for length in [0, 5, LEAST - 1] {
+        let short = Memory::of(state.values()[..length].to_vec());
+        rejected(MSLIP_STATE_TOO_SHORT, lengths, |out| call(length, short.start, out));
+    }
+    let mut truncated = state.values().to_vec();
+    truncated[0] = f64::from_bits(truncated[0].to_bits() + 3);
+    let filled = [0, 0x5a, 0xff].map(|byte: u8| vec![f64::from_bits(u64::from_ne_bytes([byte; 8])); LEAST]);
+    for bad in filled.into_iter().chain([truncated]).map(Memory::of) {
+        rejected(MSLIP_BAD_STATE, lengths, |out| call(LEAST, bad.start, out));
+    }
+}
+
+/// Checks a valid state; returns the bound on its error.
+fn state_error(state: &Memory<f64>) -> f64 {
+    let error = Memory::new(1);
+    unsafe {
+        assert_eq!(mslip_state_check(state.length, state.start), MSLIP_OK);
+        assert_eq!(mslip_state_error(state.length, state.start, error.start), MSLIP_OK);
+    }
+    error.values()[0]
+}
+
 #[test]
-fn names_and_versions() {
-    // SAFETY: static messages that end with 0.
+fn versions_and_messages() {
+    // SAFETY: static strings.
     let text = |pointer: *const _| unsafe { CStr::from_ptr(pointer) }.to_str().unwrap().to_owned();
     assert_eq!(text(mslip_version()), env!("CARGO_PKG_VERSION"));
     assert_eq!(mslip_abi_version(), MSLIP_ABI_VERSION);
@@ -189,47 +270,43 @@ fn names_and_versions() {
 
 #[test]
 fn parameters() {
+    let (p, e) = (Memory::<Parameters>::new(1), Memory::<EllipticParameters>::new(1));
+    let (contact, c) = (Memory::<mslip_contact>::new(1), null_mut());
     unsafe {
         mslip_parameters_default(null_mut());
         mslip_elliptic_parameters_default(null_mut());
-        let (p, e) = (Memory::<Parameters>::new(1), Memory::<EllipticParameters>::new(1));
         mslip_parameters_default(p.start);
         mslip_elliptic_parameters_default(e.start);
-        let contact = Memory::<mslip_contact>::new(1);
-        assert_eq!(mslip_contact_init(p.start, contact.start), MSLIP_BAD_FLAT_HALF_WIDTH);
-        assert_eq!(mslip_contact_init_elliptic(e.start, contact.start), MSLIP_BAD_SEMI_AXIS_X);
-        assert_eq!(mslip_contact_init(misaligned(p.start), contact.start), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_contact_init_elliptic(misaligned(e.start), contact.start), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_contact_init(p.start, misaligned(contact.start)), MSLIP_BAD_ALIGNMENT);
         // These have no status and write to any address.
         let room = Memory::<[Parameters; 2]>::new(1);
         mslip_parameters_default(misaligned(room.start.cast()));
         mslip_elliptic_parameters_default(misaligned(room.start.cast()));
-        assert_eq!(mslip_contact_init(null(), contact.start), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_init(p.start, null_mut()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_init_elliptic(null(), contact.start), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_init_elliptic(e.start, null_mut()), MSLIP_NULL_POINTER);
+        for (status, p, e, c) in [
+            (MSLIP_NULL_POINTER, p.start, e.start, c),
+            (MSLIP_NULL_POINTER, null_mut(), null_mut(), contact.start),
+            (MSLIP_BAD_ALIGNMENT, misaligned(p.start), misaligned(e.start), contact.start),
+            (MSLIP_BAD_ALIGNMENT, p.start, e.start, misaligned(contact.start)),
+        ] {
+            assert_eq!([mslip_contact_init(p, c), mslip_contact_init_elliptic(e, c)], [status; 2]);
+        }
+        assert_eq!(mslip_contact_init(p.start, contact.start), MSLIP_BAD_FLAT_HALF_WIDTH);
+        assert_eq!(mslip_contact_init_elliptic(e.start, contact.start), MSLIP_BAD_SEMI_AXIS_X);
     }
 }
 
 #[test]
-fn checks_of_contacts() {
+fn contact_check() {
+    check_contact(&[], |contact, _| unsafe { mslip_contact_check(contact) });
     for contact in contacts() {
         // SAFETY: a contact.
         assert_eq!(unsafe { mslip_contact_check(contact.start) }, MSLIP_OK);
     }
-    let [contact, ..] = contacts();
-    unsafe {
-        assert_eq!(mslip_contact_check(null()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_contact_check(misaligned(contact.start)), MSLIP_BAD_ALIGNMENT);
-        for place in [0, 1, 100, 239, 240] {
-            let [contact, ..] = contacts();
+    for place in [0, 1, 100, 239, 240] {
+        let [contact, ..] = contacts();
+        unsafe {
             let value = &mut (*contact.start).reserved[place];
             *value = f64::from_bits(value.to_bits() ^ 1 << 20);
             assert_eq!(mslip_contact_check(contact.start), MSLIP_BAD_CONTACT);
-        }
-        for bad in bad_contacts() {
-            assert_eq!(mslip_contact_check(bad.start), MSLIP_BAD_CONTACT);
         }
     }
 }
@@ -238,281 +315,183 @@ fn checks_of_contacts() {
 fn tractions_and_slip() {
     for contact in contacts() {
         let (force, half_width) = (0.6 * slip(&contact).0, contact.values()[0].half_width);
-        let x = Memory::of([-0.3, 0.0, 0.99, 1.0, 2.0].map(|x| x * half_width));
-        let of = |contact, x, force, out: &[*mut f64]| unsafe { mslip_tractions(contact, force, 5, x, out[0], out[1]) };
-        accepted(&[5, 5], |out| of(contact.start, x.start, force, out));
-        let slip_of = |contact, x, force, out: &[*mut f64]| unsafe { mslip_slip(contact, force, 5, x, out[0], out[1]) };
-        match slip_of(contact.start, x.start, force, &[null_mut(); 2]) {
-            MSLIP_NOT_AVAILABLE => {
-                rejected(MSLIP_NOT_AVAILABLE, &[5, 5], |o| slip_of(contact.start, x.start, force, o))
-            }
-            _ => accepted(&[5, 5], |out| slip_of(contact.start, x.start, force, out)),
+        let x = [-0.3, 0.0, 0.99, 1.0, 2.0].map(|x| x * half_width);
+        let infinite = [(MSLIP_BAD_POSITION, f64::INFINITY)];
+        let tractions =
+            |contact, force, x, out: Outputs| unsafe { mslip_tractions(contact, force, 5, x, out[0], out[1]) };
+        let slip = |contact, force, x, out: Outputs| unsafe { mslip_slip(contact, force, 5, x, out[0], out[1]) };
+        let is_available = slip(contact.start, force, x.as_ptr(), &[null_mut(); 2]) == MSLIP_OK;
+        check_array(&contact, &[5; 2], &x, &infinite, |contact, x, out| tractions(contact, force, x, out));
+        if is_available {
+            check_array(&contact, &[5; 2], &x, &infinite, |contact, x, out| slip(contact, force, x, out));
+        } else {
+            rejected(MSLIP_NOT_AVAILABLE, &[5; 2], |out| slip(contact.start, force, x.as_ptr(), out));
         }
-        for of in [of, slip_of] {
-            needs_contact(&[5, 5], |contact, out| of(contact, x.start, force, out));
-            rejected(MSLIP_NULL_POINTER, &[5, 5], |out| of(contact.start, null_mut(), force, out));
-            rejected(MSLIP_BAD_ALIGNMENT, &[5, 5], |out| of(contact.start, misaligned(x.start), force, out));
-            rejected(MSLIP_BAD_FORCE, &[5, 5], |out| of(contact.start, x.start, f64::NAN, out));
-            rejected(MSLIP_FORCE_EXCEEDS_SLIP, &[5, 5], |out| of(contact.start, x.start, force + 1e9, out));
-            let bad = Memory::of([0.0, 0.0, 0.0, 0.0, f64::INFINITY]);
-            rejected(MSLIP_BAD_POSITION, &[5, 5], |out| of(contact.start, bad.start, force, out));
+        for function in [tractions, slip] {
+            let at = |force, out: Outputs| function(contact.start, force, x.as_ptr(), out);
+            rejected(MSLIP_BAD_FORCE, &[5; 2], |out| at(f64::NAN, out));
+            rejected(MSLIP_FORCE_EXCEEDS_SLIP, &[5; 2], |out| at(force + 1e9, out));
         }
-        assert_eq!(unsafe { mslip_tractions(contact.start, force, 0, null(), null_mut(), null_mut()) }, MSLIP_OK);
+        check_length(2, |n, x, out| unsafe { mslip_tractions(contact.start, 0.0, n, x, out[0], out[1]) });
     }
 }
 
 #[test]
-fn the_monotonic_curve() {
+fn monotonic_curve() {
     for contact in contacts() {
         let (force, displacement) = slip(&contact);
-        let parts = [0.0, -0.3, 0.8, 1.0];
-        let n = parts.len();
-        let of_force = |contact, n, x: *const f64, out: &[*mut f64]| unsafe {
+        let by_force = |contact, n, x: *const f64, out: Outputs| unsafe {
             mslip_monotonic_displacement(contact, n, x, out[0], out[1], out[2])
         };
-        let of_displacement = |contact, n, x: *const f64, out: &[*mut f64]| unsafe {
+        let by_displacement = |contact, n, x: *const f64, out: Outputs| unsafe {
             mslip_monotonic_force(contact, n, x, out[0], out[1], out[2])
         };
-        for (of, unit, bad, status) in [
-            (of_force as fn(_, _, _, &[*mut f64]) -> i32, force, f64::NAN, MSLIP_BAD_FORCE),
-            (of_force, force, force + 1e9, MSLIP_FORCE_EXCEEDS_SLIP),
-            (of_displacement, displacement, f64::INFINITY, MSLIP_BAD_DISPLACEMENT),
-        ] {
-            let x = Memory::of(parts.map(|part| part * unit));
-            accepted(&[n; 3], |out| of(contact.start, n, x.start, out));
-            accepted(&[0; 3], |out| of(contact.start, 0, null(), out));
-            needs_contact(&[n; 3], |contact, out| of(contact, n, x.start, out));
-            rejected(MSLIP_NULL_POINTER, &[n; 3], |out| of(contact.start, n, null(), out));
-            rejected(MSLIP_BAD_ALIGNMENT, &[n; 3], |out| of(contact.start, n, misaligned(x.start), out));
-            rejected(MSLIP_BAD_ARRAY_SIZE, &[n; 3], |out| of(contact.start, usize::MAX / 8, x.start, out));
-            let x = Memory::of([0.0, bad]);
-            rejected(status, &[2; 3], |out| of(contact.start, 2, x.start, out));
-        }
+        let parts = [0.0, -0.3, 0.8, 1.0];
+        let invalid = [(MSLIP_BAD_FORCE, f64::NAN), (MSLIP_FORCE_EXCEEDS_SLIP, force + 1e9)];
+        check_array(&contact, &[4; 3], &parts.map(|x| x * force), &invalid, |c, x, out| by_force(c, 4, x, out));
+        let invalid = [(MSLIP_BAD_DISPLACEMENT, f64::INFINITY)];
+        let x = parts.map(|x| x * displacement);
+        check_array(&contact, &[4; 3], &x, &invalid, |c, x, out| by_displacement(c, 4, x, out));
+        check_length(3, |n, x, out| by_force(contact.start, n, x, out));
+        check_length(3, |n, x, out| by_displacement(contact.start, n, x, out));
     }
 }
 
-fn unloaded(reversals: usize) -> Memory<f64> {
-    let state = Memory::new(mslip_state_length(reversals));
-    assert_eq!(unsafe { mslip_state_init(state.length, state.start) }, MSLIP_OK);
-    state
+#[test]
+fn state_init_check_and_error() {
+    let init = |n, state| unsafe { mslip_state_init(n, state) };
+    assert_eq!(init(LEAST, null_mut()), MSLIP_NULL_POINTER);
+    assert_eq!(init(LEAST, misaligned(Memory::new(LEAST + 1).start)), MSLIP_BAD_ALIGNMENT);
+    assert_eq!(init(0, Memory::new(0).start), MSLIP_STATE_TOO_SHORT);
+    assert_eq!(init(LEAST - 1, Memory::new(LEAST - 1).start), MSLIP_STATE_TOO_SHORT);
+    assert_eq!(init(usize::MAX, Memory::new(5).start), MSLIP_BAD_ARRAY_SIZE);
+    let state = unloaded(3);
+    let error = |n, state, out: Outputs| unsafe { mslip_state_error(n, state, out[0]) };
+    accepted(&[1], |out| error(state.length, state.start, out));
+    check_state(&[1], error);
+    check_state(&[], |n, state, _| unsafe { mslip_state_check(n, state) });
+    for (place, value) in [(1, f64::NAN), (2, 0.5), (3, f64::INFINITY), (4, f64::NAN)] {
+        let mut values = state.values().to_vec();
+        values[place] = value;
+        let changed = Memory::of(values);
+        assert_eq!(unsafe { mslip_state_check(changed.length, changed.start) }, MSLIP_BAD_STATE);
+    }
 }
 
-/// Uninitialised states, and one with more reversals than fit.
-fn bad_states() -> Vec<Memory<f64>> {
-    let filled = |byte: u8| Memory::of([f64::from_bits(u64::from_ne_bytes([byte; 8])); LEAST]);
-    let mut long = unloaded(2).values().to_vec();
-    long[0] = f64::from_bits(long[0].to_bits() + 3);
-    vec![filled(0), filled(0x5a), filled(0xff), Memory::of(long)]
-}
-
-/// Doubles of a state of two reversals, the shortest.
-const LEAST: usize = 11;
-
-/// Displacements over that of gross slip that nest four reversals, close loops, and slip.
+/// Displacements over that of gross slip with four nested reversals, closed loops, and gross slip.
 const PATH: [f64; 8] = [0.9, -0.5, 0.4, 0.1, 0.2, -0.6, 1.5, 0.0];
 
 #[test]
-fn a_history_step_by_step() {
-    unsafe {
-        assert_eq!(mslip_state_init(LEAST, null_mut()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_state_init(LEAST, misaligned(Memory::new(LEAST + 1).start)), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_state_init(0, Memory::new(0).start), MSLIP_STATE_TOO_SHORT);
-        assert_eq!(mslip_state_init(LEAST - 1, Memory::new(LEAST - 1).start), MSLIP_STATE_TOO_SHORT);
-        assert_eq!(mslip_state_init(usize::MAX, Memory::new(5).start), MSLIP_BAD_ARRAY_SIZE);
-    }
-    let [rounded, _, smooth] = contacts();
-    for contact in [rounded, smooth] {
+fn masing_update() {
+    let update = |contact, n, state: *const f64, u, out: Outputs| unsafe {
+        mslip_masing_update(contact, n, state, u, out[0], out[1], out[2], out[3])
+    };
+    let [rounded, _, frictionless] = contacts();
+    for contact in [rounded, frictionless] {
         let unit = slip(&contact).1;
         let state = unloaded(4);
-        let n = state.length;
-        for part in PATH {
-            let next = Memory::<f64>::new(n);
-            let of = |contact, n, state: *const f64, x, out: &[*mut f64]| unsafe {
-                mslip_masing_update(contact, n, state, x, out[0], out[1], out[2], out[3])
-            };
-            let lengths = [n, 1, 1, 1];
-            // With a new state, then in place.
-            accepted(&lengths, |out| of(contact.start, n, state.start, part * unit, out));
-            assert_eq!(
-                of(contact.start, n, state.start, part * unit, &[next.start, null_mut(), null_mut(), null_mut()]),
-                MSLIP_OK
-            );
-            assert_eq!(next.values()[1], part * unit);
-            check_state(&next);
-            let force = Memory::new(1);
-            assert_eq!(
-                of(contact.start, n, state.start, part * unit, &[state.start, force.start, null_mut(), null_mut()]),
-                MSLIP_OK
-            );
-            assert!(force.values()[0].is_finite());
-            rejected(MSLIP_BAD_DISPLACEMENT, &lengths, |out| of(contact.start, n, state.start, f64::NAN, out));
+        let (n, lengths) = (state.length, [state.length, 1, 1, 1]);
+        for u in PATH.map(|part| part * unit) {
+            accepted(&lengths, |out| update(contact.start, n, state.start, u, out));
+            let (next, force) = (Memory::<f64>::new(n), Memory::new(1));
+            for new in [next.start, state.start] {
+                let out = [new, force.start, null_mut(), null_mut()];
+                assert_eq!(update(contact.start, n, state.start, u, &out), MSLIP_OK);
+            }
+            assert!(next.values()[1] == u && state.values()[1] == u && force.values()[0].is_finite());
+            state_error(&next);
         }
-        let of = |contact, n, state: *const f64, x, out: &[*mut f64]| unsafe {
-            mslip_masing_update(contact, n, state, x, out[0], out[1], out[2], out[3])
-        };
-        needs_contact(&[n, 1, 1, 1], |contact, out| of(contact, n, state.start, 0.0, out));
-        rejected(MSLIP_NULL_POINTER, &[n, 1, 1, 1], |out| of(contact.start, n, null(), 0.0, out));
-        rejected(MSLIP_BAD_ALIGNMENT, &[n, 1, 1, 1], |out| of(contact.start, n, misaligned(state.start), 0.0, out));
-        rejected(MSLIP_STATE_TOO_SHORT, &[5, 1, 1, 1], |out| of(contact.start, 5, state.start, 0.0, out));
-        rejected(MSLIP_NULL_POINTER, &[0, 1, 1, 1], |out| of(contact.start, 0, null(), 0.0, out));
-        for bad in bad_states() {
-            rejected(MSLIP_BAD_STATE, &[LEAST, 1, 1, 1], |out| of(contact.start, LEAST, bad.start, 0.0, out));
-        }
-        // With two reversals a third is merged.
-        let short = unloaded(0);
+        let invalid = [(MSLIP_BAD_DISPLACEMENT, f64::NAN)];
+        check_value(&contact, &lengths, unit, &invalid, |contact, u, out| update(contact, n, state.start, u, out));
+        check_state(&[LEAST, 1, 1, 1], |n, state, out| update(contact.start, n, state, 0.0, out));
+        // A capacity of two reversals is exceeded.
+        let small = unloaded(0);
         for part in [0.9, -0.8, 0.7, -0.6, 0.5] {
-            let out = [short.start, null_mut(), null_mut(), null_mut()];
-            assert_eq!(of(contact.start, LEAST, short.start, part * unit, &out), MSLIP_OK);
+            let out = [small.start, null_mut(), null_mut(), null_mut()];
+            assert_eq!(update(contact.start, LEAST, small.start, part * unit, &out), MSLIP_OK);
         }
-        assert_eq!(check_state(&short) > 0.0, unit > 0.0);
-    }
-}
-
-/// Validates a state; its error.
-fn check_state(state: &Memory<f64>) -> f64 {
-    let error = Memory::new(1);
-    unsafe {
-        assert_eq!(mslip_state_check(state.length, state.start), MSLIP_OK);
-        assert_eq!(mslip_state_error(state.length, state.start, null_mut()), MSLIP_OK);
-        assert_eq!(mslip_state_error(state.length, state.start, error.start), MSLIP_OK);
-    }
-    error.values()[0]
-}
-
-#[test]
-fn checks_of_states() {
-    let state = unloaded(3);
-    let (n, error) = (state.length, Memory::<f64>::new(1));
-    unsafe {
-        assert_eq!(mslip_state_check(n, null()), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_state_check(n, misaligned(state.start)), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_state_check(LEAST - 1, state.start), MSLIP_STATE_TOO_SHORT);
-        assert_eq!(mslip_state_error(n, null(), error.start), MSLIP_NULL_POINTER);
-        assert_eq!(mslip_state_error(n, state.start, misaligned(error.start)), MSLIP_BAD_ALIGNMENT);
-        assert_eq!(mslip_state_error(LEAST - 1, state.start, error.start), MSLIP_STATE_TOO_SHORT);
-        for bad in bad_states() {
-            assert_eq!(mslip_state_check(LEAST, bad.start), MSLIP_BAD_STATE);
-            assert_eq!(mslip_state_error(LEAST, bad.start, error.start), MSLIP_BAD_STATE);
-        }
-        for (place, value) in [(1, f64::NAN), (2, 0.5), (3, f64::INFINITY), (4, f64::NAN)] {
-            let mut values = state.values().to_vec();
-            values[place] = value;
-            assert_eq!(mslip_state_check(n, Memory::of(values).start), MSLIP_BAD_STATE);
-        }
+        assert_eq!(state_error(&small) > 0.0, unit > 0.0);
     }
 }
 
 #[test]
-fn a_history_as_one_path() {
-    let [rounded, _, smooth] = contacts();
-    for contact in [rounded, smooth] {
-        let unit = slip(&contact).1;
-        let (path, points) = (Memory::of(PATH.map(|part| part * unit)), PATH.len());
-        let of = |contact, n, state: *const f64, count, path: *const f64, out: &[*mut f64]| unsafe {
-            mslip_masing_path(contact, n, state, count, path, out[0], out[1], out[2], out[3])
-        };
-        // With room for all reversals, and with so little that some are merged.
+fn masing_path() {
+    let advance = |contact, n, state: *const f64, count, path: *const f64, out: Outputs| unsafe {
+        mslip_masing_path(contact, n, state, count, path, out[0], out[1], out[2], out[3])
+    };
+    let [rounded, _, frictionless] = contacts();
+    for contact in [rounded, frictionless] {
+        let path = PATH.map(|part| part * slip(&contact).1);
+        let points = path.len();
+        // The second state is too small for all reversals.
         for reversals in [16, 2] {
             let state = unloaded(reversals);
-            let (n, lengths) = (state.length, [state.length, points, points, points]);
-            accepted(&lengths, |out| of(contact.start, n, state.start, points, path.start, out));
-            accepted(&[n, 0, 0, 0], |out| of(contact.start, n, state.start, 0, null(), out));
-            needs_contact(&lengths, |contact, out| of(contact, n, state.start, points, path.start, out));
-            rejected(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, null(), points, path.start, out));
-            rejected(MSLIP_NULL_POINTER, &lengths, |out| of(contact.start, n, state.start, points, null(), out));
-            let bad = Memory::of([0.0, 1.0, f64::NAN]);
-            rejected(MSLIP_BAD_DISPLACEMENT, &[n, 3, 3, 3], |out| of(contact.start, n, state.start, 3, bad.start, out));
-            // In place.
-            let force = Memory::new(points);
-            let status = unsafe {
-                let (s, f) = (state.start, force.start);
-                mslip_masing_path(contact.start, n, s, points, path.start, s, f, null_mut(), null_mut())
-            };
-            assert_eq!((status, force.values().len()), (MSLIP_OK, points));
-            assert_eq!(state.values()[1], path.values()[points - 1]);
-            check_state(&state);
+            let (n, invalid) = (state.length, [(MSLIP_BAD_DISPLACEMENT, f64::NAN)]);
+            check_array(&contact, &[n, points, points, points], &path, &invalid, |contact, path, out| {
+                advance(contact, n, state.start, points, path, out)
+            });
+            accepted(&[n, 0, 0, 0], |out| advance(contact.start, n, state.start, 0, null(), out));
+            let force = Memory::<f64>::new(points);
+            let in_place = [state.start, force.start, null_mut(), null_mut()];
+            assert_eq!(advance(contact.start, n, state.start, points, path.as_ptr(), &in_place), MSLIP_OK);
+            assert!(state.values()[1] == path[points - 1] && force.values().iter().all(|force| force.is_finite()));
+            state_error(&state);
         }
-        for bad in bad_states() {
-            let lengths = [LEAST, points, points, points];
-            rejected(MSLIP_BAD_STATE, &lengths, |out| of(contact.start, LEAST, bad.start, points, path.start, out));
-        }
+        check_state(&[LEAST, points, points, points], |n, state, out| {
+            advance(contact.start, n, state, points, path.as_ptr(), out)
+        });
     }
 }
 
 #[test]
-fn tractions_after_a_history() {
+fn masing_tractions() {
     for contact in contacts() {
-        let unit = slip(&contact).1;
-        let (state, path) = (unloaded(4), Memory::of([0.9 * unit, -0.4 * unit, 0.2 * unit]));
-        let (n, s) = (state.length, state.start);
-        let status =
-            unsafe { mslip_masing_path(contact.start, n, s, 3, path.start, s, null_mut(), null_mut(), null_mut()) };
+        let (state, path) = (unloaded(4), [0.9, -0.4, 0.2].map(|part| part * slip(&contact).1));
+        let (n, s, none) = (state.length, state.start, null_mut());
+        let status = unsafe { mslip_masing_path(contact.start, n, s, 3, path.as_ptr(), s, none, none, none) };
         assert_eq!(status, MSLIP_OK);
-        let x = Memory::of([0.0, 0.5, 0.99].map(|x| x * contact.values()[0].half_width));
-        let of = |contact, n, state: *const f64, x: *const f64, out: &[*mut f64]| unsafe {
+        let x = [0.0, 0.5, 0.99].map(|x| x * contact.values()[0].half_width);
+        let tractions = |contact, n, state: *const f64, x: *const f64, out: Outputs| unsafe {
             mslip_masing_tractions(contact, n, state, 3, x, out[0], out[1])
         };
-        accepted(&[3, 3], |out| of(contact.start, n, s, x.start, out));
-        needs_contact(&[3, 3], |contact, out| of(contact, n, s, x.start, out));
-        rejected(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, null(), x.start, out));
-        rejected(MSLIP_NULL_POINTER, &[3, 3], |out| of(contact.start, n, s, null(), out));
-        rejected(MSLIP_STATE_TOO_SHORT, &[3, 3], |out| of(contact.start, 3, s, x.start, out));
-        for bad in bad_states() {
-            rejected(MSLIP_BAD_STATE, &[3, 3], |out| of(contact.start, LEAST, bad.start, x.start, out));
-        }
+        let invalid = [(MSLIP_BAD_POSITION, f64::NAN)];
+        check_array(&contact, &[3; 2], &x, &invalid, |contact, x, out| tractions(contact, n, s, x, out));
+        check_state(&[3; 2], |n, state, out| tractions(contact.start, n, state, x.as_ptr(), out));
     }
 }
 
 #[test]
-fn cycles() {
+fn cycles_and_equivalents() {
     for contact in contacts() {
         let (force, unit) = slip(&contact);
-        let amplitudes = Memory::of([0.0, 0.3, 1.5].map(|part| part * unit));
-        let n = amplitudes.length;
-        let stiffness = |contact, n, x: *const f64, out: &[*mut f64]| unsafe {
+        let invalid = [(MSLIP_BAD_AMPLITUDE, -1.0), (MSLIP_BAD_AMPLITUDE, f64::NAN)];
+        let stiffness = |contact, n, x: *const f64, out: Outputs| unsafe {
             mslip_complex_stiffness(contact, n, x, out[0], out[1], out[2], out[3])
         };
-        accepted(&[n; 4], |out| stiffness(contact.start, n, amplitudes.start, out));
-        needs_contact(&[n; 4], |contact, out| stiffness(contact, n, amplitudes.start, out));
-        rejected(MSLIP_NULL_POINTER, &[n; 4], |out| stiffness(contact.start, n, null(), out));
-        let bad = Memory::of([0.0, -1.0]);
-        rejected(MSLIP_BAD_AMPLITUDE, &[2; 4], |out| stiffness(contact.start, 2, bad.start, out));
-
-        let hysteresis = |contact, amplitude, n, out: &[*mut f64]| unsafe {
-            mslip_hysteresis_loop(contact, amplitude, n, out[0], out[1])
-        };
-        accepted(&[3, 3], |out| hysteresis(contact.start, 0.7 * unit, 3, out));
-        accepted(&[0, 0], |out| hysteresis(contact.start, 0.7 * unit, 0, out));
-        needs_contact(&[7, 7], |contact, out| hysteresis(contact, 0.7 * unit, 7, out));
-        rejected(MSLIP_BAD_AMPLITUDE, &[7, 7], |out| hysteresis(contact.start, f64::NAN, 7, out));
+        let amplitudes = [0.0, 0.3, 1.5].map(|part| part * unit);
+        check_array(&contact, &[3; 4], &amplitudes, &invalid, |contact, x, out| stiffness(contact, 3, x, out));
+        check_length(4, |n, x, out| stiffness(contact.start, n, x, out));
+        check_value(&contact, &[3; 2], 0.7 * unit, &invalid, |contact, amplitude, out| unsafe {
+            mslip_hysteresis_loop(contact, amplitude, 3, out[0], out[1])
+        });
+        check_length(2, |n, _, out| unsafe { mslip_hysteresis_loop(contact.start, unit, n, out[0], out[1]) });
+        check_value(&contact, &[1; 2], 0.7 * unit, &invalid, |contact, amplitude, out| unsafe {
+            mslip_jenkins_equivalent(contact, amplitude, out[0], out[1])
+        });
 
         let energy =
-            |contact, n, x: *const f64, out: &[*mut f64]| unsafe { mslip_dissipated_energy(contact, n, x, out[0]) };
-        let forces = Memory::of([0.0, 0.3, 1.0].map(|part| part * force));
-        accepted(&[3], |out| energy(contact.start, 3, forces.start, out));
-        needs_contact(&[3], |contact, out| energy(contact, 3, forces.start, out));
-        rejected(MSLIP_NULL_POINTER, &[3], |out| energy(contact.start, 3, null(), out));
-        let bad = Memory::of([0.0, -1.0]);
-        rejected(MSLIP_BAD_FORCE_AMPLITUDE, &[2], |out| energy(contact.start, 2, bad.start, out));
-    }
-}
+            |contact, n, x: *const f64, out: Outputs| unsafe { mslip_dissipated_energy(contact, n, x, out[0]) };
+        let invalid = [(MSLIP_BAD_FORCE_AMPLITUDE, -1.0), (MSLIP_FORCE_EXCEEDS_SLIP, force + 1e9)];
+        let forces = [0.0, 0.3, 1.0].map(|part| part * force);
+        check_array(&contact, &[3], &forces, &invalid, |contact, x, out| energy(contact, 3, x, out));
+        check_length(1, |n, x, out| energy(contact.start, n, x, out));
 
-#[test]
-fn equivalents() {
-    for contact in contacts() {
-        let unit = slip(&contact).1;
-        let jenkins = |contact, amplitude, out: &[*mut f64]| unsafe {
-            mslip_jenkins_equivalent(contact, amplitude, out[0], out[1])
-        };
-        accepted(&[1, 1], |out| jenkins(contact.start, 0.7 * unit, out));
-        needs_contact(&[1, 1], |contact, out| jenkins(contact, 0.7 * unit, out));
-        rejected(MSLIP_BAD_AMPLITUDE, &[1, 1], |out| jenkins(contact.start, -1.0, out));
-        let iwan = |contact, n, out: &[*mut f64]| unsafe { mslip_iwan_equivalent(contact, n, out[0], out[1], out[2]) };
-        // The bisection for the sliders of a contact with friction takes Miri minutes.
+        let iwan = |contact, n, out: Outputs| unsafe { mslip_iwan_equivalent(contact, n, out[0], out[1], out[2]) };
+        // The bisection for a contact with friction takes minutes under Miri.
         if !cfg!(miri) || unit == 0.0 {
             accepted(&[2, 2, 1], |out| iwan(contact.start, 2, out));
         }
-        needs_contact(&[2, 2, 1], |contact, out| iwan(contact, 2, out));
+        check_contact(&[2, 2, 1], |contact, out| iwan(contact, 2, out));
         rejected(MSLIP_BAD_COUNT, &[0, 0, 1], |out| iwan(contact.start, 0, out));
         rejected(MSLIP_BAD_COUNT, &[1], |out| iwan(contact.start, 1 << 20, &[null_mut(), null_mut(), out[0]]));
     }
@@ -529,149 +508,133 @@ fn workspace(harmonics: usize, samples: usize, rule: i32) -> Memory<f64> {
 
 #[test]
 fn workspaces() {
-    let of_size = mslip_harmonic_workspace_length;
-    assert_eq!([of_size(0, 9, 0), of_size(2, 4, 0), of_size(2, 9, 2), of_size(2, 9, -1)], [0; 4]);
+    let length_of = mslip_harmonic_workspace_length;
+    assert_eq!([length_of(0, 9, 0), length_of(2, 4, 0), length_of(2, 9, 2), length_of(2, 9, -1)], [0; 4]);
     for rule in RULES {
-        let length = of_size(2, 9, rule);
-        let memory = Memory::<f64>::new(length);
-        let init = |harmonics, samples, rule, length, workspace| unsafe {
-            mslip_harmonic_workspace_init(harmonics, samples, rule, length, workspace)
-        };
-        assert_eq!(init(2, 9, rule, length, memory.start), MSLIP_OK);
-        for (status, harmonics, samples, rule, length, workspace) in [
-            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, length - 1, memory.start),
-            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, 0, memory.start),
+        let memory = workspace(2, 9, rule);
+        let (length, start) = (memory.length, memory.start);
+        for (status, harmonics, samples, rule, length, start) in [
+            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, length - 1, start),
+            (MSLIP_WORKSPACE_TOO_SHORT, 2, 9, rule, 0, start),
             (MSLIP_NULL_POINTER, 2, 9, rule, length, null_mut()),
-            (MSLIP_BAD_ALIGNMENT, 2, 9, rule, length - 1, misaligned(memory.start)),
-            (MSLIP_BAD_ARRAY_SIZE, 2, 9, rule, usize::MAX, memory.start),
-            (MSLIP_BAD_SAMPLES, 2, 4, rule, length, memory.start),
-            (MSLIP_BAD_HARMONICS, 0, 9, rule, length, memory.start),
-            (MSLIP_BAD_RULE, 2, 9, 7, length, memory.start),
+            (MSLIP_BAD_ALIGNMENT, 2, 9, rule, length - 1, misaligned(start)),
+            (MSLIP_BAD_ARRAY_SIZE, 2, 9, rule, usize::MAX, start),
+            (MSLIP_BAD_SAMPLES, 2, 4, rule, length, start),
+            (MSLIP_BAD_HARMONICS, 0, 9, rule, length, start),
+            (MSLIP_BAD_RULE, 2, 9, 7, length, start),
         ] {
-            assert_eq!(init(harmonics, samples, rule, length, workspace), status);
+            assert_eq!(unsafe { mslip_harmonic_workspace_init(harmonics, samples, rule, length, start) }, status);
         }
-        let (harmonics, samples, found) = (Memory::<usize>::new(1), Memory::<usize>::new(1), Memory::<i32>::new(1));
-        let (h, s, r) = (harmonics.start, samples.start, found.start);
-        // The header is all that is read.
+        // Only the header is read.
         let header = Memory::of(memory.values()[..2].to_vec());
-        unsafe {
-            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, r), MSLIP_OK);
-            assert_eq!((harmonics.values()[0], samples.values()[0], found.values()[0]), (2, 9, rule));
-            assert_eq!(mslip_harmonic_workspace_size(header.start, null_mut(), null_mut(), null_mut()), MSLIP_OK);
-            assert_eq!(mslip_harmonic_workspace_size(null(), h, s, r), MSLIP_NULL_POINTER);
-            assert_eq!(mslip_harmonic_workspace_size(misaligned(header.start), h, s, r), MSLIP_BAD_ALIGNMENT);
-            assert_eq!(mslip_harmonic_workspace_size(header.start, misaligned(h), s, r), MSLIP_BAD_ALIGNMENT);
-            assert_eq!(mslip_harmonic_workspace_size(header.start, h, misaligned(s), r), MSLIP_BAD_ALIGNMENT);
-            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, misaligned(r)), MSLIP_BAD_ALIGNMENT);
-            *header.start = 0.0;
-            assert_eq!(mslip_harmonic_workspace_size(header.start, h, s, r), MSLIP_BAD_WORKSPACE);
+        let (harmonics, samples, found) = (Memory::<usize>::new(1), Memory::<usize>::new(1), Memory::<i32>::new(1));
+        let (w, h, s, r) = (header.start, harmonics.start, samples.start, found.start);
+        let size = |w: *const f64, h, s, r| unsafe { mslip_harmonic_workspace_size(w, h, s, r) };
+        assert_eq!(size(w, h, s, r), MSLIP_OK);
+        assert_eq!((harmonics.values()[0], samples.values()[0], found.values()[0]), (2, 9, rule));
+        assert_eq!(size(w, null_mut(), null_mut(), null_mut()), MSLIP_OK);
+        assert_eq!(size(null(), h, s, r), MSLIP_NULL_POINTER);
+        assert_eq!(size(misaligned(w), h, s, r), MSLIP_BAD_ALIGNMENT);
+        for (h, s, r) in [(misaligned(h), s, r), (h, misaligned(s), r), (h, s, misaligned(r))] {
+            assert_eq!(size(w, h, s, r), MSLIP_BAD_ALIGNMENT);
         }
+        assert_eq!(size(Memory::of([0.0; 2]).start, h, s, r), MSLIP_BAD_WORKSPACE);
     }
 }
 
 #[test]
-fn the_harmonic_force() {
-    let of = |contact, workspace, x: *const f64, out: &[*mut f64]| unsafe {
-        mslip_harmonic_force(contact, workspace, x, out[0], out[1], out[2])
+fn harmonic_force() {
+    let force = |contact, workspace, u: *const f64, out: Outputs| unsafe {
+        mslip_harmonic_force(contact, workspace, u, out[0], out[1], out[2])
     };
-    let beginning = |memory: &Memory<f64>| Memory::of(memory.values()[..2].to_vec());
-    for rule in RULES {
-        // An even and an odd number of samples.
-        for (harmonics, samples) in [(1, 8), (2, 9)] {
-            let n = 2 * harmonics + 1;
-            let workspace = workspace(harmonics, samples, rule);
-            let [rounded, _, smooth] = contacts();
-            for contact in [rounded, smooth] {
-                let unit = slip(&contact).1;
-                // Constant, in microslip with all harmonics, with odd ones only, and in gross slip.
-                for motion in
-                    [[0.0; 5], [0.1, 0.5, 0.2, 0.3, -0.2], [0.0, 0.6, 0.3, 0.0, 0.0], [0.2, 9.0, 1.0, 3.0, 1.0]]
-                {
-                    let x = Memory::of(motion[..n].iter().map(|part| part * unit));
-                    accepted(&[n, n * n, 1], |out| of(contact.start, workspace.start, x.start, out));
-                }
-                let x = Memory::of(vec![unit; n]);
-                needs_contact(&[n, n * n, 1], |contact, out| of(contact, workspace.start, x.start, out));
-                rejected(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, null_mut(), x.start, out));
-                let off_by_four = misaligned(workspace.start);
-                rejected(MSLIP_BAD_ALIGNMENT, &[n, n * n, 1], |out| of(contact.start, off_by_four, x.start, out));
-                rejected(MSLIP_NULL_POINTER, &[n, n * n, 1], |out| of(contact.start, workspace.start, null(), out));
-                let bad = Memory::of(vec![f64::NAN; n]);
-                rejected(MSLIP_BAD_DISPLACEMENT, &[n, n * n, 1], |o| of(contact.start, workspace.start, bad.start, o));
+    let [rounded, _, frictionless] = contacts();
+    let contacts = [rounded, frictionless];
+    // Even and odd numbers of samples.
+    for (rule, (harmonics, samples)) in RULES.into_iter().flat_map(|rule| [(rule, (1, 8)), (rule, (2, 9))]) {
+        let n = 2 * harmonics + 1;
+        let lengths = [n, n * n, 1];
+        let workspace = workspace(harmonics, samples, rule);
+        for contact in &contacts {
+            let unit = slip(contact).1;
+            // Constant, in microslip with all and with odd harmonics only, and in gross slip.
+            for motion in [[0.0; 5], [0.1, 0.5, 0.2, 0.3, -0.2], [0.0, 0.6, 0.3, 0.0, 0.0], [0.2, 9.0, 1.0, 3.0, 1.0]] {
+                let u = Memory::of(motion[..n].iter().map(|part| part * unit));
+                accepted(&lengths, |out| force(contact.start, workspace.start, u.start, out));
             }
-            let [contact, ..] = contacts();
-            let x = Memory::of(vec![0.0; n]);
-            // Of an invalid header nothing beyond is read.
-            for (place, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0)] {
-                let header = beginning(&workspace);
-                unsafe { *header.start.add(place) = value };
-                rejected(MSLIP_BAD_WORKSPACE, &[n, n * n, 1], |out| of(contact.start, header.start, x.start, out));
-            }
+            let invalid = [(MSLIP_BAD_DISPLACEMENT, f64::NAN)];
+            check_array(contact, &lengths, &vec![0.0; n], &invalid, |contact, u, out| {
+                force(contact, workspace.start, u, out)
+            });
+        }
+        let u = Memory::of(vec![0.0; n]);
+        let with = |workspace, out: Outputs| force(contacts[0].start, workspace, u.start, out);
+        rejected(MSLIP_NULL_POINTER, &lengths, |out| with(null_mut(), out));
+        rejected(MSLIP_BAD_ALIGNMENT, &lengths, |out| with(misaligned(workspace.start), out));
+        // Nothing is read after an invalid header.
+        for (place, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0)] {
+            let mut header = workspace.values()[..2].to_vec();
+            header[place] = value;
+            let header = Memory::of(header);
+            rejected(MSLIP_BAD_WORKSPACE, &lengths, |out| with(header.start, out));
         }
     }
 }
 
 #[test]
 fn batches() {
-    let n = 4;
-    let memory: Memory<mslip_contact> = Memory::new(n);
-    let contacts = memory.start;
-    for (i, contact) in self::contacts().iter().take(3).enumerate() {
-        // SAFETY: both are contacts.
-        unsafe { ptr::copy_nonoverlapping(contact.start, contacts.add(i), 1) };
+    type Batch<'a> = &'a dyn Fn(*const mslip_contact, *const i32, *const i32, Outputs) -> i32;
+    const N: usize = 4;
+    let memory: Memory<mslip_contact> = Memory::new(N);
+    let all = memory.start;
+    for (i, contact) in contacts().iter().enumerate() {
+        // SAFETY: the first three of four contacts.
+        unsafe { ptr::copy_nonoverlapping(contact.start, all.add(i), 1) };
     }
-    let unit = unsafe { (*contacts).slip_displacement };
-    // The last contact is uninitialised and its item inactive, and the last index invalid: neither is read.
+    let unit = unsafe { (*all).slip_displacement };
+    // The last item is skipped: its contact is uninitialised, its index invalid, and its displacement NaN.
     let (active, index) = (Memory::of([1, -1, 255, 0]), Memory::of([2, 0, 2, -1]));
-    let (all, own): (*const i32, *const i32) = (null(), null());
     let [bad, ..] = bad_contacts();
-    type Batch<'a> = &'a dyn Fn(*const mslip_contact, *const i32, *const i32, &[*mut f64]) -> i32;
-    let check_items = |lengths: &[usize], call: Batch| {
-        rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), own, active.start, out));
-        rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contacts, own, misaligned(active.start), out));
-        rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(contacts, misaligned(index.start), active.start, out));
-        rejected(MSLIP_BAD_INDEX, lengths, |out| call(contacts, index.start, all, out));
-        rejected(MSLIP_BAD_INDEX, lengths, |out| call(contacts, Memory::of([0, 0, 4, 0]).start, all, out));
-        unsafe { ptr::copy(bad.start, contacts.add(3), 1) };
-        rejected(MSLIP_BAD_CONTACT, lengths, |out| call(contacts, own, all, out));
-    };
-    // The three active items are written.
-    let partly = |widths: &[usize], call: Batch| {
-        for index in [own, index.start] {
-            let outputs: Vec<Memory<f64>> = widths.iter().map(|width| Memory::new(n * width)).collect();
+    let check = |widths: &[usize], call: Batch| {
+        for index in [null_mut(), index.start] {
+            let outputs: Vec<Memory<f64>> = widths.iter().map(|width| Memory::new(N * width)).collect();
             let pointers: Vec<*mut f64> = outputs.iter().map(|output| output.start).collect();
-            assert_eq!(call(contacts, index, active.start, &pointers), MSLIP_OK);
+            assert_eq!(call(all, index, active.start, &pointers), MSLIP_OK);
             for (output, width) in outputs.iter().zip(widths) {
                 // SAFETY: three items of four.
                 let written = unsafe { std::slice::from_raw_parts(output.start, 3 * width) };
                 assert!(written.iter().all(|value| value.is_finite()));
             }
-            assert_eq!(call(contacts, index, active.start, &vec![null_mut(); widths.len()]), MSLIP_OK);
+            assert_eq!(call(all, index, active.start, &vec![null_mut(); widths.len()]), MSLIP_OK);
         }
+        let lengths: Vec<usize> = widths.iter().map(|width| N * width).collect();
+        rejected(MSLIP_NULL_POINTER, &lengths, |out| call(null(), null(), active.start, out));
+        rejected(MSLIP_BAD_ALIGNMENT, &lengths, |out| call(all, null(), misaligned(active.start), out));
+        rejected(MSLIP_BAD_ALIGNMENT, &lengths, |out| call(all, misaligned(index.start), active.start, out));
+        rejected(MSLIP_BAD_INDEX, &lengths, |out| call(all, index.start, null(), out));
+        rejected(MSLIP_BAD_INDEX, &lengths, |out| call(all, Memory::of([0, 0, 4, 0]).start, null(), out));
+        unsafe { ptr::copy(bad.start, all.add(3), 1) };
+        rejected(MSLIP_BAD_CONTACT, &lengths, |out| call(all, null(), null(), out));
     };
 
     let amplitude = Memory::of([0.5, 0.9, 1.5, f64::NAN].map(|part| part * unit));
-    let stiffness = |contacts, index, active, x: *const f64, o: &[*mut f64]| unsafe {
-        mslip_batch_complex_stiffness(n, n, contacts, index, active, x, o[0], o[1], o[2], o[3])
+    let stiffness = |contacts, index, active, x: *const f64, o: Outputs| unsafe {
+        mslip_batch_complex_stiffness(N, N, contacts, index, active, x, o[0], o[1], o[2], o[3])
     };
-    partly(&[1; 4], &|contacts, index, active, out| stiffness(contacts, index, active, amplitude.start, out));
-    check_items(&[4; 4], &|contacts, index, active, out| stiffness(contacts, index, active, amplitude.start, out));
-    rejected(MSLIP_NULL_POINTER, &[4; 4], |out| stiffness(contacts, own, active.start, null(), out));
+    check(&[1; 4], &|contacts, index, active, out| stiffness(contacts, index, active, amplitude.start, out));
+    rejected(MSLIP_NULL_POINTER, &[N; 4], |out| stiffness(all, null(), active.start, null(), out));
 
-    let states: Memory<f64> = Memory::new(n * LEAST);
+    let states: Memory<f64> = Memory::new(N * LEAST);
     for i in 0..3 {
         assert_eq!(unsafe { mslip_state_init(LEAST, states.start.add(LEAST * i)) }, MSLIP_OK);
     }
-    let update = |contacts, index, active, length, states: *const f64, x: *const f64, o: &[*mut f64]| unsafe {
-        mslip_batch_masing_update(n, n, contacts, index, active, length, states, x, o[0], o[1], o[2], o[3])
+    let update = |contacts, index, active, length, states: *const f64, x: *const f64, o: Outputs| unsafe {
+        mslip_batch_masing_update(N, N, contacts, index, active, length, states, x, o[0], o[1], o[2], o[3])
     };
-    let valid = |contacts, index, active, out: &[*mut f64]| {
+    let valid = |contacts, index, active, out: Outputs| {
         update(contacts, index, active, LEAST, states.start, amplitude.start, out)
     };
-    partly(&[LEAST, 1, 1, 1], &valid);
-    assert_eq!(valid(contacts, own, active.start, &[states.start, null_mut(), null_mut(), null_mut()]), MSLIP_OK);
-    let lengths = [4 * LEAST, 4, 4, 4];
-    check_items(&lengths, &valid);
+    check(&[LEAST, 1, 1, 1], &valid);
+    assert_eq!(valid(all, null(), active.start, &[states.start, null_mut(), null_mut(), null_mut()]), MSLIP_OK);
     let far = Memory::of([0.0, 0.0, f64::NAN, 0.0]);
     for (status, length, states, x) in [
         (MSLIP_NULL_POINTER, LEAST, null_mut(), amplitude.start),
@@ -680,47 +643,47 @@ fn batches() {
         (MSLIP_BAD_ARRAY_SIZE, usize::MAX / 2, states.start, amplitude.start),
         (MSLIP_BAD_DISPLACEMENT, LEAST, states.start, far.start),
     ] {
-        rejected(status, &lengths, |out| update(contacts, own, active.start, length, states, x, out));
+        let lengths = [N * LEAST, N, N, N];
+        rejected(status, &lengths, |out| update(all, null(), active.start, length, states, x, out));
     }
 
     for rule in RULES {
         let workspace = workspace(1, 8, rule);
         let motion = Memory::of([0.1, 0.5, 0.2, 0.0, 1.5, 0.0, 0.0, 0.3, 0.1, f64::NAN, 0.0, 0.0].map(|x| x * unit));
-        let force = |contacts, index, active, workspace, x: *const f64, o: &[*mut f64]| unsafe {
-            mslip_batch_harmonic_force(n, n, contacts, index, active, workspace, x, o[0], o[1], o[2])
+        let force = |contacts, index, active, workspace, u: *const f64, o: Outputs| unsafe {
+            mslip_batch_harmonic_force(N, N, contacts, index, active, workspace, u, o[0], o[1], o[2])
         };
-        let valid = |contacts, index, active, out: &[*mut f64]| {
+        check(&[3, 9, 1], &|contacts, index, active, out| {
             force(contacts, index, active, workspace.start, motion.start, out)
-        };
-        partly(&[3, 9, 1], &valid);
-        let lengths = [12, 36, 4];
-        check_items(&lengths, &valid);
-        rejected(MSLIP_NULL_POINTER, &lengths, |o| force(contacts, own, active.start, null_mut(), motion.start, o));
-        rejected(MSLIP_NULL_POINTER, &lengths, |o| force(contacts, own, active.start, workspace.start, null(), o));
+        });
+        for (workspace, u) in [(null_mut(), motion.start), (workspace.start, null_mut())] {
+            rejected(MSLIP_NULL_POINTER, &[12, 36, 4], |out| force(all, null(), active.start, workspace, u, out));
+        }
     }
 }
 
-/// A contact is only read: many threads share it, each with memory of its own.
+/// Contacts are only read: threads share one, each with memory of its own.
 #[test]
 fn threads_share_a_contact() {
     let [contact, ..] = contacts();
-    // SAFETY: the contact lives until the threads have ended.
+    // SAFETY: the contact lives until the threads are joined.
     let shared: &'static mslip_contact = unsafe { &*contact.start };
     let threads = [0.4, 0.8].map(|part| {
         std::thread::spawn(move || {
             let unit = shared.slip_displacement;
-            let (workspace, x, force) = (workspace(1, 8, 0), Memory::of([0.0, part * unit, 0.0]), Memory::new(3));
-            let status =
-                unsafe { mslip_harmonic_force(shared, workspace.start, x.start, force.start, null_mut(), null_mut()) };
-            let state = unloaded(3);
+            let (workspace, u, force) = (workspace(1, 8, 0), Memory::of([0.0, part * unit, 0.0]), Memory::new(3));
+            let (state, none) = (unloaded(3), null_mut());
             let s = state.start;
-            let update = unsafe {
-                mslip_masing_update(shared, state.length, s, part * unit, s, null_mut(), null_mut(), null_mut())
+            let statuses = unsafe {
+                [
+                    mslip_harmonic_force(shared, workspace.start, u.start, force.start, none, none),
+                    mslip_masing_update(shared, state.length, s, part * unit, s, none, none, none),
+                ]
             };
-            (status, update, force.values()[1] > 0.0)
+            (statuses, force.values()[1] > 0.0)
         })
     });
     for thread in threads {
-        assert_eq!(thread.join().unwrap(), (MSLIP_OK, MSLIP_OK, true));
+        assert_eq!(thread.join().unwrap(), ([MSLIP_OK; 2], true));
     }
 }

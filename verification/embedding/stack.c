@@ -1,7 +1,7 @@
-/* stack.c: the deepest stack that each call takes, measured on a stack that was painted before. The host's part, which
-   allocates and hashes, is a few hundred bytes of it; finding a function of the C library for the first time, some thousand. */
-#define _GNU_SOURCE
-#include "use.h"
+/* stack.c: stack depth of each call, at most 16 kB, measured on a thread's stack that was filled with a pattern. The depth
+   includes a few hundred bytes of the application, and some thousand when the linker resolves a function of the C library. */
+#define _GNU_SOURCE /* MAP_ANONYMOUS */
+#include "all_calls.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -9,36 +9,32 @@
 #include <string.h>
 #include <sys/mman.h>
 
-enum { SIZE = 1 << 20, PAINT = 0xa5 };
+enum { SIZE = 1 << 20, PATTERN = 0xa5, LIMIT = 16 * 1024 };
 
-struct task {
-    void (*make)(struct visit *);
-    struct visit visit;
-};
+static struct sequence sequence;
 
-static void *run(void *data)
+static void *run(void *call)
 {
-    struct task *task = (struct task *)data;
-    if (task->make != NULL) {
-        task->make(&task->visit);
+    if (call != NULL) {
+        make_call(&sequence, *(const size_t *)call);
     }
     return NULL;
 }
 
-/* Bytes of a thread's stack that were written to. */
-static size_t depth(struct task *task, unsigned char *stack)
+/* Bytes of a thread's stack that were written. */
+static size_t depth(size_t *call, unsigned char *stack)
 {
     pthread_attr_t attributes;
     pthread_t thread;
     size_t untouched = 0;
 
-    memset(stack, PAINT, SIZE);
+    memset(stack, PATTERN, SIZE);
     if (pthread_attr_init(&attributes) != 0 || pthread_attr_setstack(&attributes, stack, SIZE) != 0
-        || pthread_create(&thread, &attributes, run, task) != 0 || pthread_join(thread, NULL) != 0) {
+        || pthread_create(&thread, &attributes, run, call) != 0 || pthread_join(thread, NULL) != 0) {
         abort();
     }
     pthread_attr_destroy(&attributes);
-    while (untouched < SIZE && stack[untouched] == PAINT) {
+    while (untouched < SIZE && stack[untouched] == PATTERN) {
         ++untouched;
     }
     return SIZE - untouched;
@@ -46,31 +42,26 @@ static size_t depth(struct task *task, unsigned char *stack)
 
 int main(void)
 {
-    struct task task = { NULL, { NULL, { workspace(MSLIP_UNIFORM_SAMPLING), workspace(MSLIP_EVENT_DRIVEN) }, 0 } };
     unsigned char *stack = (unsigned char *)mmap(NULL, SIZE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (stack == MAP_FAILED) {
         abort();
     }
-    const size_t thread = depth(&task, stack);
-    size_t passed = 0;
+    const size_t thread = depth(NULL, stack);
+    size_t failed = 0;
 
+    begin_sequence(&sequence);
     for (size_t i = 0; i < number_of_calls; ++i) {
-        const size_t limit = 1024 * calls[i].kilobytes;
         size_t deepest = 0;
         for (int which = 0; which < CONTACTS; ++which) {
             mslip_contact contact;
             initialise(which, &contact);
-            task.visit.contact = &contact;
-            task.make = calls[i].make;
-            const size_t taken = depth(&task, stack) - thread;
+            sequence.contact = &contact;
+            const size_t taken = depth(&i, stack) - thread;
             deepest = taken > deepest ? taken : deepest;
         }
-        passed += deepest <= limit;
-        printf("%-42s %6zu bytes%s\n", calls[i].name, deepest, deepest <= limit ? "" : ": too many");
+        failed += deepest > LIMIT;
+        printf("%-24s %6zu bytes%s\n", calls[i].name, deepest, deepest > LIMIT ? ": exceeds the limit" : "");
     }
-    free(task.visit.workspace[0]);
-    free(task.visit.workspace[1]);
-    munmap(stack, SIZE);
-    printf("%zu passed, %zu failed\n", passed, number_of_calls - passed);
-    return passed != number_of_calls;
+    end_sequence(&sequence);
+    return failed != 0;
 }

@@ -1,513 +1,373 @@
-//! An input is a contact and a history, an amplitude, or forces: properties of every contact, and agreement of all functions.
+//! Physical invariants of a valid contact under any load history, and the agreement of all ways to one result.
 #![no_main]
 
+use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::{Corpus, fuzz_target};
+use microslip::Contact;
+use microslip::constant_load::equivalents;
 use microslip::ffi::*;
-use microslip_fuzz::contacts::{self, Bits, Given};
-use microslip_fuzz::interface::{self, status};
-use microslip_fuzz::memory::same;
-use microslip_fuzz::source::{Scatter, Source};
-use microslip_fuzz::tell;
+use microslip_fuzz::{AnyParameters, Choice, Number, Numbers, Path};
 use std::f64::consts::PI;
 
-fuzz_target!(init: interface::start(), |input: &[u8]| -> Corpus {
-    let mut source = Source::new(input);
-    let what = source.byte();
-    let Some((given, bits)) = choose(&mut source) else { return Corpus::Reject };
-    tell!("{given:?}");
-    let contact = Contact(&bits);
-    if contact.slip_force() <= 0.0 {
+#[derive(Arbitrary, Debug)]
+struct Input {
+    contact: Choice,
+    invariants: Invariants,
+}
+
+#[derive(Arbitrary, Debug)]
+enum Invariants {
+    History { path: Path, parts: u8, inner: u8 },
+    Curve { parts: [Number; 6], x: Number },
+    Cycle { amplitudes: [Number; 2], sliders: Option<u8> },
+    Harmonics { harmonics: u8, samples: u8, event_driven: bool, displacement: [Number; 9] },
+    Units { length: i8, force: i8, part: Number },
+}
+
+fuzz_target!(|input: Input| -> Corpus {
+    let Some((parameters, contact)) = input.contact.contact() else { return Corpus::Reject };
+    if contact.slip_force <= 0.0 {
         return Corpus::Reject;
     }
-    match what % 16 {
-        0..8 => history(&contact, &mut source),
-        8..11 => curve(&contact, &mut source),
-        11..13 => cycle(&contact, &mut source),
-        13..15 => harmonics(&contact, &mut source),
-        _ => units(&given, &contact, &mut source),
+    let mut numbers = Numbers::default();
+    // An admissible displacement.
+    let mut displacement = |number| {
+        let value = numbers.one(number, contact.slip_displacement);
+        if value.abs() <= 1e150 { value } else { contact.slip_displacement }
+    };
+    match input.invariants {
+        Invariants::History { path, parts, inner } => {
+            let mut path = path.displacements(&mut Numbers::default(), contact.slip_displacement);
+            path.retain(|displacement| displacement.abs() <= 1e150);
+            history(&contact, &path, usize::from(parts % 4) + 1, (f64::from(inner) + 0.5) / 256.0);
+        }
+        Invariants::Curve { parts, x } => curve(&contact, &parts, x),
+        Invariants::Cycle { amplitudes, sliders } => cycle(&contact, amplitudes.map(displacement), sliders),
+        Invariants::Harmonics { harmonics, samples, event_driven, displacement: coefficients } => {
+            let harmonics = usize::from(harmonics % 4) + 1;
+            let rule = if event_driven { MSLIP_EVENT_DRIVEN } else { MSLIP_UNIFORM_SAMPLING };
+            let coefficients: Vec<f64> = coefficients[..2 * harmonics + 1].iter().map(|&c| displacement(c)).collect();
+            harmonic_force(&contact, &coefficients, 2 * harmonics + 1 + usize::from(samples % 32), rule);
+        }
+        Invariants::Units { length, force, part: number } => {
+            units(
+                &parameters,
+                &contact,
+                [length, force].map(|exponent| 2f64.powi(i32::from(exponent) / 2)),
+                part(number),
+            );
+        }
     }
     Corpus::Keep
 });
 
-/// A contact of the collection, or one of its own.
-fn choose(source: &mut Source) -> Option<(Given, Bits)> {
-    match source.byte() {
-        choice if choice < 160 => {
-            let all = contacts::all();
-            Some(all[choice as usize % all.len()])
-        }
-        choice => {
-            let given = match choice % 3 {
-                0 => Given::Ellipse(contacts::draw_ellipse(source)),
-                _ => Given::Flat(contacts::draw_flat(source)),
-            };
-            Some((given, given.prepare().ok()?))
-        }
-    }
+/// A part of gross slip, so large that no product underflows.
+fn part(number: Number) -> f64 {
+    let part = Numbers::default().one(number, 1.0).abs();
+    let part = if part <= 1.0 { part } else { 1.0 / part };
+    if part >= 1e-100 { part } else { 0.0 }
 }
 
-/// The calls that are made of one contact: all of them are allowed.
-struct Contact<'a>(&'a Bits);
-
-/// Force, tangent stiffness, and energy of a step.
-type Step = (f64, f64, f64);
-
-fn ok(name: &str, call: impl FnOnce() -> i32) {
-    let answer = status(name, true, call);
-    assert!(answer == 0, "{name} answers {answer}");
+/// The C interface with a contact and a state.
+struct Stepper {
+    contact: mslip_contact,
+    state: Vec<f64>,
 }
 
-impl Contact<'_> {
-    fn pointer(&self) -> *const mslip_contact {
-        self.0.as_ptr().cast()
+impl Stepper {
+    fn new(contact: &Contact, reversals: usize) -> Stepper {
+        let mut state = vec![f64::NAN; mslip_state_length(reversals)];
+        assert!(unsafe { mslip_state_init(state.len(), state.as_mut_ptr()) } == MSLIP_OK);
+        Stepper { contact: (*contact).into(), state }
     }
 
-    fn half_width(&self) -> f64 {
-        self.0[1]
-    }
-
-    fn slip_force(&self) -> f64 {
-        self.0[2]
-    }
-
-    fn slip_displacement(&self) -> f64 {
-        self.0[3]
-    }
-
-    fn initial_stiffness(&self) -> f64 {
-        self.0[4]
-    }
-
-    fn slip_energy(&self) -> f64 {
-        self.0[5]
-    }
-
-    fn step(&self, state: &mut [f64], displacement: f64) -> Step {
+    /// Force, tangent stiffness and dissipated energy of a step.
+    fn step(&mut self, displacement: f64) -> (f64, f64, f64) {
         let (mut force, mut stiffness, mut dissipated) = (f64::NAN, f64::NAN, f64::NAN);
-        let (length, at) = (state.len(), state.as_mut_ptr());
-        ok("mslip_masing_update", || unsafe {
+        let (n, state) = (self.state.len(), self.state.as_mut_ptr());
+        let status = unsafe {
             mslip_masing_update(
-                self.pointer(),
-                length,
-                at,
+                &self.contact,
+                n,
+                state,
                 displacement,
-                at,
+                state,
                 &mut force,
                 &mut stiffness,
                 &mut dissipated,
             )
-        });
+        };
+        assert!(status == MSLIP_OK, "{status}");
         (force, stiffness, dissipated)
     }
 
-    /// Displacement, compliance and stick half-width.
-    fn at_force(&self, force: f64) -> (f64, f64, f64) {
-        let (mut displacement, mut compliance, mut stick) = (f64::NAN, f64::NAN, f64::NAN);
-        ok("mslip_monotonic_displacement", || unsafe {
-            mslip_monotonic_displacement(self.pointer(), 1, &force, &mut displacement, &mut compliance, &mut stick)
-        });
-        (displacement, compliance, stick)
+    /// The values in use: a header of 5 doubles, whose first holds the number of reversals in its last 40 bits, and 3 for each.
+    fn used(&self) -> Vec<f64> {
+        let depth = self.state[0].to_bits() & 0xff_ffff_ffff;
+        self.state[..5 + 3 * depth as usize].to_vec()
     }
 
-    /// Force, stiffness and stick half-width.
-    fn at_displacement(&self, displacement: f64) -> (f64, f64, f64) {
-        let (mut force, mut stiffness, mut stick) = (f64::NAN, f64::NAN, f64::NAN);
-        ok("mslip_monotonic_force", || unsafe {
-            mslip_monotonic_force(self.pointer(), 1, &displacement, &mut force, &mut stiffness, &mut stick)
-        });
-        (force, stiffness, stick)
+    /// Bound on the error of the force due to removed reversals.
+    fn error(&self) -> f64 {
+        let mut error = f64::NAN;
+        assert!(unsafe { mslip_state_error(self.state.len(), self.state.as_ptr(), &mut error) } == MSLIP_OK);
+        error
     }
 
-    fn energy(&self, amplitude: f64) -> f64 {
-        let mut energy = f64::NAN;
-        ok("mslip_dissipated_energy", || unsafe {
-            mslip_dissipated_energy(self.pointer(), 1, &amplitude, &mut energy)
-        });
-        energy
-    }
-
-    fn complex_stiffness(&self, amplitude: f64) -> [f64; 4] {
-        let mut k = [f64::NAN; 4];
-        let [a, b, da, db] = &mut k;
-        ok("mslip_complex_stiffness", || unsafe {
-            mslip_complex_stiffness(self.pointer(), 1, &amplitude, a, b, da, db)
-        });
-        k
-    }
-
-    fn tractions(&self, force: f64, x: f64) -> (f64, f64) {
-        let (mut pressure, mut shear) = (f64::NAN, f64::NAN);
-        ok("mslip_tractions", || unsafe { mslip_tractions(self.pointer(), force, 1, &x, &mut pressure, &mut shear) });
-        (pressure, shear)
-    }
-
-    /// A displacement that is allowed.
-    fn draw(&self, source: &mut Source) -> f64 {
-        let slip = self.slip_displacement();
-        let number = source.number(slip);
-        if number.abs() <= 1e150 { number } else { slip }
-    }
-
-    /// A part of gross slip, of its force or of its displacement: so large that no product has lost digits to underflow.
-    fn draw_part(source: &mut Source) -> f64 {
-        let part = source.number(1.0).abs();
-        let part = if part <= 1.0 { part } else { 1.0 / part };
-        if part >= 1e-100 { part } else { 0.0 }
+    fn check(&self) {
+        assert!(unsafe { mslip_state_check(self.state.len(), self.state.as_ptr()) } == MSLIP_OK, "{:?}", self.state);
     }
 }
 
-fn unloaded(reversals: usize) -> Vec<f64> {
-    let mut state = vec![f64::NAN; mslip_state_length(reversals)];
-    let length = state.len();
-    ok("mslip_state_init", || unsafe { mslip_state_init(length, state.as_mut_ptr()) });
-    state
-}
-
-/// The part of a state that is in use.
-fn used(state: &[f64]) -> &[f64] {
-    &state[..microslip_fuzz::memory::used_length(state)]
-}
-
-/// Bound on the error of the force by merged reversals.
-fn state_error(state: &[f64]) -> f64 {
-    let mut error = f64::NAN;
-    ok("mslip_state_error", || unsafe { mslip_state_error(state.len(), state.as_ptr(), &mut error) });
-    error
-}
-
-fn check_state(state: &[f64]) {
-    ok("mslip_state_check", || unsafe { mslip_state_check(state.len(), state.as_ptr()) });
-}
-
-/// A history of steps, its mirror image, its parts, the same in one call, and in a state of few reversals.
-fn history(contact: &Contact, source: &mut Source) {
-    let parts = source.below(4) + 1;
-    let inner = (source.byte() as f64 + 0.5) / 256.0;
-    let (more, width) = (4 * source.byte() as usize, contact.draw(source));
-    let mut scatter = Scatter::new(source, width);
-    let mut path = Vec::new();
-    while !source.is_empty() && path.len() < 64 {
-        path.push(contact.draw(source));
-    }
-    for _ in 0..more {
-        path.push(scatter.next(&path));
-    }
-    tell!("{path:?}");
-    let room = path.len() + 2;
-    let [mut whole, mut mirrored, mut divided, mut at_once] = [(); 4].map(|()| unloaded(room));
-    let mut short = unloaded(2 + path.len() % 7);
-    let (limit, first) = (contact.slip_force(), contact.initial_stiffness());
+/// Coulomb's bound, dissipation, odd symmetry, steps of zero and in parts, one call for all steps, small states, and closed loops.
+fn history(contact: &Contact, path: &[f64], parts: usize, inner: f64) {
+    let new = |reversals| Stepper::new(contact, reversals);
+    let capacity = path.len() + 2;
+    let [mut whole, mut opposite, mut divided, mut at_once] = [(); 4].map(|()| new(capacity));
+    let mut small = new(2 + path.len() % 7);
+    let (limit, stiffest) = (contact.slip_force, contact.initial_stiffness);
+    let farthest = path.iter().fold(0.0, |farthest: f64, displacement| farthest.max(displacement.abs()));
     let mut steps = Vec::new();
     let (mut before, mut last) = (0.0, 0.0);
-    let farthest = path.iter().fold(0.0_f64, |farthest, displacement| farthest.max(displacement.abs()));
-    for &displacement in &path {
-        let (force, stiffness, energy) = contact.step(&mut whole, displacement);
-        assert!(force.abs() <= limit, "{force:e} beyond {limit:e}");
-        assert!(stiffness >= 0.0 && stiffness <= first * (1.0 + 1e-15), "{stiffness:e} beyond {first:e}");
-        assert!(energy >= 0.0 && energy.is_finite(), "{energy:e} dissipated");
-        steps.push((force, stiffness, energy));
+    for &displacement in path {
+        let step = whole.step(displacement);
+        let (force, stiffness, energy) = step;
+        assert!(force.abs() <= limit, "{force:e} exceeds {limit:e}");
+        assert!(stiffness >= 0.0 && stiffness <= stiffest * (1.0 + 1e-15), "{stiffness:e} exceeds {stiffest:e}");
+        assert!(energy >= 0.0 && energy.is_finite(), "dissipated {energy:e}");
+        steps.push(step);
 
-        assert!(contact.step(&mut mirrored, -displacement) == (-force, stiffness, energy), "the mirror image differs");
+        assert_eq!(opposite.step(-displacement), (-force, stiffness, energy), "the opposite step");
 
-        let (merged, ..) = contact.step(&mut short, displacement);
-        let error = state_error(&short);
-        assert!(state_error(&whole) == 0.0 && (error > 0.0 || merged == force), "{merged:e} instead of {force:e}");
-        // Displacements far from the origin round the ranges of their branches.
-        let rounding = 4e-15 * limit + 4.0 * f64::EPSILON * farthest * first;
-        assert!((merged - force).abs() <= error + rounding, "{merged:e} instead of {force:e}, reported {error:e}");
-        check_state(&short);
+        let ((merged, ..), error) = (small.step(displacement), small.error());
+        assert!(whole.error() == 0.0 && (error > 0.0 || merged == force), "{merged:e} instead of {force:e}");
+        // Displacements far from the initial one round the ranges of their branches.
+        let rounding = 4e-15 * limit + 4.0 * f64::EPSILON * farthest * stiffest;
+        assert!((merged - force).abs() <= error + rounding, "{merged:e} instead of {force:e}, bound {error:e}");
 
-        // A step of zero changes nothing.
-        let state = whole.clone();
-        assert!(
-            contact.step(&mut whole, displacement) == (force, stiffness, 0.0),
-            "a step of zero gives something else"
-        );
-        assert!(same(&whole, &state), "a step of zero changes the state");
+        small.check();
+
+        let state = whole.used();
+        assert_eq!(whole.step(displacement), (force, stiffness, 0.0), "a step of zero");
+        assert_eq!(whole.used(), state, "a step of zero");
 
         let mut sum = 0.0;
         for part in 1..parts {
             let between = last + (displacement - last) * (part as f64 / parts as f64);
-            let between = between.max(last.min(displacement)).min(last.max(displacement));
-            sum += contact.step(&mut divided, between).2;
+            sum += divided.step(between.max(last.min(displacement)).min(last.max(displacement))).2;
         }
-        let end = contact.step(&mut divided, displacement);
-        assert!((end.0, end.1) == (force, stiffness), "in parts {end:?}, in one {force:e}, {stiffness:e}");
-        assert!(
-            used(&divided) == used(&whole),
-            "in parts the state is {:?}, in one {:?}",
-            used(&divided),
-            used(&whole)
-        );
-        // A sum of differences of energies, each to the accuracy of the loops that it is part of.
-        let scale = limit * (contact.slip_displacement() + (displacement - last).abs());
-        assert!((sum + end.2 - energy).abs() <= 1e-12 * scale, "in parts {:e}, in one {energy:e}", sum + end.2);
+        let end = divided.step(displacement);
+        sum += end.2;
+        assert_eq!((end.0, end.1), (force, stiffness), "in parts");
+        assert_eq!(divided.used(), whole.used(), "in parts");
+        // The energies are differences of those of loops.
+        let scale = limit * (contact.slip_displacement + (displacement - last).abs());
+        assert!((sum - energy).abs() <= 1e-12 * scale, "dissipated {sum:e} in parts, {energy:e} in one step");
         if displacement != last {
             (before, last) = (last, displacement);
         }
     }
 
     let n = path.len();
-    let mut outputs = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-    let ([force, stiffness, dissipated], state) =
-        (outputs.each_mut().map(|output| output.as_mut_ptr()), at_once.as_mut_ptr());
-    ok("mslip_masing_path", || unsafe {
-        mslip_masing_path(
-            contact.pointer(),
-            at_once.len(),
-            state,
-            n,
-            path.as_ptr(),
-            state,
-            force,
-            stiffness,
-            dissipated,
-        )
-    });
-    for (i, &(force, stiffness, energy)) in steps.iter().enumerate() {
-        assert!(
-            (outputs[0][i], outputs[1][i], outputs[2][i]) == (force, stiffness, energy),
-            "step {i} differs at once"
-        );
+    let mut outputs = [(); 3].map(|()| vec![0.0; n]);
+    let [force, stiffness, dissipated] = outputs.each_mut().map(|output| output.as_mut_ptr());
+    let (length, state) = (at_once.state.len(), at_once.state.as_mut_ptr());
+    let status = unsafe {
+        mslip_masing_path(&at_once.contact, length, state, n, path.as_ptr(), state, force, stiffness, dissipated)
+    };
+    assert!(status == MSLIP_OK, "{status}");
+    for (i, &step) in steps.iter().enumerate() {
+        assert_eq!((outputs[0][i], outputs[1][i], outputs[2][i]), step, "step {i} of a path");
     }
-    assert!(same(used(&at_once), used(&whole)), "at once the state is another");
+    assert_eq!(at_once.used(), whole.used(), "after a path");
+    whole.check();
 
-    // An inner loop is closed and erased.
-    if let Some(&(force, stiffness, _)) = steps.last() {
-        let state = whole.clone();
-        let between = last + inner * (before - last);
-        contact.step(&mut whole, between);
-        let (again, tangent, _) = contact.step(&mut whole, last);
-        assert!((again - force).abs() <= 1e-13 * limit, "after a loop {again:e} instead of {force:e}");
-        // In gross slip the offset of the initial loading curve moves back and forth.
-        if force.abs() < limit && between != before {
-            assert!(again == force && tangent == stiffness, "after a loop {tangent:e} instead of {stiffness:e}");
-            assert!(used(&whole) == used(&state), "a closed loop is not erased");
-        }
+    let Some(&(force, stiffness, _)) = steps.last() else { return };
+    let state = whole.used();
+    whole.step(last + inner * (before - last));
+    let (again, tangent, _) = whole.step(last);
+    assert!((again - force).abs() <= 1e-13 * limit, "after a loop {again:e} instead of {force:e}");
+    // In gross slip the initial loading curve is shifted back and forth.
+    if force.abs() < limit && last + inner * (before - last) != before {
+        assert_eq!((again, tangent), (force, stiffness), "after a closed loop");
+        assert_eq!(whole.used(), state, "after a closed loop");
     }
 }
 
-/// Points of the monotonic curve, in order.
-fn curve(contact: &Contact, source: &mut Source) {
-    let (limit, slip) = (contact.slip_force(), contact.slip_displacement());
-    let mut parts: Vec<f64> = (0..6).map(|_| Contact::draw_part(source)).chain([0.0, 1.0]).collect();
+/// The monotonic curve in both directions, its monotony and concavity, tractions, and energy.
+fn curve(contact: &Contact, parts: &[Number], x: Number) {
+    let (limit, slip) = (contact.slip_force, contact.slip_displacement);
+    let mut parts: Vec<f64> = parts.iter().map(|&number| part(number)).chain([0.0, 1.0]).collect();
     parts.sort_by(f64::total_cmp);
-    let x = contact.half_width() * source.number(1.0).clamp(-2.0, 2.0);
+    let x = contact.half_width * Numbers::default().one(x, 1.0).clamp(-2.0, 2.0);
     let x = if x.is_nan() { 0.0 } else { x };
-    tell!("{parts:?} x {x:e}");
-    let everywhere = contact.tractions(limit, x);
-    let mut before: Option<(f64, [f64; 5], [f64; 3])> = None;
+    let coulomb = contact.curve_at_force(limit).unwrap().shear(x);
+    let mut previous: Option<(f64, [f64; 8])> = None;
     for part in parts {
         let force = part * limit;
-        let (displacement, compliance, stick) = contact.at_force(force);
-        let energy = contact.energy(force);
-        let (pressure, shear) = contact.tractions(force, x);
-        // Coulomb's law, to the accuracy of both tractions.
-        assert!(pressure == everywhere.0 && shear <= everywhere.1 * (1.0 + 1e-11), "{shear:e} {:e}", everywhere.1);
-        let (back, stiffness, _) = contact.at_displacement(displacement);
-        // A few units of the displacement and of the force, which the curve's slope makes no more of.
-        assert!((back - force).abs() <= 1e-13 * force, "{force:e} comes back as {back:e}");
+        let at_force = contact.curve_at_force(force).unwrap();
+        let (displacement, compliance, shear) = (at_force.displacement(), at_force.compliance(), at_force.shear(x));
+        assert!(shear <= coulomb * (1.0 + 1e-11), "shear {shear:e} exceeds {coulomb:e}");
+        let back = contact.curve_at_displacement(displacement).unwrap();
+        assert!((back.force() - force).abs() <= 1e-13 * force, "{force:e} and back {:e}", back.force());
         if part < 0.99 {
-            assert!((stiffness * compliance - 1.0).abs() <= 1e-10, "stiffness {stiffness:e} compliance {compliance:e}");
+            let product = back.stiffness() * compliance;
+            assert!((product - 1.0).abs() <= 1e-10, "stiffness times compliance {product:e}");
         }
-        let way = part * slip;
-        let (mut at_way, stiffness_at_way, stick_at_way) = contact.at_displacement(way);
-        if way == slip {
-            at_way = limit;
-        }
-        if let Some((last, [d, c, s, e, q], [f, k, w])) = before {
-            // Neighbours may change places within their errors.
+        let at_part = contact.curve_at_displacement(part * slip).unwrap();
+        let values = [
+            displacement,
+            contact.dissipated_energy(force).unwrap(),
+            if part == 1.0 { limit } else { at_part.force() },
+            shear,
+            compliance,
+            -at_force.stick_half_width(),
+            -at_part.stiffness(),
+            -at_part.stick_half_width(),
+        ];
+        if let Some((last, lower)) = previous {
+            // Neighbouring points may change places within their errors.
             let order = if part > last * (1.0 + 1e-14) { 1e-13 } else { 1e-12 };
-            assert!(
-                displacement >= d * (1.0 - order) && energy >= e * (1.0 - order),
-                "{displacement:e} {d:e}, {energy:e} {e:e}"
-            );
-            assert!(
-                compliance >= c * (1.0 - 1e-12) && stick <= s * (1.0 + 1e-12),
-                "{compliance:e} {c:e}, {stick:e} {s:e}"
-            );
-            assert!(shear >= q - 1e-11 * everywhere.1, "{shear:e} {q:e}");
-            assert!(at_way >= f * (1.0 - order), "{at_way:e} {f:e}");
-            assert!(stiffness_at_way <= k * (1.0 + 1e-12), "{stiffness_at_way:e} {k:e}");
-            assert!(stick_at_way <= w * (1.0 + 1e-12), "{stick_at_way:e} {w:e}");
+            let errors = [order, order, order, f64::NAN, 1e-12, 1e-12, 1e-12, 1e-12];
+            for (k, ((value, lower), error)) in values.iter().zip(lower).zip(errors).enumerate() {
+                let error = if k == 3 { 1e-11 * coulomb } else { error * lower.abs() };
+                assert!(
+                    *value >= lower || *value >= lower - error,
+                    "quantity {k} decreases from {lower:e} at {last:e} to {value:e} at {part:e}"
+                );
+            }
         }
-        before =
-            Some((part, [displacement, compliance, stick, energy, shear], [at_way, stiffness_at_way, stick_at_way]));
+        previous = Some((part, values));
     }
 }
 
-/// Cycles of two amplitudes, and spring-sliders.
-fn cycle(contact: &Contact, source: &mut Source) {
-    let (limit, slip) = (contact.slip_force(), contact.slip_displacement());
-    let [one, two] = [(); 2].map(|()| {
-        let amplitude = contact.draw(source).abs();
-        // Where energies are representable.
-        if amplitude >= 1e-40 * slip && amplitude <= 1e20 * slip { amplitude } else { 0.5 * slip }
-    });
-    let (small, large) = (one.min(two), one.max(two));
-    tell!("{small:e} {large:e}");
-    let [(real, imaginary), (weaker, _)] = [small, large].map(|amplitude| {
-        let [real, imaginary, ..] = contact.complex_stiffness(amplitude);
-        (real, imaginary)
-    });
-    assert!(weaker <= real * (1.0 + 1e-12), "K' {real:e} at {small:e}, {weaker:e} at {large:e}");
-
-    // Once around the loop.
-    let mut state = unloaded(2);
-    let (force, _, up) = contact.step(&mut state, small);
-    let (back, _, down) = contact.step(&mut state, -small);
-    let (again, _, forth) = contact.step(&mut state, small);
+/// Complex stiffness and energy of two amplitudes, the loop step by step, and the equivalent Jenkins and Iwan models.
+fn cycle(contact: &Contact, amplitudes: [f64; 2], sliders: Option<u8>) {
+    let (limit, slip) = (contact.slip_force, contact.slip_displacement);
+    // Energies must be representable.
+    let [one, two] =
+        amplitudes.map(f64::abs).map(|a| if (1e-40 * slip..=1e20 * slip).contains(&a) { a } else { 0.5 * slip });
+    let (amplitude, larger) = (one.min(two), one.max(two));
+    let at = |amplitude| contact.complex_stiffness(amplitude).unwrap();
+    let (real, imaginary) = (at(amplitude).real(), at(amplitude).imaginary());
     assert!(
-        (back + force).abs() <= 1e-13 * force && (again - force).abs() <= 1e-13 * force,
-        "{force:e} {back:e} {again:e}"
+        at(larger).real() <= real * (1.0 + 1e-12),
+        "K' {real:e} at {amplitude:e}, {:e} at {larger:e}",
+        at(larger).real()
     );
-    let around = down + forth;
-    let energy = PI * imaginary * small * small;
-    // What is not, or hardly, a normal number has no digits to be compared.
+
+    let mut stepper = Stepper::new(contact, 2);
+    let [(force, _, first), (back, _, down), (again, _, up)] =
+        [amplitude, -amplitude, amplitude].map(|u| stepper.step(u));
+    let closed = (back + force).abs() <= 1e-13 * force && (again - force).abs() <= 1e-13 * force;
+    assert!(closed, "forces {force:e} {back:e} {again:e}");
+    let close = |value: f64, expected: f64| (value - expected).abs() <= 1e-10 * expected;
+    let (dissipated, energy) = (down + up, PI * imaginary * amplitude * amplitude);
+    // Subnormal energies have too few digits.
     if energy < 1e-280 {
         return;
     }
-    assert!((around - energy).abs() <= 1e-10 * energy, "around {around:e}, by K'' {energy:e}");
-    if small < 0.999 * slip {
-        let by_force = contact.energy(force);
-        // By the force, whose rounding counts for more the nearer gross slip is.
-        assert!((around - by_force).abs() <= 1e-10 * by_force, "around {around:e}, by the force {by_force:e}");
-        assert!((4.0 * up - around).abs() <= 1e-10 * around, "first {up:e}, around {around:e}");
+    assert!(close(dissipated, energy), "dissipated {dissipated:e}, by K'' {energy:e}");
+    if amplitude < 0.999 * slip {
+        let by_force = contact.dissipated_energy(force).unwrap();
+        assert!(close(dissipated, by_force), "dissipated {dissipated:e}, by the force {by_force:e}");
+        assert!(close(4.0 * first, dissipated), "dissipated {dissipated:e}, first quarter {first:e}");
     }
 
-    let (mut stiffness, mut slider) = (f64::NAN, f64::NAN);
-    ok("mslip_jenkins_equivalent", || unsafe {
-        mslip_jenkins_equivalent(contact.pointer(), small, &mut stiffness, &mut slider)
-    });
-    // Loops so slender that the angle at which they slip is lost are springs.
-    if imaginary > 1e-12 * real && small <= 1e4 * slip {
-        let cosine = (1.0 - 2.0 * slider / (stiffness * small)).clamp(-1.0, 1.0);
+    let jenkins = equivalents::jenkins(contact, amplitude).unwrap();
+    // The reversal angle of very slender loops is lost to rounding.
+    if imaginary > 1e-12 * real && amplitude <= 1e4 * slip {
+        let cosine = (1.0 - 2.0 * jenkins.slip_force / (jenkins.stiffness * amplitude)).clamp(-1.0, 1.0);
         let angle = cosine.acos();
-        let [a, b] = [angle - angle.sin() * cosine, angle.sin() * angle.sin()].map(|value| value * stiffness / PI);
-        // The cosine near 1 or -1 has lost half its digits.
-        assert!(
-            (a - real).abs() <= 1e-6 * real && (b - imaginary).abs() <= 1e-6 * (real + imaginary),
-            "{a:e} {real:e}, {b:e} {imaginary:e}"
-        );
+        let [a, b] = [angle - angle.sin() * cosine, angle.sin().powi(2)].map(|value| value * jenkins.stiffness / PI);
+        // Near 1 and -1 half of the digits of the angle are lost.
+        let agrees = (a - real).abs() <= 1e-6 * real && (b - imaginary).abs() <= 1e-6 * (real + imaginary);
+        assert!(agrees, "Jenkins element {a:e} {b:e}, contact {real:e} {imaginary:e}");
     }
-
-    if source.below(8) == 0 {
-        let n = source.below(3) + 1;
-        let (mut stiffness, mut limits, mut error) = ([f64::NAN; 3], [f64::NAN; 3], f64::NAN);
-        ok("mslip_iwan_equivalent", || unsafe {
-            mslip_iwan_equivalent(contact.pointer(), n, stiffness.as_mut_ptr(), limits.as_mut_ptr(), &mut error)
+    if let Some(sliders) = sliders {
+        let mut model = 0.0;
+        let iwan = equivalents::iwan(contact, usize::from(sliders % 3) + 1, |slider| {
+            model += (slider.stiffness * amplitude).min(slider.slip_force);
         });
-        let bank: f64 = (0..n).map(|i| (stiffness[i] * small).min(limits[i])).sum();
-        let (force, ..) = contact.at_displacement(small);
-        assert!(
-            (bank - force).abs() <= error * limit * (1.0 + 1e-5) + 1e-12 * limit,
-            "{bank:e} {force:e}, error {error:e}"
-        );
+        let (error, force) = (iwan.unwrap(), contact.curve_at_displacement(amplitude).unwrap().force());
+        let bound = error * limit * (1.0 + 1e-5) + 1e-12 * limit;
+        assert!((model - force).abs() <= bound, "Iwan model {model:e}, contact {force:e}, bound {bound:e}");
     }
 }
 
-/// The harmonic force of both rules; for uniform sampling odd, and by its definition.
-fn harmonics(contact: &Contact, source: &mut Source) {
-    let (limit, slip) = (contact.slip_force(), contact.slip_displacement());
-    let harmonics = source.below(4) + 1;
-    let samples = 2 * harmonics + 1 + source.below(32);
-    let rule = (source.byte() % 2) as i32;
-    let n = 2 * harmonics + 1;
-    let displacement: Vec<f64> = (0..n).map(|_| contact.draw(source)).collect();
-    tell!("{harmonics} harmonics, {samples} samples, rule {rule}: {displacement:?}");
+/// Bounds of the harmonic force by both rules; by uniform sampling odd symmetry and the definition as steps of two periods.
+fn harmonic_force(contact: &Contact, displacement: &[f64], samples: usize, rule: i32) {
+    let (limit, n) = (contact.slip_force, displacement.len());
+    let harmonics = n / 2;
     let mut workspace = vec![0.0; mslip_harmonic_workspace_length(harmonics, samples, rule)];
-    ok("mslip_harmonic_workspace_init", || unsafe {
-        mslip_harmonic_workspace_init(harmonics, samples, rule, workspace.len(), workspace.as_mut_ptr())
-    });
-    let mut of = |displacement: &[f64]| {
+    let (length, memory) = (workspace.len(), workspace.as_mut_ptr());
+    assert!(unsafe { mslip_harmonic_workspace_init(harmonics, samples, rule, length, memory) } == MSLIP_OK);
+    let c_contact = mslip_contact::from(*contact);
+    let evaluate = |displacement: &[f64]| {
         let (mut force, mut jacobian, mut dissipated) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
-        let (f, j) = (force.as_mut_ptr(), jacobian.as_mut_ptr());
-        ok("mslip_harmonic_force", || unsafe {
-            mslip_harmonic_force(
-                contact.pointer(),
-                workspace.as_mut_ptr(),
-                displacement.as_ptr(),
-                f,
-                j,
-                &mut dissipated,
-            )
-        });
+        let (u, f, j) = (displacement.as_ptr(), force.as_mut_ptr(), jacobian.as_mut_ptr());
+        assert!(unsafe { mslip_harmonic_force(&c_contact, memory, u, f, j, &mut dissipated) } == MSLIP_OK);
         (force, jacobian, dissipated)
     };
-    let (force, jacobian, dissipated) = of(&displacement);
+    let (force, jacobian, dissipated) = evaluate(displacement);
     assert!(force.iter().all(|f| f.abs() <= 2.0 * limit * (1.0 + 1e-13)), "{force:?}");
-    assert!(
-        dissipated >= 0.0 && dissipated.is_finite() && jacobian.iter().all(|j| j.is_finite()),
-        "{dissipated:e} {jacobian:?}"
-    );
-    let opposite: Vec<f64> = displacement.iter().map(|u| -u).collect();
-    let (minus, ..) = of(&opposite);
+    assert!(dissipated >= 0.0 && dissipated.is_finite(), "dissipated {dissipated:e}");
+    assert!(jacobian.iter().all(|j| j.is_finite()), "{jacobian:?}");
+
     let largest: f64 = displacement.iter().map(|u| u.abs()).sum();
-    if rule == MSLIP_UNIFORM_SAMPLING && largest <= 1e3 * slip {
-        // Rounding of the waves, by the stiffness, and of the sums.
-        let rounding = 1e-14 * (limit + contact.initial_stiffness() * largest) * samples as f64;
-        for (plus, minus) in force.iter().zip(&minus) {
-            assert!((plus + minus).abs() <= rounding, "{plus:e} {minus:e}");
-        }
-        let (by_definition, energy) = stepped(contact, harmonics, samples, &displacement);
-        for (force, expected) in force.iter().zip(by_definition) {
-            assert!((force - expected).abs() <= rounding, "{force:e}, by definition {expected:e} ± {rounding:e}");
-        }
-        let rounding = 1e-12 * (contact.slip_energy() + limit * largest) * samples as f64;
-        assert!((dissipated - energy).abs() <= rounding, "dissipated {dissipated:e}, by definition {energy:e}");
+    if rule == MSLIP_EVENT_DRIVEN || largest > 1e3 * contact.slip_displacement {
+        return;
     }
+    let (opposite, ..) = evaluate(&displacement.iter().map(|u| -u).collect::<Vec<_>>());
+    let (expected, energy) = harmonic_force_by_steps(contact, samples, displacement);
+    // Rounding of the displacement, times the stiffness, and of the sums.
+    let rounding = 1e-14 * (limit + contact.initial_stiffness * largest) * samples as f64;
+    for ((force, opposite), expected) in force.iter().zip(opposite).zip(expected) {
+        assert!((force + opposite).abs() <= rounding, "{force:e}, opposite {opposite:e}");
+        assert!((force - expected).abs() <= rounding, "{force:e} instead of {expected:e} ± {rounding:e}");
+    }
+    let rounding = 1e-12 * (contact.slip_energy + limit * largest) * samples as f64;
+    assert!((dissipated - energy).abs() <= rounding, "dissipated {dissipated:e} instead of {energy:e}");
 }
 
-/// The second of two periods from the unloaded state, step by step.
-fn stepped(contact: &Contact, harmonics: usize, samples: usize, displacement: &[f64]) -> (Vec<f64>, f64) {
-    let mut state = unloaded(2 * samples);
-    let (mut force, mut energy) = (vec![0.0; 2 * harmonics + 1], 0.0);
-    let wave = |order: usize, sample: usize| {
-        let angle = 2.0 * PI * ((order * sample) % samples) as f64 / samples as f64;
-        (angle.cos(), angle.sin())
-    };
+/// Fourier coefficients of the force and dissipated energy in the second of two periods from the unloaded state.
+fn harmonic_force_by_steps(contact: &Contact, samples: usize, displacement: &[f64]) -> (Vec<f64>, f64) {
+    let mut stepper = Stepper::new(contact, 2 * samples);
+    let (mut force, mut energy) = (vec![0.0; displacement.len()], 0.0);
     for step in 0..2 * samples {
-        let sample = step % samples;
-        let waves = (1..=harmonics).map(|order| {
-            let (cosine, sine) = wave(order, sample);
-            displacement[2 * order - 1] * cosine + displacement[2 * order] * sine
-        });
-        let (f, _, dissipated) = contact.step(&mut state, displacement[0] + waves.sum::<f64>());
-        if step < samples {
-            continue;
-        }
-        energy += dissipated;
-        force[0] += f / samples as f64;
-        for order in 1..=harmonics {
-            let (cosine, sine) = wave(order, sample);
-            force[2 * order - 1] += 2.0 * f * cosine / samples as f64;
-            force[2 * order] += 2.0 * f * sine / samples as f64;
+        let basis: Vec<f64> = (0..displacement.len())
+            .map(|i| {
+                let angle = 2.0 * PI * (i.div_ceil(2) * (step % samples) % samples) as f64 / samples as f64;
+                if i % 2 == 0 && i > 0 { angle.sin() } else { angle.cos() }
+            })
+            .collect();
+        let (f, _, dissipated) = stepper.step(basis.iter().zip(displacement).map(|(basis, u)| basis * u).sum());
+        if step >= samples {
+            energy += dissipated;
+            for (i, (force, basis)) in force.iter_mut().zip(basis).enumerate() {
+                *force += f * basis * if i == 0 { 1.0 } else { 2.0 } / samples as f64;
+            }
         }
     }
     (force, energy)
 }
 
-/// Units that are powers of 2 change no bit.
-fn units(given: &Given, contact: &Contact, source: &mut Source) {
-    let [l, f] = [(); 2].map(|()| 2f64.powi(source.byte() as i8 as i32 / 2));
-    let other = given.scaled(l, f);
-    tell!("length {l:e} force {f:e} {other:?}");
-    // A flat that is subnormal in one of both has as many digits as the unit leaves it, or none.
-    if let (Given::Flat(one), Given::Flat(other)) = (given, &other) {
+/// A change of units by powers of 2 is exact.
+fn units(parameters: &AnyParameters, contact: &Contact, [l, f]: [f64; 2], part: f64) {
+    let other = parameters.scaled(l, f);
+    // A subnormal flat has fewer digits.
+    if let (AnyParameters::Flat(one), AnyParameters::Flat(other)) = (parameters, &other) {
         let flats = [one.flat_half_width, other.flat_half_width];
         if flats.iter().any(|&flat| flat > 0.0) && !flats.iter().all(|flat| flat.is_normal()) {
             return;
         }
     }
-    // Out of range in one of both, or with numbers that are not normal.
-    let Ok(bits) = other.prepare() else { return };
-    let scaled = Contact(&bits);
-    let expected = [f / l / l, l, f, l, f / l, f * l];
-    for (i, (unit, one)) in expected.iter().zip(contact.0).enumerate() {
-        assert!(one * unit == bits[i], "field {i}: {:e} instead of {:e}", bits[i], one * unit);
-    }
-    let part = Contact::draw_part(source);
-    let displacement = part * contact.slip_displacement();
-    let ((a, b, c), (x, y, z)) = (contact.at_displacement(displacement), scaled.at_displacement(displacement * l));
-    assert!((a * f, b * f / l, c * l) == (x, y, z), "{a:e} {b:e} {c:e} and {x:e} {y:e} {z:e}");
+    let Ok(scaled) = other.contact() else { return };
+    let fields = |c: &Contact, [p, l, f]: [f64; 3]| {
+        let at = c.curve_at_displacement(part * c.slip_displacement).unwrap();
+        let curve = [at.force() * f, at.stiffness() * (f / l), at.stick_half_width() * l];
+        let fields = [c.composite_modulus * p, c.half_width * l, c.slip_force * f, c.slip_displacement * l];
+        (fields, c.initial_stiffness * (f / l), c.slip_energy * (f * l), curve)
+    };
+    assert_eq!(fields(contact, [f / l / l, l, f]), fields(&scaled, [1.0; 3]), "{other:?}");
 }
