@@ -51,9 +51,7 @@ rust() {
 }
 
 installed() {
-    for group in arithmetic compilers links sanitizers valgrind threads process stack; do
-        step "archive in an application: $group" verification/embedding/embedding.sh "$prefix" "$group"
-    done
+    step 'archive in calling applications' verification/embedding/embedding.sh "$prefix"
     wide='-fdefault-real-8 -fdefault-integer-8'
     for kinds in '' "$wide" -fno-automatic; do
         for standard in f2008 f2018; do
@@ -68,7 +66,7 @@ installed() {
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'CalculiX: its results are those of the library' calculix_results
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
-    step 'instruction counts' make instructions
+    step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1
     step 'uninstall leaves no file' uninstall
 }

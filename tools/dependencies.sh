@@ -19,7 +19,6 @@ valgrind        check instructions                                    : command 
 clang           check                                                 : command clang
 llvm            check                                                 : command llvm-symbolizer
 libclang-rt-dev check                                                 : clang -fsanitize=address,undefined
-libomp-dev      check                                                 : clang -fopenmp
 lld             check                                                 : command ld.lld
 mold            check                                                 : command mold
 cmake           check                                                 : command cmake

@@ -1,8 +1,7 @@
 //! Chores that need the Rust source as data:
 //!
 //! - `header` writes `include/microslip.h` and the generated blocks of `include/microslip.f90`, `header --check` fails if the
-//!   committed ones are stale;
-//! - `symbols` prints the names of the exported functions.
+//!   committed ones are stale.
 
 use std::env;
 use std::process::ExitCode;
@@ -13,11 +12,7 @@ fn main() -> ExitCode {
     let result = match arguments[..] {
         ["header"] => xtask::write_header(),
         ["header", "--check"] => xtask::check_header(),
-        ["symbols"] => {
-            xtask::symbols().iter().for_each(|name| println!("{name}"));
-            Ok(())
-        }
-        _ => Err("usage: xtask header [--check] | symbols".to_owned()),
+        _ => Err("usage: xtask header [--check]".to_owned()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
