@@ -367,15 +367,20 @@ impl Law {
             return self.at_w(&flat.w);
         }
         let share = x / &self.x_slip;
-        let mut w = if share.f64() > 1e-4 {
-            let one_minus_tau = self.one_minus_tau_guess(flat, x_remaining.f64());
-            self.real(w_guess(flat.a.f64(), one_minus_tau * flat.g.f64()))
+        // Λτ + h''(0) τ²/2 <= x.
+        let root = (self.full_stick.square() + x * &flat.g / (2.0 * &flat.psi)).sqrt();
+        let tau = 2.0 * x / (&self.full_stick + root);
+        let mut w = if tau.f64() < 1e-4 {
+            &flat.w - tau * &flat.g / (4.0 * &flat.w * &flat.psi)
         } else {
-            // Λτ + h''(0) τ²/2 = x, and τ proportional to w_b - w.
-            let slope = 4.0 * &flat.w * &flat.psi;
-            let root = (self.full_stick.square() + x * &flat.g / (2.0 * &flat.psi)).sqrt();
-            let tau = 2.0 * x / (&self.full_stick + root);
-            &flat.w - tau * &flat.g / slope
+            let remaining = x_remaining.f64();
+            // Newton's iteration in the guess converges from below; s > 0.18 up to half the displacement of gross slip.
+            let start = if share.f64() > 0.5 {
+                remaining / (self.full_stick.f64() + 0.25)
+            } else {
+                0.1f64.max(1.0 - tau.f64())
+            };
+            self.real(w_guess(flat.a.f64(), self.one_minus_tau_guess(flat, remaining, start) * flat.g.f64()))
         };
         let mut psi = flat.psi_of(&w);
         for _ in 0..200 {
@@ -410,13 +415,12 @@ impl Law {
             }
             psi = flat.psi_of(&w);
         }
-        panic!("no point of the curve at {x:?}");
+        panic!("no point of the curve at {:e} of gross slip", share.f64());
     }
 
     /// s = 1 - τ of the remaining displacement s (Λ + λ + β), in doubles.
-    fn one_minus_tau_guess(&self, flat: &Flat, x_remaining: f64) -> f64 {
+    fn one_minus_tau_guess(&self, flat: &Flat, x_remaining: f64, mut s: f64) -> f64 {
         let (a, g_b, full_stick) = (flat.a.f64(), flat.g.f64(), self.full_stick.f64());
-        let mut s = x_remaining / (full_stick + 0.25);
         for _ in 0..12 {
             let w = w_guess(a, s * g_b);
             let (psi, increase) = (w.atan2(a), -0.5 * (a * a + w * w).ln());
@@ -431,7 +435,7 @@ impl Law {
                 break;
             }
         }
-        s.min(1.0 - 1e-9)
+        s
     }
 
     fn stick_zone(&self, flat: &Flat, w: Real, psi: Real, one_minus_tau: Option<Real>) -> Point {

@@ -1,86 +1,16 @@
-//! Complex stiffness: K' by quadrature in multi-precision, and for very many amplitudes of one contact by Chebyshev interpolants
-//! of that; K'' from the energy's closed form. Spring-sliders with both.
+//! Complex stiffness: the reference by quadrature, and for very many amplitudes of one contact by Chebyshev interpolants of that.
+//! The equivalent spring-slider, and the event-driven harmonic force of one harmonic.
 
 use crate::bounds::find;
 use crate::call;
-use crate::cases::{Case, Dice, text};
 use crate::curve::{half_share, share_of_slip};
-use crate::real::Real;
-use crate::reference::{Law, Point, Shape};
+use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
 use microslip::ffi::MSLIP_EVENT_DRIVEN;
-
-/// Share of the way from the nearer end, whether that is the upper one, and weight over the step.
-type Node = (Real, bool, Real);
-
-/// Nodes of the tanh-sinh rule.
-fn nodes(bits: u32, step: f64) -> Vec<Node> {
-    let half_pi = Real::pi(bits) / 2.0;
-    let mut nodes = Vec::new();
-    let last = (4.1 / step) as i32;
-    for k in -last..=last {
-        let t = Real::new(bits, f64::from(k.abs())) * step;
-        let (up, down) = (t.exp(), (-&t).exp());
-        let decay = (-(&half_pi * (&up - &down))).exp();
-        let share = &decay / (1.0 + &decay);
-        let weight = &half_pi * (up + down) * &decay / (1.0 + &decay).square();
-        nodes.push((share, k > 0, weight));
-    }
-    nodes
-}
-
-/// The rule at every step that was needed.
-pub struct Quadrature {
-    bits: u32,
-    steps: Vec<(f64, Vec<Node>)>,
-}
-
-impl Quadrature {
-    pub fn new(bits: u32) -> Quadrature {
-        let steps = [8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0].map(|n| (1.0 / n, nodes(bits, 1.0 / n)));
-        Quadrature { bits, steps: steps.into() }
-    }
-
-    /// ∫ f from one place to another, until two steps agree to 25 digits: the finer one then has more.
-    pub fn integrate(&self, from: &Real, to: &Real, f: impl Fn(&Real) -> Real) -> Real {
-        let length = to - from;
-        let mut last: Option<Real> = None;
-        for (step, nodes) in &self.steps {
-            let mut sum = Real::new(self.bits, 0.0);
-            for (share, upper, weight) in nodes {
-                let at = if *upper { to - share * &length } else { from + share * &length };
-                sum = sum + weight * f(&at);
-            }
-            let sum = sum * &length * *step;
-            if let Some(last) = &last
-                && (sum.is_zero() || ((&sum - last) / &sum).abs().f64() < 1e-25)
-            {
-                return sum;
-            }
-            last = Some(sum);
-        }
-        panic!("quadrature did not converge");
-    }
-}
-
-/// K' over the stiffness unit at an amplitude over the displacement unit, from Eq. 10 and the first harmonic of Eq. 11.
-pub fn real_part(law: &Law, rule: &Quadrature, amplitude: &Real, near: f64) -> Real {
-    let point = law.at_approach(amplitude, &law.real(near));
-    let (from, to) = match &law.shape {
-        Shape::Flat(flat) => (point.w.clone(), flat.w.clone()),
-        Shape::Ellipse => (point.size.clone(), law.real(1.0)),
-    };
-    let sum = rule.integrate(&from, &to, |w| {
-        let member = law.at_w(w);
-        let rate = match &law.shape {
-            Shape::Flat(flat) => 4.0 * w * &member.psi / &flat.g,
-            Shape::Ellipse => 3.0 * w.square(),
-        };
-        let share = &member.approach / amplitude;
-        (&share * (1.0 - &share)).root() * rate
-    });
-    8.0 / Real::pi(law.bits) / amplitude * sum
-}
+use reference::Real;
+use reference::law::bits_for;
+use reference::quadrature::Quadrature;
+use reference::stiffness::{cycle_energy, imaginary_part, real_part};
 
 struct Piece {
     low: f64,
@@ -91,16 +21,12 @@ struct Piece {
 const TERMS: usize = 36;
 
 impl Piece {
-    /// Pieces of an interval, halved until the last terms are below 23 digits.
+    /// Appends pieces of an interval, halved until the last terms are below 23 digits.
     fn cover(low: f64, high: f64, bits: u32, f: &dyn Fn(&Real) -> Real, pieces: &mut Vec<Piece>) {
         let (centre, half) = ((Real::new(bits, low) + high) / 2.0, (Real::new(bits, high) - low) / 2.0);
-        let angle = |k: usize, j: usize| {
-            let n = TERMS as f64;
-            (Real::pi(bits) * (2.0 * k as f64 + 1.0) * j as f64 / (2.0 * n)).sin_cos().1
-        };
-        let values: Vec<Real> = (0..TERMS).map(|k| f(&(&centre + &half * angle(k, 1)))).collect();
         let cosines: Vec<Real> =
             (0..4 * TERMS).map(|i| (Real::pi(bits) * i as f64 / (2.0 * TERMS as f64)).sin_cos().1).collect();
+        let values: Vec<Real> = (0..TERMS).map(|k| f(&(&centre + &half * &cosines[2 * k + 1]))).collect();
         let coefficients: Vec<Real> = (0..TERMS)
             .map(|j| {
                 let sum = values.iter().enumerate().fold(Real::new(bits, 0.0), |sum, (k, value)| {
@@ -138,34 +64,28 @@ impl Piece {
 }
 
 /// K' of one contact over all amplitudes.
-pub struct Cycles {
+pub struct Amplitudes {
     pub case: Case,
-    bits: i32,
     half: f64,
     slip: f64,
-    /// Over the amplitude up to twice that of gross slip, then over its inverse.
+    /// Over the amplitude up to twice that of gross slip, then over its inverse; none if the curve bends too sharply.
     near: Vec<Piece>,
     far: Vec<Piece>,
 }
 
-/// As near to gross slip as the interpolants go, as a share.
+/// Distance from gross slip within which there are no interpolants, as a share.
 const NEAREST: f64 = 1.0 / 512.0;
 
-impl Cycles {
-    pub fn new(case: Case) -> Cycles {
+impl Amplitudes {
+    pub fn new(case: Case) -> Amplitudes {
         let law = case.reference.law(64);
         let rule = Quadrature::new(law.bits);
-        let unit = law.displacement_unit.f64();
-        let k = |x: &Real| {
-            let near = call::force(&case.contact, x.f64() * unit)[0] / case.contact.slip_force;
-            real_part(&law, &rule, x, near)
-        };
-        let slip = law.slip_approach.f64();
+        let k = |x: &Real| real_part(&law, &rule, x).into_iter().next().unwrap();
+        let slip = law.x_slip.f64();
         let half = half_share(&case);
         let (mut near, mut far) = (Vec::new(), Vec::new());
-        // A curve that bends sharply has no interpolant near its origin.
         if law.full_stick.f64() < 0.3 {
-            return Cycles { bits: 64, half, slip, near, far, case };
+            return Amplitudes { half, slip, near, far, case };
         }
         let mut cover = |low: f64, high: f64| Piece::cover(low * slip, high * slip, 128, &k, &mut near);
         cover(0.0, 0.5);
@@ -178,16 +98,16 @@ impl Cycles {
             cover(1.0 + share, 1.0 + 2.0 * share);
             share *= 2.0;
         }
-        // K' goes with the amplitude to the power -3/2.
+        // K' scales as the amplitude to the power -3/2.
         Piece::cover(0.0, 0.5 / slip, 128, &|u| k(&(1.0 / u)) / (u * u.sqrt()), &mut far);
-        Cycles { bits: 64, half, slip, near, far, case }
+        Amplitudes { half, slip, near, far, case }
     }
 
     pub fn interpolates(&self) -> bool {
         !self.near.is_empty()
     }
 
-    /// K' and its derivative in units, from the interpolants; none too near gross slip.
+    /// K' and its derivative in units, from the interpolants if there are any.
     fn real(&self, x: &Real) -> Option<(Real, Real)> {
         let place = x.f64();
         if (place / self.slip - 1.0).abs() <= NEAREST {
@@ -206,52 +126,53 @@ impl Cycles {
         Some((value * u * root, slope))
     }
 
-    /// Both by quadrature; the derivative as a difference over a small part of what is left until gross slip.
-    pub fn direct(&self, x: &Real, near: f64) -> (Real, Real) {
-        let law = self.case.reference.law(64 + crate::reference::bits_for(x));
-        let rule = Quadrature::new(law.bits);
-        let x = x.at(law.bits);
-        let gap = (&x / &law.slip_approach - 1.0).abs().f64().clamp(1e-9, 1.0);
-        let step = &x * (1e-7 * gap);
-        let [below, above] = [&x - &step, &x + &step].map(|x| real_part(&law, &rule, &x, near));
-        (real_part(&law, &rule, &x, near), (above - below) / (2.0 * step))
+    /// The same by quadrature.
+    fn direct(&self, amplitude: f64) -> (Real, Real) {
+        let law = self.case.reference.law(
+            64 + bits_for(
+                &({
+                    let law = self.case.reference.law(0);
+                    law.x(amplitude) / &law.x_slip
+                }),
+            ),
+        );
+        let [real, slope] = real_part(&law, &Quadrature::new(law.bits), &law.x(amplitude));
+        (real, slope)
     }
 
-    /// The largest of what interpolants and quadrature differ by, at some places.
-    pub fn spot_check(&self, dice: &mut Dice) -> f64 {
+    /// The largest relative difference of interpolants and quadrature at some amplitudes.
+    pub fn spot_check(&self, sampler: &mut Sampler) -> f64 {
         if self.near.is_empty() {
             return 0.0;
         }
-        let law = self.case.reference.law(self.bits);
+        let law = self.case.reference.law(64);
         let rule = Quadrature::new(law.bits);
         let mut worst: f64 = 0.0;
         for _ in 0..8 {
-            let share = if dice.chance(0.5) { dice.between(0.001, 0.99) } else { dice.power(0.01, 2.0) };
+            let share = if sampler.chance(0.5) { sampler.between(0.001, 0.99) } else { sampler.power(0.01, 2.0) };
             let x = law.real(share) * self.slip;
             let Some((found, _)) = self.real(&x.at(128)) else { continue };
-            let near = call::force(&self.case.contact, (&x * &law.displacement_unit).f64())[0];
-            let direct = real_part(&law, &rule, &x, near / self.case.contact.slip_force);
+            let [direct, _] = real_part(&law, &rule, &x);
             worst = worst.max(((found - &direct) / direct).abs().f64());
         }
         worst
     }
 
-    pub fn at_amplitudes(&self, dice: &mut Dice, count: usize, tally: &mut Tally) {
-        // A quadrature takes a thousand times as long.
+    pub fn at_amplitudes(&self, sampler: &mut Sampler, count: usize, tally: &mut Tally) {
+        // A quadrature takes a thousand times as long as an interpolant.
         let count = if self.near.is_empty() { count.div_ceil(1000) } else { count };
         for _ in 0..count {
-            if self.near.is_empty() || dice.chance(2e-4) {
-                // Without interpolants.
-                let share = 1.0 + dice.power(-5.0, -2.0) * if dice.chance(0.5) { 1.0 } else { -1.0 };
-                let share = if self.near.is_empty() && dice.chance(0.8) { dice.power(-4.0, 1.0) } else { share };
+            if self.near.is_empty() || sampler.chance(2e-4) {
+                let share = 1.0 + sampler.power(-5.0, -2.0) * if sampler.chance(0.5) { 1.0 } else { -1.0 };
+                let share = if self.near.is_empty() && sampler.chance(0.8) { sampler.power(-4.0, 1.0) } else { share };
                 self.at_amplitude(share * self.case.contact.slip_displacement, "by quadrature", tally);
                 continue;
             }
-            let (share, range) = match dice.below(4) {
-                0 => (dice.between(1.0, 3.0), "beyond slip"),
-                1 if dice.chance(0.5) => (dice.power(0.0, 12.0), "beyond slip"),
-                2 if dice.chance(0.2) => (dice.near(1.05, 64), "switches"),
-                _ => share_of_slip(dice, self.half),
+            let (share, range) = match sampler.below(4) {
+                0 => (sampler.between(1.0, 3.0), "beyond slip"),
+                1 if sampler.chance(0.5) => (sampler.power(0.0, 12.0), "beyond slip"),
+                2 if sampler.chance(0.2) => (sampler.near(1.05, 64), "switches"),
+                _ => share_of_slip(sampler, self.half),
             };
             if (share - 1.0).abs() > NEAREST {
                 self.at_amplitude(share * self.case.contact.slip_displacement, range, tally);
@@ -262,34 +183,27 @@ impl Cycles {
     fn at_amplitude(&self, amplitude: f64, range: &'static str, tally: &mut Tally) {
         let Case { contact, reference, kind } = &self.case;
         let got = call::complex_stiffness(contact, amplitude);
-        let near = call::force(contact, amplitude)[0];
-        let (law, point) = reference.at_displacement(amplitude, near);
-        let place = || format!("{} A {amplitude:e}", text(&reference.given));
-        let x = law.real(amplitude) / &law.displacement_unit;
-        let (energy, energy_rate) = cycle_energy(&law, &x, &point);
-        let pi = Real::pi(law.bits);
-        let imaginary = &energy / &x.square() / &pi;
-        let imaginary_rate = (energy_rate / &x / &pi - 2.0 * &imaginary) / &x;
+        let (law, point) = reference.at_displacement(amplitude);
+        let place = || format!("{} A {amplitude:e}", text(&reference.input));
+        let x = law.x(amplitude);
+        let energy = cycle_energy(&law, &x, &point).0;
+        let [imaginary, imaginary_rate] = imaginary_part(&law, &x, &point);
         let soft = 1.0 / law.full_stick.f64();
         let unit = &law.stiffness_unit;
         let slope_unit = unit / &law.displacement_unit;
         let exact = unit * &imaginary;
-        // Beyond gross slip E = E_slip + 4 (x - x_s), where x_s is known to what is promised for it.
+        // Beyond gross slip E = E_slip + 4 (x - x_s), with the promised error of x_s.
         let slips = amplitude > contact.slip_displacement;
         let slip =
             if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
         tally.check(("k_imag", kind, range), got[1], &exact, 3.0 * soft + slip, place);
-        let (real, real_rate) = match self.real(&x.at(128)) {
-            Some(found) => found,
-            None => self.direct(&x, near / contact.slip_force),
-        };
+        let (real, real_rate) = self.real(&x.at(128)).unwrap_or_else(|| self.direct(amplitude));
         let scale = (real.square() + imaginary.square()).sqrt() / &x * &slope_unit;
         tally.check_scaled(("dk_real", kind, range), got[2], &(&slope_unit * real_rate), &scale, soft, place);
         let exact = &slope_unit * imaginary_rate;
         tally.check_scaled(("dk_imag", kind, range), got[3], &exact, &scale, 3.0 * soft, place);
         let exact = unit * &real;
         tally.check(("k_real", kind, range), got[0], &exact, soft, place);
-        // The spring-slider with both: sin²Θ = ratio (Θ - sin Θ cos Θ).
         let (stiffness, force) = spring_slider(&real, &imaginary, &x);
         let got = call::jenkins(contact, amplitude);
         tally.check(("jenkins_stiffness", kind, range), got[0], &(unit * stiffness), 3.0 * soft, place);
@@ -298,51 +212,37 @@ impl Cycles {
     }
 }
 
-impl Cycles {
+impl Amplitudes {
     /// The event-driven harmonic force of a cosine about a mean, by K', K'' and the curve.
-    pub fn event_driven(&self, dice: &mut Dice, samples: usize, tally: &mut Tally) {
+    pub fn event_driven(&self, sampler: &mut Sampler, samples: usize, tally: &mut Tally) {
         let Case { contact, reference, kind } = &self.case;
         let (names, range) = if samples < 100 {
             (["event_driven_64_force", "event_driven_64_jacobian", "event_driven_dissipated"], "64 nodes")
         } else {
             (["event_driven_force", "event_driven_jacobian", "event_driven_dissipated"], "512 nodes")
         };
-        let share = if dice.chance(0.3) { dice.power(0.003, 1.0) } else { dice.power(-2.0, -0.005) };
-        let (sine, cosine) = dice.between(-3.2, 3.2).sin_cos();
-        let mean = if dice.chance(0.3) { 0.0 } else { share * dice.between(-1.0, 1.0) };
+        let share = if sampler.chance(0.3) { sampler.power(0.003, 1.0) } else { sampler.power(-2.0, -0.005) };
+        let (sine, cosine) = sampler.between(-3.2, 3.2).sin_cos();
+        let mean = if sampler.chance(0.3) { 0.0 } else { share * sampler.between(-1.0, 1.0) };
         let slip = contact.slip_displacement;
         let u = [mean * slip, share * slip * cosine, share * slip * sine];
         let mut workspace = call::workspace(1, samples, MSLIP_EVENT_DRIVEN);
         let (force, jacobian, dissipated) = call::harmonic(contact, &mut workspace, &u);
         let law = reference.law(64);
-        let v = u.map(|u| law.real(u) / &law.displacement_unit);
+        let v = u.map(|u| law.x(u));
         let amplitude = (v[1].square() + v[2].square()).sqrt();
-        let point = |x: &Real| {
-            let near = call::force(contact, (x * &law.displacement_unit).f64())[0] / contact.slip_force;
-            law.at_approach(x, &law.real(near))
-        };
-        let stiffness = |point: &Point| if point.rest.is_zero() { law.real(0.0) } else { 1.0 / &point.compliance };
+        let (one, farthest) = (law.at_x(&amplitude), law.at_x(&(v[0].abs() + &amplitude)));
         let Some((real, real_rate)) = self.real(&amplitude.at(128)) else { return };
-        let one = point(&amplitude);
-        let farthest = point(&(v[0].abs() + &amplitude));
-        if ((v[0].abs() + &amplitude) / &law.slip_approach - 1.0).abs().f64() < 1e-9 {
+        if ((v[0].abs() + &amplitude) / &law.x_slip - 1.0).abs().f64() < 1e-9 {
             return;
         }
-        let (energy, energy_rate) = cycle_energy(&law, &amplitude, &one);
-        let pi = Real::pi(law.bits);
-        let imaginary = &energy / amplitude.square() / &pi;
-        let imaginary_rate = (energy_rate / &amplitude / &pi - 2.0 * &imaginary) / &amplitude;
-        let sign = if mean < 0.0 {
-            -1.0
-        } else if mean > 0.0 {
-            1.0
-        } else {
-            0.0
-        };
+        let energy = cycle_energy(&law, &amplitude, &one).0;
+        let [imaginary, imaginary_rate] = imaginary_part(&law, &amplitude, &one);
+        let sign = if mean == 0.0 { 0.0 } else { mean.signum() };
         let exact =
             [(&farthest.tau - &one.tau) * sign, &real * &v[1] + &imaginary * &v[2], &real * &v[2] - &imaginary * &v[1]];
         let soft = 1.0 / law.full_stick.f64();
-        let place = || format!("{} samples {samples} u {u:?}", text(&reference.given));
+        let place = || format!("{} samples {samples} u {u:?}", text(&reference.input));
         let scale = &law.slip_force * (farthest.tau.f64() + soft * (v[0].abs() + &amplitude).f64());
         for (got, exact) in force.iter().zip(&exact) {
             tally.check_scaled((names[0], kind, range), *got, &(&law.slip_force * exact), &scale, soft, place);
@@ -352,11 +252,11 @@ impl Cycles {
         let loose = &unit * (&energy + if share > 0.5 { 4.0 * amplitude.f64() } else { 0.0 });
         tally.check_scaled((names[2], kind, range), dissipated, &exact, &loose, 3.0 * soft, place);
         if mean == 0.0 {
-            return; // the mean's derivative is that of one side
+            return; // the derivative by the mean is one-sided
         }
         let direction = [&v[1] / &amplitude, &v[2] / &amplitude];
         let slope = [&real_rate * &v[1] + &imaginary_rate * &v[2], &real_rate * &v[2] - &imaginary_rate * &v[1]];
-        let (far, near) = (stiffness(&farthest), stiffness(&one));
+        let (far, near) = (farthest.stiffness(), one.stiffness());
         let scale = &law.stiffness_unit / &law.full_stick;
         for j in 0..3 {
             for i in 0..3 {
@@ -375,12 +275,9 @@ impl Cycles {
                         own + &slope[i - 1] * &direction[j - 1]
                     }
                 };
-                let rate = [&one, &farthest].map(|point| {
-                    if point.rest.is_zero() {
-                        0.0
-                    } else {
-                        (&point.approach * &point.curvature / point.compliance.square()).f64()
-                    }
+                let rate = [&one, &farthest].map(|point| match point.slips() {
+                    true => 0.0,
+                    false => (&point.x * &point.curvature / point.compliance.square()).f64(),
                 });
                 let condition = soft + rate[0].max(rate[1]);
                 let exact = &law.stiffness_unit * exact;
@@ -390,17 +287,7 @@ impl Cycles {
     }
 }
 
-/// Energy of the cycle of an amplitude and its derivative, in units.
-pub fn cycle_energy(law: &Law, x: &Real, point: &Point) -> (Real, Real) {
-    if point.rest.is_zero() {
-        (&point.energy + 4.0 * (x - &law.slip_approach), law.real(4.0))
-    } else {
-        let rate = 4.0 * (&point.tau - &point.approach / &point.compliance);
-        (point.energy.clone(), rate)
-    }
-}
-
-/// Stiffness and slip force of the spring-slider with K' and K'' at an amplitude.
+/// Stiffness and slip force of the spring-slider with K' and K'' at an amplitude: sin²Θ = ratio (Θ - sin Θ cos Θ).
 fn spring_slider(real: &Real, imaginary: &Real, amplitude: &Real) -> (Real, Real) {
     let bits = 256;
     let ratio = (imaginary / real).at(bits);
