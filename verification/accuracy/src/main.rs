@@ -51,8 +51,7 @@ fn jobs(points: f64) -> Vec<Job> {
         let place = |i: usize| (i as f64 + 0.5) / pieces as f64;
         jobs.extend((0..pieces).map(|i| (place(i), Job { what, kind: KINDS[i % KINDS.len()], count })));
     }
-    // Interpolants take seconds per contact.
-    let contacts = (points / 1e5).clamp(4.0, 32.0) as usize;
+    let contacts = (points / 1e5).clamp(8.0, 32.0) as usize;
     let count = (points / contacts as f64).ceil() as usize;
     let place = |i: usize| i as f64 / contacts as f64;
     jobs.extend(
@@ -83,15 +82,12 @@ fn run(job: &Job, sampler: &mut Sampler, tally: &mut Tally) {
             "neighbours" => curve::neighbours(&case, sampler, tally),
             "sliders" => curve::sliders(&case, sampler, tally),
             "cycles" => {
-                let amplitudes = stiffness::Amplitudes::new(case);
+                // Interpolants take seconds per contact.
+                let amplitudes = stiffness::Amplitudes::new(case, count > 10_000);
                 let off = amplitudes.spot_check(sampler);
                 assert!(off < 1e-20, "an interpolant has an error of {off:e}");
                 amplitudes.at_amplitudes(sampler, count, tally);
-                if amplitudes.interpolates() {
-                    for i in 0..count.div_ceil(30) {
-                        amplitudes.event_driven(sampler, if i % 2 == 0 { 64 } else { 512 }, tally);
-                    }
-                }
+                amplitudes.event_driven(sampler, count, tally);
                 done = left;
             }
             other => panic!("no job {other}"),
@@ -107,7 +103,7 @@ fn main() {
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
-            "--check" => (check, points) = (true, 2e4),
+            "--check" => (check, points) = (true, 1e4),
             "--points" => points = value().parse().expect("a number of points"),
             "--minutes" => minutes = value().parse().expect("a number of minutes"),
             "--seed" => seed = Some(value().parse().expect("a seed")),

@@ -68,7 +68,7 @@ pub struct Amplitudes {
     pub case: Case,
     half: f64,
     slip: f64,
-    /// Over the amplitude up to twice that of gross slip, then over its inverse; none if the curve bends too sharply.
+    /// Over the amplitude up to twice that of gross slip, then over its inverse; none for few amplitudes or if the curve bends sharply.
     near: Vec<Piece>,
     far: Vec<Piece>,
 }
@@ -77,14 +77,14 @@ pub struct Amplitudes {
 const NEAREST: f64 = 1.0 / 512.0;
 
 impl Amplitudes {
-    pub fn new(case: Case) -> Amplitudes {
+    pub fn new(case: Case, interpolate: bool) -> Amplitudes {
         let law = case.reference.law(64);
         let rule = Quadrature::new(law.bits);
         let k = |x: &Real| real_part(&law, &rule, x).into_iter().next().unwrap();
         let slip = law.x_slip.f64();
         let half = half_share(&case);
         let (mut near, mut far) = (Vec::new(), Vec::new());
-        if law.full_stick.f64() < 0.3 {
+        if !interpolate || law.full_stick.f64() < 0.3 {
             return Amplitudes { half, slip, near, far, case };
         }
         let mut cover = |low: f64, high: f64| Piece::cover(low * slip, high * slip, 128, &k, &mut near);
@@ -101,10 +101,6 @@ impl Amplitudes {
         // K' scales as the amplitude to the power -3/2.
         Piece::cover(0.0, 0.5 / slip, 128, &|u| k(&(1.0 / u)) / (u * u.sqrt()), &mut far);
         Amplitudes { half, slip, near, far, case }
-    }
-
-    pub fn interpolates(&self) -> bool {
-        !self.near.is_empty()
     }
 
     /// K' and its derivative in units, from the interpolants if there are any.
@@ -127,16 +123,9 @@ impl Amplitudes {
     }
 
     /// The same by quadrature.
-    fn direct(&self, amplitude: f64) -> (Real, Real) {
-        let law = self.case.reference.law(
-            64 + bits_for(
-                &({
-                    let law = self.case.reference.law(0);
-                    law.x(amplitude) / &law.x_slip
-                }),
-            ),
-        );
-        let [real, slope] = real_part(&law, &Quadrature::new(law.bits), &law.x(amplitude));
+    fn direct(&self, x: &Real) -> (Real, Real) {
+        let law = self.case.reference.law(64 + bits_for(&(x / self.slip)));
+        let [real, slope] = real_part(&law, &Quadrature::new(law.bits), x);
         (real, slope)
     }
 
@@ -160,7 +149,7 @@ impl Amplitudes {
 
     pub fn at_amplitudes(&self, sampler: &mut Sampler, count: usize, tally: &mut Tally) {
         // A quadrature takes a thousand times as long as an interpolant.
-        let count = if self.near.is_empty() { count.div_ceil(1000) } else { count };
+        let count = if self.near.is_empty() { count.div_ceil(100).min(500) } else { count };
         for _ in 0..count {
             if self.near.is_empty() || sampler.chance(2e-4) {
                 let share = 1.0 + sampler.power(-5.0, -2.0) * if sampler.chance(0.5) { 1.0 } else { -1.0 };
@@ -197,7 +186,7 @@ impl Amplitudes {
         let slip =
             if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
         tally.check(("k_imag", kind, range), got[1], &exact, 3.0 * soft + slip, place);
-        let (real, real_rate) = self.real(&x.at(128)).unwrap_or_else(|| self.direct(amplitude));
+        let (real, real_rate) = self.real(&x.at(128)).unwrap_or_else(|| self.direct(&x));
         let scale = (real.square() + imaginary.square()).sqrt() / &x * &slope_unit;
         tally.check_scaled(("dk_real", kind, range), got[2], &(&slope_unit * real_rate), &scale, soft, place);
         let exact = &slope_unit * imaginary_rate;
@@ -213,8 +202,13 @@ impl Amplitudes {
 }
 
 impl Amplitudes {
+    pub fn event_driven(&self, sampler: &mut Sampler, count: usize, tally: &mut Tally) {
+        let count = count.div_ceil(if self.near.is_empty() { 250 } else { 30 });
+        (0..count).for_each(|i| self.one_harmonic(sampler, if i % 2 == 0 { 64 } else { 512 }, tally));
+    }
+
     /// The event-driven harmonic force of a cosine about a mean, by K', K'' and the curve.
-    pub fn event_driven(&self, sampler: &mut Sampler, samples: usize, tally: &mut Tally) {
+    fn one_harmonic(&self, sampler: &mut Sampler, samples: usize, tally: &mut Tally) {
         let Case { contact, reference, kind } = &self.case;
         let (names, range) = if samples < 100 {
             (["event_driven_64_force", "event_driven_64_jacobian", "event_driven_dissipated"], "64 nodes")
@@ -232,7 +226,7 @@ impl Amplitudes {
         let v = u.map(|u| law.x(u));
         let amplitude = (v[1].square() + v[2].square()).sqrt();
         let (one, farthest) = (law.at_x(&amplitude), law.at_x(&(v[0].abs() + &amplitude)));
-        let Some((real, real_rate)) = self.real(&amplitude.at(128)) else { return };
+        let (real, real_rate) = self.real(&amplitude.at(128)).unwrap_or_else(|| self.direct(&amplitude));
         if ((v[0].abs() + &amplitude) / &law.x_slip - 1.0).abs().f64() < 1e-9 {
             return;
         }
