@@ -186,3 +186,17 @@ fn whole_numbers(unit: f64) -> History {
         number.round() * unit
     })
 }
+
+/// Random displacements between two, in order, and the end.
+pub fn divided(from: f64, to: f64, parts: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    // Rounding must not exceed the end.
+    let (low, high) = (from.min(to), from.max(to));
+    let mut places: Vec<f64> =
+        (1..parts).map(|_| (from + rng.random::<f64>() * (to - from)).clamp(low, high)).collect();
+    places.sort_by(f64::total_cmp);
+    if to < from {
+        places.reverse();
+    }
+    places.push(to);
+    places
+}

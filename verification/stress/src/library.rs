@@ -1,52 +1,48 @@
 //! The functions of the C interface, as an application calls them.
 
 use crate::Outcome;
-use crate::walk::BRANCH_ROUNDING;
 use microslip::ffi::{self, mslip_contact};
-use microslip::{EllipticParameters, Parameters};
+use reference::Input;
 use std::fmt::{self, Debug, Formatter};
 use std::mem::MaybeUninit;
 use std::ptr::{self, null, null_mut};
 use std::sync::Arc;
+
+/// Rounding of a force over mu N for each branch: the curve has an error of 1.5e-15 (see the tests of the interpolant) and is
+/// doubled, and sums round by a unit.
+pub const BRANCH_ROUNDING: f64 = 4e-15;
 
 /// `Ok` if the status of a call is 0.
 pub fn accepted(status: i32) -> Outcome {
     if status == ffi::MSLIP_OK { Ok(()) } else { Err(format!("rejected with status {status}")) }
 }
 
-/// Parameters of a contact.
-#[derive(Debug, Clone, Copy)]
-pub enum Given {
-    Flat(Parameters),
-    Ellipse(EllipticParameters),
-}
-
 /// An initialised contact.
 #[derive(Clone)]
 pub struct Contact {
-    pub given: Given,
+    pub input: Input,
     prepared: Arc<mslip_contact>,
 }
 
 impl Debug for Contact {
     fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {
-        self.given.fmt(formatter)
+        self.input.fmt(formatter)
     }
 }
 
 impl Contact {
-    pub fn new(given: Given) -> Result<Contact, String> {
+    pub fn new(input: Input) -> Result<Contact, String> {
         let mut prepared = Box::new(MaybeUninit::<mslip_contact>::uninit());
         let contact = prepared.as_mut_ptr();
         // SAFETY: both pointers are valid; a contact is initialised by the call that accepts it.
         let status = trapped(|| unsafe {
-            match &given {
-                Given::Flat(parameters) => ffi::mslip_contact_init(parameters, contact),
-                Given::Ellipse(parameters) => ffi::mslip_contact_init_elliptic(parameters, contact),
+            match &input {
+                Input::Flat(parameters) => ffi::mslip_contact_init(parameters, contact),
+                Input::Ellipse(parameters) => ffi::mslip_contact_init_elliptic(parameters, contact),
             }
         });
         accepted(status)?;
-        Ok(Contact { given, prepared: unsafe { prepared.assume_init() }.into() })
+        Ok(Contact { input, prepared: unsafe { prepared.assume_init() }.into() })
     }
 
     pub fn as_c(&self) -> &mslip_contact {

@@ -1,4 +1,4 @@
-//! Stress tests of the memory: long and adversarial histories, with checks on every step.
+//! Long and adversarial histories, with checks on every step.
 //!
 //! Every call traps invalid operations, divisions by zero and overflows.
 //!
@@ -6,7 +6,6 @@
 
 mod bank;
 mod contacts;
-mod family;
 mod histories;
 mod library;
 mod memory;

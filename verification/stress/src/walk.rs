@@ -1,16 +1,12 @@
 //! A history, with checks on every step that every contact and every history must pass.
 
-use crate::library::{Answer, Contact, State};
+use crate::histories::divided;
+use crate::library::{Answer, BRANCH_ROUNDING, Contact, State};
 use crate::memory::{Memory, Point};
-use crate::subjects::divided;
 use crate::{Outcome, ensure};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::VecDeque;
-
-/// Rounding of a force over mu N for each branch: the curve has an error of 1.5e-15 (see the tests of the interpolant) and is doubled,
-/// and sums round by a unit.
-pub const BRANCH_ROUNDING: f64 = 4e-15;
 
 /// Steps that a failure shows.
 const SHOWN: usize = 12;

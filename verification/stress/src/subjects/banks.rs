@@ -1,17 +1,17 @@
-//! The memory against a bank of 4,096 spring-sliders, each with a memory of its own: a state that holds all reversals, and one that
-//! holds four and reports the error of those it merged.
+//! States against a bank of 4,096 spring-sliders: one that holds all reversals, and one that holds four and reports the error of
+//! those it merged.
 //!
 //! A bank obeys Masing's rule with its own monotonic curve. If that has an error of ε, then the force after a history that left n
 //! reversals has one of (1 + 2n) ε at most: once on the initial loading curve and twice on each branch. The energy of a cycle of
 //! amplitude x, `8 ∫ M - 4 x M`, has an error of 12 x ε at most, and one branch dissipates half of it.
 
-use crate::bank::{Bank, polygon_error};
+use crate::bank::{Bank, CurvePoint, curve, polygon_error};
 use crate::contacts::Named;
-use crate::family::{CurvePoint, elliptic_curve, flat_curve};
-use crate::library::{Contact, Given, State, accepted, trapped};
-use crate::walk::{BRANCH_ROUNDING, Checks, Walk};
+use crate::library::{BRANCH_ROUNDING, Contact, State, accepted, trapped};
+use crate::walk::{Checks, Walk};
 use crate::{Case, Run, contacts, ensure, histories};
 use microslip::ffi;
+use reference::Reference;
 
 const SLIDERS: usize = 4096;
 
@@ -33,20 +33,12 @@ pub fn cases(steps: u64) -> Vec<Case> {
     cases
 }
 
-/// The contact's curve by itself; elliptical contacts from their first stiffness.
-fn curve_of(contact: &Contact) -> Vec<CurvePoint> {
-    match &contact.given {
-        Given::Flat(parameters) => flat_curve(parameters, SLIDERS * POINTS),
-        Given::Ellipse(_) => elliptic_curve(contact.limit(), contact.stiffness(), SLIDERS * POINTS),
-    }
-}
-
 fn own(named: Named, steps: u64) -> Case {
     Case::new(format!("bank: {}: 4,096 sliders", named.name), steps, move |run| {
         let contact = &named.contact;
-        let curve = curve_of(contact);
+        let curve = curve(&Reference::new(contact.input), SLIDERS * POINTS);
         let end = curve[curve.len() - 1];
-        // Sums of as many positive pieces, and the library's own error of 1e-13.
+        // The error of the library.
         let (force, slip) = (end.force / contact.limit() - 1.0, end.displacement / contact.slip() - 1.0);
         ensure!(
             force.abs() < 1e-13 && slip.abs() < 2e-13,
@@ -68,7 +60,7 @@ fn library_s(named: Named, steps: u64) -> Case {
             ffi::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
         }))?;
         let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
-        let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)).collect());
+        let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)));
         compare(contact, bank, error * contact.limit(), steps, run)
     })
 }

@@ -2,8 +2,7 @@
 //! by nothing while no reversals were merged.
 
 use crate::contacts::Named;
-use crate::library::{Answer, Contact, State, path};
-use crate::walk::BRANCH_ROUNDING;
+use crate::library::{Answer, BRANCH_ROUNDING, Contact, State, path};
 use crate::{Case, contacts, ensure};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;

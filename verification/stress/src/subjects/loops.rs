@@ -1,10 +1,9 @@
 //! Energy: what closed loops dissipate is what the interface says of a cycle, and the area that they enclose.
 
 use crate::contacts::Named;
-use crate::library::{Contact, State};
+use crate::histories::divided;
+use crate::library::{BRANCH_ROUNDING, Contact, State};
 use crate::memory::{Memory, Point};
-use crate::subjects::divided;
-use crate::walk::BRANCH_ROUNDING;
 use crate::{Case, contacts, ensure};
 use quadrature::double_exponential::integrate;
 use rand::Rng;
