@@ -1,4 +1,4 @@
-//! Of complex stiffness and energy (3.4, 3.5, Fig. 13 to 15).
+//! Complex stiffness and energy (3.4, 3.5, Fig. 13 to 15).
 
 use super::*;
 
@@ -14,7 +14,7 @@ pub fn end_of_microslip() -> Claim {
     Claim {
         figure: "fig11",
         place: "3.3",
-        claim: "The elliptical contact goes over to gross slip with a horizontal tangent, the cylinder does not",
+        claim: "The elliptical contact enters gross slip with a horizontal tangent, the cylinder does not",
         computed: format!(
             "stiffness at Q/μP = 1 - 10⁻⁶ over the initial one: ellipse {:.3}, cylinder {:.3}. The cylinder's does vanish at μP, \
              but only like 1/ln(1/c); that of a/b = {NEARLY_FLAT} ends at {kink:.3}",
@@ -46,7 +46,7 @@ pub fn first_harmonic() -> Claim {
             [unit * real - expected_real, unit * imaginary - expected_imaginary].map(f64::abs)
         })
     }));
-    // The loop has kinks: its sums err like 1/INSTANTS².
+    // The loop has kinks: the error of its sums scales as 1/INSTANTS².
     let sums = 1e-7;
     Claim {
         figure: "fig13",
@@ -96,7 +96,7 @@ pub fn imaginary_part_by_shape() -> Claim {
         place: "3.4, Fig. 13a",
         claim: "In microslip K'' is the larger the smaller a/b, and next to 0 until gross slip for a/b → 1",
         computed: format!(
-            "so at every amplitude; K''/(E\\*L) at incipient gross slip {} for a/b = 0, 0.5, 0.75, 0.9, 0.99",
+            "at every amplitude; K''/(E\\*L) at incipient gross slip {} for a/b = 0, 0.5, 0.75, 0.9, 0.99",
             list(&at_slip, 4)
         ),
         verdict: HOLDS,
@@ -193,9 +193,9 @@ pub fn work_of_slip() -> Claim {
     Claim {
         figure: "fig15",
         place: "3.5, Eq. 13-15",
-        claim: "Four times the work of slip in the first loading is the energy of a cycle",
+        claim: "Four times the work of slip in the initial loading is the energy of a cycle",
         computed: format!("the integral of μp s over the slip zones and the area of the loop agree to {QUADRATURE:e}"),
-        verdict: AS_MENDED,
+        verdict: AS_CORRECTED,
         stands: error < QUADRATURE,
     }
 }

@@ -1,4 +1,4 @@
-//! Of stiffness under a normal load, and the elliptical contact (3.2, 3.3, Fig. 10 and 11).
+//! Stiffness under a normal load, and the elliptical contact (3.2, 3.3, Fig. 10 and 11).
 
 use super::*;
 
@@ -34,7 +34,6 @@ pub fn width_by_load() -> Claim {
 }
 
 pub fn slope_after_reversal() -> Claim {
-    // So little after it that the curve has bent by less than the tolerance.
     let error = largest(shapes().iter().flat_map(|case| {
         [0.3, REVERSAL, 1.0]
             .map(|force| relative(case.stiffness_after_reversal(force, 1e-12), case.initial_stiffness()))
@@ -42,7 +41,7 @@ pub fn slope_after_reversal() -> Claim {
     Claim {
         figure: "fig11",
         place: "3.3, Fig. 7",
-        claim: "Loops leave their reversals with the initial slope of the first loading",
+        claim: "Loops leave their reversals with the initial slope of the initial loading",
         computed: format!("after reversals at Q/μP = 0.3, {REVERSAL} and 1, to {QUADRATURE:e}"),
         verdict: HOLDS,
         stands: error < QUADRATURE,
