@@ -124,7 +124,6 @@ step 'C header and Fortran module: generated from the source' "$CARGO" run --qui
 step 'memory under stress, a hundredth of it' "$CARGO" run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- --scale 0.01
 
 step 'paper: its figures and its claims' "$CARGO" run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package paper -- --check
-step 'paper: its pictures are of its data' sha256sum --check --quiet docs/figures/drawn.sha256
 
 # cargo COMMAND of the comparison with multi-precision.
 accuracy() {
