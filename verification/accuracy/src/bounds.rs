@@ -1,6 +1,5 @@
-//! What the library promises, one line for each output: |error| <= k ε (1 + κ) scale, ε = 2⁻⁵².
+//! The promised error of each output: |error| <= k ε (1 + κ) scale, ε = 2⁻⁵².
 
-/// The promise for one output.
 #[derive(Debug)]
 pub struct Bound {
     pub output: &'static str,
@@ -8,7 +7,7 @@ pub struct Bound {
     pub k: f64,
     /// What the error is relative to.
     pub scale: &'static str,
-    /// κ: what the exact result changes by, relatively, with what was rounded before.
+    /// κ: relative change of the exact result per relative change of rounded inputs.
     pub condition: &'static str,
     pub domain: &'static str,
     pub reason: &'static str,
@@ -27,9 +26,7 @@ const fn bound(
     Bound { output, k, scale, condition, domain, reason }
 }
 
-/// A line for each output, and one for where and why.
-/// A line for each output, and one for where and why.
-/// A line for each output, and one for where and why.
+/// Output, k, scale, κ; domain and reason.
 #[rustfmt::skip]
 pub const BOUNDS: &[Bound] = &[
     bound("composite_modulus", 3.0, "value", "0",
@@ -39,29 +36,29 @@ pub const BOUNDS: &[Bound] = &[
     bound("slip_force", 0.5, "value", "0",
         "every contact", "one product"),
     bound("slip_displacement", 6.0, "value", "1/x_s",
-        "every contact", "x_s = Λ + β: the logarithm of 2L/b counts absolutely, and x_s may be below 1"),
+        "every contact", "x_s = Λ + β: the error of ln(2L/b) is absolute, and x_s may be below 1"),
     bound("initial_stiffness", 6.0, "value", "1/Λ",
-        "every contact", "the logarithm of 2L/b counts absolutely, and Λ may be near 0"),
+        "every contact", "the error of ln(2L/b) is absolute, and Λ may be near 0"),
     bound("slip_energy", 48.0, "value", "0",
-        "every contact", "β - γ, of which closed forms beyond ψ = π/3 lose up to four bits"),
+        "every contact", "β - γ, whose closed forms beyond ψ = π/3 lose up to four bits to cancellation"),
     bound("displacement", 10.0, "value", "τ/x",
-        "0 <= T <= mu N", "up to τ = 1/2 a polynomial of positive curvature, beyond it Λτ and what the curve bends by"),
+        "0 <= T <= mu N", "up to τ = 1/2 a polynomial of positive curvature, beyond it Λτ + h(τ)"),
     bound("compliance", 5.0, "value", "(1 + τ h'')/(Λ+λ)",
-        "0 <= T <= mu N", "Λ + λ, both positive; λ changes with the rounding of T"),
+        "0 <= T <= mu N", "Λ + λ, both positive; λ is sensitive to the rounding of T"),
     bound("stick_half_width", 5.0, "value", "τ h''",
-        "0 <= T <= mu N", "a hypotenuse of what the load determines; c changes with the rounding of T"),
+        "0 <= T <= mu N", "a hypotenuse; c is sensitive to the rounding of T"),
     bound("dissipated_energy", 512.0, "value", "0",
         "0 <= T <= mu N", "just above τ = 1/2 the closed form is a difference of terms forty times as large"),
     bound("force", 8.0, "value", "1/(Λ+λ)",
-        "any displacement", "two polynomials; at small Λ the closed form solved, with the rounding of Λ"),
+        "any displacement", "two polynomials; at small Λ the closed form is inverted, with the rounding of Λ"),
     bound("stiffness", 10.0, "value", "(1 + (x+τ) h''/(Λ+λ))/(Λ+λ)",
-        "any displacement", "the derivative of the same polynomial; changes with the rounding of the displacement and of Λ"),
+        "any displacement", "the derivative of the same polynomial; sensitive to the rounding of the displacement and of Λ"),
     bound("stick_half_width_inverse", 10.0, "value", "(x+τ) h''/(Λ+λ)",
-        "any displacement", "the stick zone at which the closed form has the displacement"),
+        "any displacement", "the stick zone by inversion of the closed form"),
     bound("pressure", 128.0, "value", "x/(b-x)",
-        "any x", "antiderivatives that may lose six bits; at an edge between the exact values 8 ε beside x"),
+        "any x", "antiderivatives that may lose six bits to cancellation; at an edge between the exact values at x (1 ± 8 ε)"),
     bound("shear", 128.0, "value", "x/(b-x) + x/abs(x-c) (1 + τ h'')",
-        "any x, 0 <= T <= mu N", "as the pressure, over the slip zone alone; at an edge between the values for x, b, c 8 ε away"),
+        "any x, 0 <= T <= mu N", "as the pressure, over the slip zone only; at an edge between the exact values for x, b, c changed by 8 ε"),
     bound("slip", 128.0, "value", "1.5 x/(x-c) (1 + τ h'')",
         "any x, 0 <= T <= mu N", "as the shear"),
     bound("damage", 192.0, "value", "sum of both",
@@ -69,9 +66,9 @@ pub const BOUNDS: &[Bound] = &[
     bound("masing_force", 8.0, "sum of the sizes of its terms", "1/Λ",
         "any history", "each reversal adds a term of the curve"),
     bound("masing_stiffness", 12.0, "value", "that of `stiffness`",
-        "any history", "that of the branch; within some ε of gross slip between the exact values next to it"),
+        "any history", "that of the branch; within some ε of gross slip between the exact values of neighbouring displacements"),
     bound("masing_dissipated", 512.0, "sum of its terms; 4 mu N times the farthest displacement if that slips", "3/Λ",
-        "any history", "differences of the energy of cycles"),
+        "any history", "differences of cycle energies"),
     bound("masing_shear", 128.0, "sum of the sizes of its terms", "(x/abs(x-c) + 1/Λ)(1 + τ h'') + x/(b-x)",
         "any history, any x", "each reversal adds a traction; position and stick zones are rounded"),
     bound("loop_displacement", 3.0, "amplitude", "0",
@@ -80,14 +77,14 @@ pub const BOUNDS: &[Bound] = &[
         "any amplitude", "two points of the curve, and a sine"),
     bound("k_real", 64.0, "value", "1/Λ",
         "any amplitude", "20 to 40 nodes that integrate to 1e-15 of the initial stiffness"),
-    bound("k_imag", 512.0, "value", "3/Λ; beyond gross slip also 4x/e (6/512), the promise for x_s",
-        "any amplitude", "the energy, and the force at which it is taken"),
+    bound("k_imag", 512.0, "value", "3/Λ; beyond gross slip also 4x/e (6/512), from that of x_s",
+        "any amplitude", "the energy, and the force of the amplitude"),
     bound("dk_real", 6000.0, "abs(K)/amplitude", "1/Λ",
-        "any amplitude", "the same nodes, whose weights for the derivative are larger; worst just above 1.05 times gross slip"),
+        "any amplitude", "the same nodes, with larger weights; worst just above 1.05 times gross slip"),
     bound("dk_imag", 2048.0, "abs(K)/amplitude", "3/Λ",
-        "any amplitude", "a difference of the energy's derivative and of K''"),
+        "any amplitude", "a difference of the derivative of the energy and of K''"),
     bound("harmonic_force", 8.0, "largest force, and initial stiffness times the sum of the coefficients", "1/Λ",
-        "uniform sampling, by definition of the rule", "sums over samples of points of the curve"),
+        "uniform sampling, against the definition of the rule", "sums over samples of points of the curve"),
     bound("harmonic_jacobian", 32.0, "initial stiffness", "1/Λ + Λ h''/(Λ+λ)³ times the sum of the coefficients",
         "uniform sampling, no sample within 1e-9 of gross slip", "sums over samples of stiffnesses"),
     bound("harmonic_dissipated", 512.0, "sum of its terms; 4 mu N times the coefficients if they slip", "3/Λ",
@@ -95,31 +92,31 @@ pub const BOUNDS: &[Bound] = &[
     bound("event_driven_force", 32.0, "largest force, and initial stiffness times the farthest displacement", "1/Λ",
         "512 nodes, H = 1 with a mean, against the exact integrals", "the quadrature has converged: rounding of its sums"),
     bound("event_driven_jacobian", 8192.0, "initial stiffness", "1/Λ + x h''/(Λ+λ)² at both ends",
-        "as above", "the stiffness where gross slip begins is singular: what 512 nodes leave of it"),
+        "as above", "the stiffness is singular at gross slip: the error of 512 nodes"),
     bound("event_driven_64_force", 1e6, "as above", "1/Λ",
-        "64 nodes: error of the quadrature", "falls exponentially with the nodes"),
+        "64 nodes: error of the quadrature", "decreases exponentially with the nodes"),
     bound("event_driven_64_jacobian", 1e9, "as above", "1/Λ + x h''/(Λ+λ)² at both ends",
-        "64 nodes: error of the quadrature", "falls as a power of the nodes in gross slip"),
+        "64 nodes: error of the quadrature", "decreases as a power of the nodes in gross slip"),
     bound("event_driven_dissipated", 512.0, "value; 4 mu N times the amplitude if that slips", "3/Λ",
-        "as above, 64 and 512 nodes", "the energy between the reversals, without quadrature"),
+        "as above, 64 and 512 nodes", "the energy of branches, without quadrature"),
     bound("jenkins_stiffness", 512.0, "value", "3/Λ",
         "any amplitude", "K' and K''"),
     bound("jenkins_slip_force", 512.0, "value", "3/Λ",
         "any amplitude", "K' and K''"),
     bound("iwan_force_error", 1e10, "value, and 1e-9 of mu N", "0",
-        "1 to 12 sliders", "bisected to 1e-6: against the largest distance of the sliders' polygon from the curve"),
+        "1 to 12 sliders", "bisection to 1e-6: against the largest distance of the sliders' polygon from the curve"),
     bound("force_steps_back", 4.0, "value", "1/Λ",
-        "129 neighbouring doubles at every change of formula", "where it should grow from one double to the next"),
+        "129 neighbouring doubles at every switch of formula", "largest decrease of an increasing quantity"),
     bound("displacement_steps_back", 4.0, "value", "1/Λ",
         "as above", "as above"),
     bound("energy_steps_back", 256.0, "value", "1/Λ",
         "as above", "as above"),
     bound("stick_half_width_steps_back", 4.0, "value", "1/Λ",
-        "as above", "where it should fall"),
+        "as above", "largest increase of a decreasing quantity"),
     bound("stiffness_steps_back", 8.0, "value", "1/Λ",
-        "as above", "where it should fall"),
+        "as above", "largest increase of a decreasing quantity"),
     bound("k_real_steps_back", 32.0, "value", "1/Λ",
-        "as above", "where it should fall"),
+        "as above", "largest increase of a decreasing quantity"),
 ];
 
 pub fn find(output: &str) -> &'static Bound {
