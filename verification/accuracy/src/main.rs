@@ -45,18 +45,14 @@ fn jobs(points: f64) -> Vec<Job> {
         ("harmonic", 200.0, 100),
         ("neighbours", 2e4, 10),
         ("sliders", 1e5, 10),
+        ("amplitudes", 100.0, 50),
+        ("event_driven", 200.0, 25),
     ] {
         let pieces = (points / per_count / piece as f64).ceil().max(KINDS.len() as f64) as usize;
         let count = (points / per_count / pieces as f64).ceil() as usize;
         let place = |i: usize| (i as f64 + 0.5) / pieces as f64;
         jobs.extend((0..pieces).map(|i| (place(i), Job { what, kind: KINDS[i % KINDS.len()], count })));
     }
-    let contacts = (points / 1e5).clamp(8.0, 32.0) as usize;
-    let count = (points / contacts as f64).ceil() as usize;
-    let place = |i: usize| i as f64 / contacts as f64;
-    jobs.extend(
-        (0..contacts).map(|i| (place(i), Job { what: "cycles", kind: KINDS[(3 * i + 1) % KINDS.len()], count })),
-    );
     // Interleaved, so that a run that is cut short has some of each.
     jobs.sort_by(|one, two| one.0.total_cmp(&two.0));
     jobs.into_iter().map(|(_, job)| job).collect()
@@ -81,15 +77,8 @@ fn run(job: &Job, sampler: &mut Sampler, tally: &mut Tally) {
             "harmonic" => harmonic::uniform_sampling(&case, sampler, tally),
             "neighbours" => curve::neighbours(&case, sampler, tally),
             "sliders" => curve::sliders(&case, sampler, tally),
-            "cycles" => {
-                // Interpolants take seconds per contact.
-                let amplitudes = stiffness::Amplitudes::new(case, count > 10_000);
-                let off = amplitudes.spot_check(sampler);
-                assert!(off < 1e-20, "an interpolant has an error of {off:e}");
-                amplitudes.at_amplitudes(sampler, count, tally);
-                amplitudes.event_driven(sampler, count, tally);
-                done = left;
-            }
+            "amplitudes" => done = stiffness::at_amplitudes(&case, sampler, 5, tally),
+            "event_driven" => stiffness::event_driven(&case, sampler, tally),
             other => panic!("no job {other}"),
         }
         left -= done;

@@ -1,6 +1,9 @@
 //! The tanh-sinh rule, which needs no smoothness at the ends of an interval.
 
 use crate::Real;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Distance from the nearer end as a share of the interval, whether that is the upper end, and weight.
 type Node = (Real, bool, Real);
@@ -20,14 +23,23 @@ fn nodes(bits: u32, step: f64) -> Vec<Node> {
         .collect()
 }
 
+/// Nodes by precision and steps per unit.
+type Rules = BTreeMap<(u32, u32), Rc<[Node]>>;
+
+thread_local!(static RULES: RefCell<Rules> = RefCell::default());
+
 pub struct Quadrature {
     bits: u32,
-    rules: Vec<Vec<Node>>,
 }
 
 impl Quadrature {
     pub fn new(bits: u32) -> Quadrature {
-        Quadrature { bits, rules: [8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0].map(|n| nodes(bits, 1.0 / n)).into() }
+        Quadrature { bits }
+    }
+
+    fn nodes(&self, steps: u32) -> Rc<[Node]> {
+        let new = || nodes(self.bits, 1.0 / f64::from(steps)).into();
+        RULES.with_borrow_mut(|rules| rules.entry((self.bits, steps)).or_insert_with(new).clone())
     }
 
     /// ∫ f, refined until two steps agree to 25 digits of ∫ |f|; the finer one then has more.
@@ -39,9 +51,9 @@ impl Quadrature {
     pub fn integrals(&self, tolerance: f64, from: &Real, to: &Real, f: impl Fn(&Real) -> Vec<Real>) -> Vec<Real> {
         let length = to - from;
         let mut last: Option<Vec<Real>> = None;
-        for nodes in &self.rules {
+        for steps in [8, 16, 24, 32, 48, 64, 96, 128] {
             let (mut sums, mut sizes) = (Vec::new(), Vec::new());
-            for (share, upper, weight) in nodes {
+            for (share, upper, weight) in self.nodes(steps).iter() {
                 let values = f(&if *upper { to - share * &length } else { from + share * &length });
                 sums.resize(values.len(), Real::new(self.bits, 0.0));
                 sizes.resize(values.len(), 0.0);
