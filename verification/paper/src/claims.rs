@@ -1,4 +1,4 @@
-//! What the paper claims, each claim computed.
+//! The paper's claims, in the order of the page.
 
 mod cycles;
 mod loops;
@@ -14,22 +14,14 @@ use crate::equations::{Tractions, integral, printed_load, printed_pressure, prin
 use microslip::Material;
 use std::f64::consts::PI;
 
-/// A claim and its check.
+/// The check of a claim. Its text and its verdict are on the page.
 pub struct Claim {
-    /// The figure of the page at which it is listed.
+    /// The table of the page.
     pub figure: &'static str,
-    /// Section, equation or figure of the paper.
-    pub place: &'static str,
-    pub claim: &'static str,
     pub computed: String,
-    pub verdict: &'static str,
     /// Whether the verdict is true.
     pub stands: bool,
 }
-
-const HOLDS: &str = "holds";
-const IN_THE_LIMIT: &str = "in the limit";
-const AS_CORRECTED: &str = "as corrected";
 
 /// Two closed forms of one quantity.
 const CLOSED_FORMS: f64 = 1e-12;

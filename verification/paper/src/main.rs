@@ -14,14 +14,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-fn begin(figure: &str) -> String {
-    format!("<!-- claims {figure}: begin -->\n")
-}
-
-fn end(figure: &str) -> String {
-    format!("<!-- claims {figure}: end -->")
-}
-
 fn docs() -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).to_path_buf()
 }
@@ -46,8 +38,7 @@ fn main() -> ExitCode {
 }
 
 fn verdict(claim: &Claim) -> Result<(), String> {
-    let Claim { place, claim, computed, verdict, stands, .. } = claim;
-    if *stands { Ok(()) } else { Err(format!("{place}: {claim}: not “{verdict}”: {computed}")) }
+    if claim.stands { Ok(()) } else { Err(format!("{}: the verdict is not true: {}", claim.figure, claim.computed)) }
 }
 
 fn read(path: &Path) -> Result<String, String> {
@@ -79,18 +70,33 @@ fn compare(claims: &[Claim]) -> Vec<Result<(), String>> {
     tables.chain([read(&docs().join("paper.md")).and_then(stale)]).collect()
 }
 
-/// The page with the table of claims of each figure between its markers.
+/// The page with the results of the claims in the third column of the tables between its markers.
 fn with_claims(page: &str, claims: &[Claim]) -> Result<String, String> {
-    let mut text = page.to_owned();
+    let mut text = String::new();
+    let mut left = page;
     for table in claims.chunk_by(|one, next| one.figure == next.figure) {
-        let (begin, end) = (begin(table[0].figure), end(table[0].figure));
-        let marked = text.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?.1)));
-        let (before, after) = marked.ok_or(format!("docs/paper.md: no {}…{end}", begin.trim_end()))?;
-        let row = |Claim { place, claim, computed, verdict, .. }: &Claim| {
-            format!("| {place} | {claim} | {computed} | {verdict} |\n")
-        };
-        let rows: String = table.iter().map(row).collect();
-        text = format!("{before}{begin}| where | claim | computed | verdict |\n|---|---|---|---|\n{rows}{end}{after}");
+        let name = table[0].figure;
+        let (begin, end) = (format!("<!-- claims {name}: begin -->\n"), format!("<!-- claims {name}: end -->"));
+        let marked = left.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?)));
+        let (before, (rows, after)) = marked.ok_or(format!("docs/paper.md: no {}…{end}", begin.trim_end()))?;
+        text += &format!("{before}{begin}");
+        let mut claims = table.iter();
+        for (i, row) in rows.lines().enumerate() {
+            let cells: Vec<&str> = row.split(" | ").collect();
+            match (&cells[..], i) {
+                (_, 0 | 1) => text += &format!("{row}\n"),
+                ([place, claim, _, verdict], _) => {
+                    let claim_of_row = claims.next().ok_or(format!("docs/paper.md: too many rows in {name}"))?;
+                    text += &format!("{place} | {claim} | {} | {verdict}\n", claim_of_row.computed);
+                }
+                _ => return Err(format!("docs/paper.md: {row}: not four cells")),
+            }
+        }
+        if claims.next().is_some() {
+            return Err(format!("docs/paper.md: too few rows in {name}"));
+        }
+        text += &end;
+        left = after;
     }
-    Ok(text)
+    Ok(text + left)
 }

@@ -13,10 +13,7 @@ pub fn hertz() -> Claim {
     );
     Claim {
         figure: "fig03",
-        place: "2.2, Fig. 3",
-        claim: "At a/b = 0 the contact is Hertz' cylinder",
         computed: format!("p and b = √(4PR/πE\\*) agree to {CLOSED_FORMS:e}"),
-        verdict: HOLDS,
         stands: error < CLOSED_FORMS,
     }
 }
@@ -29,10 +26,7 @@ pub fn pressure_by_shape() -> Claim {
     }));
     Claim {
         figure: "fig03",
-        place: "2.2, Fig. 3",
-        claim: "The dimensionless pressure depends on a/b alone",
         computed: format!("other R, L, E, ν and load: the same to {OTHER_UNITS:e}"),
-        verdict: HOLDS,
         stands: error < OTHER_UNITS,
     }
 }
@@ -47,13 +41,10 @@ pub fn width_of_contact() -> Claim {
     let stands = relative(corrected, 1.0) < 1e-4 && relative(printed, 2f64.sqrt()) < 1e-4;
     Claim {
         figure: "printed",
-        place: "Eq. 1, 19, 24",
-        claim: "The size of the contact follows from its load, for a → 0 by Hertz' formula",
         computed: format!(
             "b over that of Hertz at a/b = 10⁻⁴: corrected {corrected:.4}, printed {printed:.4}; the library's a/b = {SHAPE} from \
              the corrected one, to {CLOSED_FORMS:e}"
         ),
-        verdict: AS_CORRECTED,
         stands: stands && relative(2.0 * printed_load(SHAPE), parameter) < CLOSED_FORMS,
     }
 }
@@ -68,10 +59,7 @@ pub fn relieved_load() -> Claim {
     let corrected = both_halves(|x| Case::flat(SHAPE, LENGTH).pressure(x));
     Claim {
         figure: "printed",
-        place: "Eq. 22",
-        claim: "q\\* carries what is missing from gross slip: ∫q\\* dx = μP - Q",
         computed: format!("a/c = {SHAPE}: corrected 1; printed {printed:.3}, and infinite at x = a"),
-        verdict: AS_CORRECTED,
         stands: relative(corrected, 1.0) < QUADRATURE && printed < 0.0,
     }
 }
@@ -85,12 +73,9 @@ pub fn load_of_pressure() -> Claim {
     );
     Claim {
         figure: "printed",
-        place: "Eq. 17",
-        claim: "The pressure carries the load: ∫p dx = P",
         computed: format!(
             "a/b = {SHAPE}: corrected 1, and the library agrees with multi-precision to {CLOSED_FORMS:e}; printed {printed:.3}"
         ),
-        verdict: AS_CORRECTED,
         stands: relative(corrected, 1.0) < QUADRATURE && library < CLOSED_FORMS && relative(printed, 1.0) > 1e-3,
     }
 }
@@ -105,8 +90,6 @@ pub fn two_limits_of_shape() -> Claim {
     let stands = largest(consistent) < 1e-8 && sharp.flat_over_width() > 0.999 && round.flat_over_width() < 1e-3;
     Claim {
         figure: "fig03",
-        place: "2.2, Eq. 1",
-        claim: "With 4PR/(a²E\\*) from 0 to ∞ the shape runs from the sharp flat to the cylinder",
         computed: format!(
             "4PR/(a²E\\*) = {:.0e}: a/b = {:.5}; {:.0e}: a/b = {:.1e}",
             parameter(&sharp),
@@ -114,7 +97,6 @@ pub fn two_limits_of_shape() -> Claim {
             parameter(&round),
             round.flat_over_width()
         ),
-        verdict: HOLDS,
         stands,
     }
 }
@@ -124,10 +106,7 @@ pub fn incomplete_contact() -> Claim {
     let error = largest(shapes().iter().map(falls_like_root).map(|[far, near]| relative(far, near)));
     Claim {
         figure: "fig03",
-        place: "2.2",
-        claim: "The contact is incomplete: the pressure falls continuously to 0 at its edges",
         computed: "as √(1-x²/b²) from x/b = 1 - 10⁻⁶ on, to 10⁻³, for every a/b".to_owned(),
-        verdict: HOLDS,
         // The next term is of the order of 1e-6 over the width of the edge.
         stands: error < 1e-3,
     }
@@ -142,13 +121,10 @@ pub fn slip_at_any_force() -> Claim {
     let widths = SHAPES.map(|shape| 1.0 - Case::flat(shape, LENGTH).stick_zone(0.01));
     Claim {
         figure: "fig04",
-        place: "2.2, Fig. 4",
-        claim: "The edges slip under any tangential force, however small; under μP all of the contact may slip",
         computed: format!(
             "Q/μP = 0.01: (b-c)/b = {:.4} for the cylinder, {:.1e} for a/b = {}; c falls to a",
             widths[0], widths[4], SHAPES[4]
         ),
-        verdict: HOLDS,
         stands: narrows && widths.iter().all(|&width| width > 0.0),
     }
 }
@@ -161,14 +137,11 @@ pub fn full_stick() -> Claim {
     let quotients = [0.9, 0.99, 0.999].map(|x| full(x) / case.pressure(x));
     Claim {
         figure: "fig04",
-        place: "2.2",
-        claim: "Without slip the quotient of shear and pressure would be infinite at the edge",
         computed: format!(
             "the traction of a small force is bq/Q = 1/(π√(1-x²/b²)), to 10⁻⁵ at Q/μP = 10⁻⁶; over bp/P of the cylinder {} at \
              x/b = 0.9, 0.99, 0.999",
             list(&quotients, 1)
         ),
-        verdict: HOLDS,
         stands: error < 1e-5 && quotients.windows(2).all(|pair| pair[1] > 5.0 * pair[0]),
     }
 }
@@ -188,10 +161,7 @@ pub fn shear_is_coulombs() -> Claim {
     let error = largest(errors);
     Claim {
         figure: "fig04",
-        place: "2.2, Eq. 21-24",
-        claim: "The traction is μp where the contact slips and less where it sticks; its sum is Q",
         computed: format!("for a/b from 0 to 0.99, to {QUADRATURE:e}"),
-        verdict: AS_CORRECTED,
         stands: error < QUADRATURE && below,
     }
 }
@@ -205,14 +175,11 @@ pub fn slip_of_plane_problem() -> Claim {
     let edge = case.slip(1.0, REVERSAL);
     Claim {
         figure: "printed",
-        place: "Eq. 15",
-        claim: "The slip follows from the plane problem, without L, and vanishes where the contact sticks",
         computed: format!(
             "with the upper limit b, to {QUADRATURE:e}; with the printed a the stick zone would slip up to {:.1} times as far as \
              the edge",
             in_stick(SHAPE) / edge
         ),
-        verdict: AS_CORRECTED,
         stands: largest(outside) < QUADRATURE && in_stick(1.0) < QUADRATURE && in_stick(SHAPE) > 0.1 * edge,
     }
 }
