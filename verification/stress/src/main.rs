@@ -5,12 +5,12 @@
 //! `stress [--scale X] [--seed N] [--only TEXT] [--jobs N]`
 
 mod bank;
+mod checked;
 mod contacts;
 mod histories;
 mod library;
 mod memory;
 mod subjects;
-mod walk;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rand::SeedableRng;
@@ -21,16 +21,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Instant;
 
-/// Nothing, or what is wrong.
+/// An error is the message of a failed check.
 pub type Outcome = Result<(), String>;
 
 /// A condition, and the message if it does not hold.
 #[macro_export]
 macro_rules! ensure {
-    ($holds:expr, $($sentence:tt)+) => {
+    ($holds:expr, $($message:tt)+) => {
         let holds: bool = $holds;
         if !holds {
-            return Err(format!($($sentence)+));
+            return Err(format!($($message)+));
         }
     };
 }
@@ -91,7 +91,7 @@ fn arguments() -> Result<Arguments, lexopt::Error> {
     Ok(arguments)
 }
 
-/// Random numbers of a case, whatever cases run beside it: its seed is a hash (Fowler, Noll, Vo) of its name.
+/// The generator of a case, independent of other cases: its seed is a hash (Fowler, Noll, Vo) of its name.
 fn random(seed: u64, name: &str) -> ChaCha8Rng {
     let hash = name.bytes().fold(seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
     ChaCha8Rng::seed_from_u64(hash)
@@ -107,7 +107,7 @@ fn main() -> ExitCode {
     };
     let mut cases = subjects::all(scale);
     cases.retain(|case| case.name.contains(&only));
-    // The longest first, so that none is left alone at the end.
+    // The longest first, to keep all threads busy.
     cases.sort_by_key(|case| std::cmp::Reverse(case.steps));
     let start = Instant::now();
     println!("{} cases, seed {seed}, scale {scale}", cases.len());
