@@ -2,7 +2,7 @@
 //!
 //! Every call traps invalid operations, divisions by zero and overflows.
 //!
-//! `stress [--scale X] [--seed N] [--only TEXT] [--jobs N]`
+//! `stress [--scale X] [--seed N] [--only TEXT] [--jobs N]`; without a seed each run has another one, which is printed.
 
 mod bank;
 mod checked;
@@ -77,7 +77,8 @@ struct Arguments {
 fn arguments() -> Result<Arguments, lexopt::Error> {
     use lexopt::prelude::*;
     let jobs = thread::available_parallelism().map_or(1, |jobs| jobs.get());
-    let mut arguments = Arguments { scale: 1.0, seed: 1, only: String::new(), jobs };
+    let seed = std::time::UNIX_EPOCH.elapsed().map_or(1, |now| now.as_secs());
+    let mut arguments = Arguments { scale: 1.0, seed, only: String::new(), jobs };
     let mut parser = lexopt::Parser::from_env();
     while let Some(argument) = parser.next()? {
         match argument {
