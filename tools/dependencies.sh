@@ -5,7 +5,7 @@
 #   demo      Fortran with LAPACK, and gnuplot
 #   mpi       Fortran with LAPACK, Open MPI, and zlib
 #   bench     the C compiler, and gnuplot
-#   figures   gnuplot
+#   figures   gnuplot, GMP and MPFR
 #   host      build dependencies of CalculiX, and gnuplot
 #   fuzz      the C++ compiler
 #   packages  build tools of clients, and Fortran with LAPACK
@@ -81,6 +81,7 @@ bench() {
 }
 
 figures() {
+    accuracy
     need gnuplot-nox gnuplot
 }
 
