@@ -47,14 +47,8 @@ impl Bank {
             .map(|side| (side[1].force - side[0].force) / (side[1].displacement - side[0].displacement))
             .collect();
         let next = slopes.iter().skip(1).chain([&0.0]);
-        Bank::of(
-            slopes.iter().zip(next).zip(&corners[1..]).map(|((slope, next), end)| (slope - next, end.displacement)),
-        )
-    }
-
-    /// Stiffness and slip elongation of each slider.
-    pub fn of(sliders: impl Iterator<Item = (f64, f64)>) -> Bank {
-        let (mut stiffness, mut slip): (Vec<f64>, Vec<f64>) = sliders.unzip();
+        let mut stiffness: Vec<f64> = slopes.iter().zip(next).map(|(slope, next)| slope - next).collect();
+        let mut slip: Vec<f64> = corners[1..].iter().map(|corner| corner.displacement).collect();
         let whole = stiffness.len().next_multiple_of(LANES);
         stiffness.resize(whole, 0.0);
         slip.resize(whole, 0.0);

@@ -8,9 +8,8 @@
 use crate::bank::{Bank, CurvePoint, curve, polygon_error};
 use crate::checked::{CheckedHistory, Checks};
 use crate::contacts::Named;
-use crate::library::{BRANCH_ROUNDING, Contact, State, accepted, trapped};
+use crate::library::{BRANCH_ROUNDING, Contact, State};
 use crate::{Case, Run, contacts, ensure, histories};
-use microslip::ffi;
 use reference::Reference;
 
 const SLIDERS: usize = 4096;
@@ -22,14 +21,7 @@ const POINTS: usize = 8;
 const BATCH: u64 = 100;
 
 pub fn cases(steps: u64) -> Vec<Case> {
-    let mut cases = Vec::new();
-    for (number, contact) in contacts::all().into_iter().enumerate() {
-        cases.push(exact(contact.clone(), steps));
-        if number % 5 == 0 {
-            cases.push(equivalent(contact, steps));
-        }
-    }
-    cases
+    contacts::all().into_iter().map(|contact| exact(contact, steps)).collect()
 }
 
 fn exact(named: Named, steps: u64) -> Case {
@@ -46,21 +38,6 @@ fn exact(named: Named, steps: u64) -> Case {
         let corners: Vec<CurvePoint> = curve.iter().copied().step_by(POINTS).collect();
         let error = polygon_error(&curve, POINTS) * 65.0 / 64.0;
         compare(contact, Bank::polygon(&corners), error, steps, run)
-    })
-}
-
-fn equivalent(named: Named, steps: u64) -> Case {
-    Case::new(format!("bank: {}: mslip_iwan_equivalent", named.name), steps, move |run| {
-        let contact = &named.contact;
-        let (mut stiffness, mut slip_force, mut error) = (vec![0.0; SLIDERS], vec![0.0; SLIDERS], 0.0);
-        // SAFETY: as long as given.
-        accepted(trapped(|| unsafe {
-            let (stiffness, slip_force) = (stiffness.as_mut_ptr(), slip_force.as_mut_ptr());
-            ffi::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
-        }))?;
-        let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
-        let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)));
-        compare(contact, bank, error * contact.slip_force(), steps, run)
     })
 }
 
