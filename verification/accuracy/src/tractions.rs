@@ -56,7 +56,7 @@ fn at_force(case: &Case, force: f64, sampler: &mut Sampler, count: usize, tally:
     let force = force.abs();
     let corners = |x: f64, f: &dyn Fn(&Law, &Real, &Point) -> Real| {
         let mut corners = Vec::new();
-        // The edge of the stick zone is known to a unit of b, which is more of a narrow slip zone.
+        // The edge of the stick zone has an error relative to b, which is larger relative to a narrow slip zone.
         let rate = if point.slips() { 1.0 } else { point.rate() };
         for at in [-UNITS, 0.0, UNITS] {
             let near = moved(force, at * (1.0 + 1.0 / rate.max(1e-300))).clamp(0.0, contact.slip_force);

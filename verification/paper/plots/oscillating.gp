@@ -1,4 +1,4 @@
-# Tractions under an oscillating force: at the reversal and on the way back to the opposite one.
+# Tractions under an oscillating force: at a reversal and after it, up to the opposite force.
 load 'plots/style.gp'
 name = 'oscillating'; wide = 860; high = 520
 set xlabel place

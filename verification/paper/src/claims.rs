@@ -30,7 +30,7 @@ const QUADRATURE: f64 = 1e-11;
 /// Other units: near the edge of the contact, at x/b = 0.999, rounding of its width is amplified a thousand times.
 const OTHER_UNITS: f64 = 1e-11;
 
-/// The largest of the numbers.
+/// The largest value, or NaN.
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     // A NaN remains, and fails.
     values.into_iter().fold(0.0, |largest: f64, value| if value > largest || value.is_nan() { value } else { largest })

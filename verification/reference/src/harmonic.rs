@@ -84,19 +84,19 @@ pub fn exact(law: &Rc<Law>, coefficients: &[Real]) -> Vec<Real> {
     // Times of the reversals: changes of sign of du/dt, found by a scan in steps far shorter than the shortest wave.
     let scan = 256 * harmonics;
     let times: Vec<Real> = (0..=scan).map(|i| Real::pi(law.bits) * (2.0 * i as f64 / scan as f64) + 1.0).collect();
-    let turns = times.windows(2).filter(|step| rate(&step[0]).is_positive() != rate(&step[1]).is_positive());
-    let mut turns: Vec<(Real, Real)> =
-        turns.map(|step| root(&step[0], &step[1], &rate)).map(|t| (t.clone(), u(&t))).collect();
-    let (first, top) = turns.first().expect("a motion").clone();
-    turns.push((first + Real::pi(law.bits) * 2.0, top));
+    let reversals = times.windows(2).filter(|step| rate(&step[0]).is_positive() != rate(&step[1]).is_positive());
+    let mut reversals: Vec<(Real, Real)> =
+        reversals.map(|step| root(&step[0], &step[1], &rate)).map(|t| (t.clone(), u(&t))).collect();
+    let (first, top) = reversals.first().expect("a motion").clone();
+    reversals.push((first + Real::pi(law.bits) * 2.0, top));
 
     // One period from the unloaded state to the steady cycle.
     let mut history = History::new(law.clone());
-    turns.iter().for_each(|(_, u)| history.go(u, 0));
+    reversals.iter().for_each(|(_, u)| history.go(u, 0));
     let rule = Quadrature::new(law.bits);
     let mut sums = vec![law.real(0.0); width];
-    for turn in turns.windows(2) {
-        let (mut from, (last, end)) = (turn[0].0.clone(), &turn[1]);
+    for half_cycle in reversals.windows(2) {
+        let (mut from, (last, end)) = (half_cycle[0].0.clone(), &half_cycle[1]);
         while history.now().displacement != *end {
             let (branch, stop) = Branch::to(&history, end);
             let to = if stop == *end { last.clone() } else { root(&from, last, &|t| u(t) - &stop) };
@@ -141,8 +141,8 @@ impl Branch {
             [start] => (start.clone(), Some(-start)),
             [start, before, ..] => (start.clone(), Some(before.clone())),
         };
-        let way = scale * &law.x_slip;
-        let slip = if rises { &start + way } else { &start - way };
+        let distance = scale * &law.x_slip;
+        let slip = if rises { &start + distance } else { &start - distance };
         let ahead = |place: &Real| if rises { place > now && place < end } else { place < now && place > end };
         let events = [Some(slip), closes].into_iter().flatten().filter(ahead);
         let stop = events.fold(end.clone(), |stop, event| if rises { stop.min(&event) } else { stop.max(&event) });

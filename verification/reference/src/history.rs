@@ -116,10 +116,10 @@ impl History {
         let mut same_direction = zero();
         for reversal in old.iter().rev() {
             let own = reversal.moments(law);
-            let way = if rises { to - &reversal.displacement } else { &reversal.displacement - to };
-            let half = &way / 2.0;
-            if way.is_positive() && reversal.rises == rises {
-                same_direction = same_direction + way * (&own[0] - &below[0]);
+            let distance = if rises { to - &reversal.displacement } else { &reversal.displacement - to };
+            let half = &distance / 2.0;
+            if distance.is_positive() && reversal.rises == rises {
+                same_direction = same_direction + distance * (&own[0] - &below[0]);
             } else if half > range_below {
                 add(&half, 2.0, &below, if half < reversal.half_range { &reached } else { &own });
             }

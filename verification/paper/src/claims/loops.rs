@@ -64,9 +64,9 @@ pub fn gross_slip_is_horizontal() -> Claim {
 
 pub fn no_effect_of_frequency() -> Claim {
     let error = largest(shapes().iter().map(|case| {
-        let turn = case.displacement(REVERSAL);
-        let two = [turn, -0.5 * turn];
-        let many = [&even(0.0, turn, 100), &even(turn, -0.49 * turn, 1000), &two[1..]].concat();
+        let top = case.displacement(REVERSAL);
+        let two = [top, -0.5 * top];
+        let many = [&even(0.0, top, 100), &even(top, -0.49 * top, 1000), &two[1..]].concat();
         (case.force_after(&many) - case.force_after(&two)).abs()
     }));
     Claim {
@@ -78,9 +78,9 @@ pub fn no_effect_of_frequency() -> Claim {
 
 pub fn reloading() -> Claim {
     let error = largest(shapes().iter().flat_map(|case| {
-        let turn = case.displacement(REVERSAL);
+        let top = case.displacement(REVERSAL);
         even(-1.0, 1.0, 16).into_iter().map(move |share| {
-            let (reloading, unloading) = ([turn, -turn, share * turn], [turn, -share * turn]);
+            let (reloading, unloading) = ([top, -top, share * top], [top, -share * top]);
             (case.force_after(&reloading) + case.force_after(&unloading)).abs()
         })
     }));
@@ -133,15 +133,14 @@ pub fn mindlin() -> Claim {
         let amplitude = slip * (1.0 - (1.0 - top).powf(2.0 / 3.0));
         let (displacements, forces) = sphere.hysteresis_loop(amplitude, 64);
         let unloading = displacements.into_iter().zip(forces).take(33);
-        // Mindlin, Mason, Osmer and Deresiewicz: the way back from Q*.
+        // Unloading from Q* by Mindlin, Mason, Osmer and Deresiewicz.
         unloading.map(move |(displacement, force)| {
             let half = 1.0 - (top - force) / 2.0;
-            // At full reversal this may be slightly negative by rounding.
             let expected = slip * (2.0 * half.clamp(0.0, 1.0).powf(2.0 / 3.0) - (1.0 - top).powf(2.0 / 3.0) - 1.0);
             (displacement - expected).abs() / slip
         })
     }));
-    // Near full reversal of the force the power 2/3 turns rounding of 1e-16 into 1e-11.
+    // Near full reversal of the force the power 2/3 amplifies rounding of 1e-16 to 1e-11.
     Claim {
         figure: "oscillating",
         computed: format!(
