@@ -240,7 +240,7 @@ impl Case {
         (stiffness.real() / self.stiffness_unit(), stiffness.imaginary() / self.stiffness_unit())
     }
 
-    /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants, the first one repeated.
+    /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants and again the first.
     pub fn hysteresis_loop(&self, amplitude: f64, instants: usize) -> (Vec<f64>, Vec<f64>) {
         let cycle = self.contact.hysteresis_loop(amplitude * self.displacement_unit()).expect("an amplitude");
         (0..=instants)

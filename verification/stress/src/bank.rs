@@ -1,4 +1,4 @@
-//! A bank of spring-sliders in parallel (Jenkins, Iwan). Its load history is the elongation of each spring; Masing's rule is not used.
+//! A bank of spring-sliders in parallel (Jenkins, Iwan). Its load history is the elongation of each spring, without Masing's rule.
 
 use reference::Reference;
 

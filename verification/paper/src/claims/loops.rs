@@ -120,7 +120,8 @@ pub fn direct_tractions() -> Claim {
     Claim {
         figure: "oscillating",
         computed: format!(
-            "Eq. 10 over the library's tractions, which agree with multi-precision, and Eq. 11 agree to {QUADRATURE:e}; \\|q\\| <= μp everywhere"
+            "Eq. 10 over the library's tractions, which agree with multi-precision, and Eq. 11 agree to \
+             {QUADRATURE:e}; \\|q\\| <= μp everywhere"
         ),
         stands: error < QUADRATURE && allowed,
     }

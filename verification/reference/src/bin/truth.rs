@@ -1,8 +1,8 @@
 //! Exact values of the law, rounded to doubles: `truth < cases.csv > truth.csv`.
 //!
 //! Each row of standard input is `task,a,R,L,N,mu,E1,nu1,E2,nu2,arguments...` in SI units (flat half-width, edge radius, length,
-//! normal force, friction coefficient, Young's modulus and Poisson's ratio of both bodies; centre point as displacement reference),
-//! each row of standard output, in the same order, its values. Empty rows and rows that start with `#` are copied.
+//! normal force, friction coefficient, Young's modulus and Poisson's ratio of both bodies; the displacement is that of the centre
+//! point). Standard output has a row of values for each, in the same order. Empty rows and rows that start with `#` are copied.
 //!
 //! | task | arguments | values |
 //! |---|---|---|
