@@ -125,8 +125,9 @@ host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
 
-## stress: long and hostile histories of the memory, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
+## stress: long and adversarial histories, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
 stress:
+	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)
 
 ## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once

@@ -3,44 +3,14 @@
 use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
-use std::collections::HashMap;
-
-type Row = HashMap<String, f64>;
-
-fn table(name: &str) -> Vec<Row> {
-    let path = format!("{}/tests/golden/{name}.csv", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let mut lines = text.lines();
-    let names: Vec<String> = lines.next().unwrap().split(',').map(|name| name.trim().to_string()).collect();
-    let row = |line: &str| {
-        let values = line.split(',').map(|value| value.trim().parse::<f64>().unwrap_or(f64::NAN));
-        let mut row: Row = names.iter().cloned().zip(values).collect();
-        // The one column of text: i (uniform pressure) or ii (the true one).
-        row.insert("law_variant".into(), line.split(',').next().map_or(0.0, |variant| variant.len() as f64));
-        row
-    };
-    lines.filter(|line| !line.trim().is_empty()).map(row).collect()
-}
+use microslip::{Contact, Error, Material, Parameters};
+#[path = "golden/table.rs"]
+mod table;
+use table::{Row, ellipse, flat, table};
 
 fn contacts() -> Vec<(Row, Contact)> {
-    table("contacts")
-        .into_iter()
-        .map(|row| {
-            let body = |e: &str, nu: &str| Material { young_modulus: row[e], poisson_ratio: row[nu] };
-            let parameters = Parameters {
-                flat_half_width: row["a"],
-                edge_radius: row["R"],
-                length: row["L"],
-                normal_force: row["N"],
-                friction_coefficient: row["mu"],
-                material: [body("E1", "nu1"), body("E2", "nu2")],
-                ..Parameters::default()
-            };
-            let contact = Contact::rounded_flat(&parameters).unwrap();
-            (row, contact)
-        })
-        .collect()
+    let contact = |row: &Row| Contact::rounded_flat(&flat(row)).unwrap();
+    table("contacts").into_iter().map(|row| (contact(&row), row)).map(|(contact, row)| (row, contact)).collect()
 }
 
 /// Worst observed relative error, its place, and the bound on it.
@@ -229,15 +199,7 @@ fn elliptic_contacts() {
     let mut displacement = Worst::new("elliptic displacement", 1e-13);
     let mut energy = Worst::new("elliptic energy", 1e-13);
     for row in table("elliptic") {
-        let body = Material { young_modulus: row["E"], poisson_ratio: row["nu"] };
-        let parameters = EllipticParameters {
-            semi_axis_x: row["semi_axis_x"],
-            semi_axis_y: row["semi_axis_y"],
-            normal_force: row["N"],
-            friction_coefficient: row["mu"],
-            material: [body, body],
-        };
-        let contact = Contact::elliptic(&parameters).unwrap();
+        let contact = Contact::elliptic(&ellipse(&row)).unwrap();
         let place = format!("case {} T/muN {}", row["case"], row["T"] / contact.slip_force);
         stiffness.relative(&place, contact.initial_stiffness, row["initial_stiffness"]);
         let point = contact.curve_at_force(row["T"]).unwrap();
@@ -336,7 +298,7 @@ fn rigid_strip() {
         let place = format!("L/2b {} a/b {}", row["AR"], row["a"]);
         assert!((contact.half_width - 1.0).abs() < 1e-14);
         let compliance = contact.slip_force / contact.initial_stiffness / unit;
-        let true_pressure = row["law_variant"] == 2.0;
+        let true_pressure = row.text("variant") == "ii";
         centre = centre.min(row["Lam"] / row["C0_3D"]);
         stiffness.relative(&place, compliance, row["C0_3D"]);
         if true_pressure {

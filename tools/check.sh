@@ -6,13 +6,6 @@ cd "$(dirname "$0")/.."
 
 step 'packages' tools/dependencies.sh check
 
-# in_verification COMMAND PACKAGE ARGUMENT...
-in_verification() {
-    command=$1 package=$2
-    shift 2
-    "$CARGO" "$command" --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package "$package" -- "$@"
-}
-
 fortran_module() {
     # shellcheck disable=SC2086
     mkdir -p "$work/module" && $FC $1 -c "$prefix/include/microslip.f90" -J "$work/module" -o "$work/module/microslip.o"
@@ -35,6 +28,9 @@ uninstall() {
     cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
 }
 
+verification="--quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification"
+
+# shellcheck disable=SC2086  # flags are a list
 rust() {
     for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
         step "formatting: $manifest" "$CARGO" fmt --all --manifest-path "$manifest" --check
@@ -43,8 +39,8 @@ rust() {
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
-    step 'paper: figures and claims' in_verification run paper --check
-    step 'stress: adversarial histories' in_verification run stress --scale 0.02
+    step 'accuracy, 1e5 points' "$CARGO" run $verification --package accuracy -- --points 1e5
+    step 'stress: adversarial histories' "$CARGO" run $verification --package stress -- --scale 0.01
     step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --release --locked --test bounded_memory
     step 'references of the interfaces' tools/docs.sh
     step 'audit' tools/audit.sh

@@ -7,17 +7,15 @@ cd "$(dirname "$0")/.."
 strict='-Wall -Wextra -Wpedantic -Werror -O1'
 step 'packages' tools/dependencies.sh test
 
+verification="--quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification"
+
+# shellcheck disable=SC2086  # flags are a list
 rust() {
     step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
-    step 'multi-precision reference against the tables' verification accuracy test
-    step 'accuracy: short' verification accuracy run --check
-}
-
-# verification PACKAGE COMMAND ARGUMENT...
-verification() {
-    package=$1 command=$2
-    shift 2
-    "$CARGO" "$command" --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package "$package" -- "$@"
+    step 'multi-precision reference against the tables' "$CARGO" test $verification --workspace
+    step 'accuracy: short' "$CARGO" run $verification --package accuracy -- --check
+    step 'stress: short' "$CARGO" run $verification --package stress -- --scale 0.003
+    step 'paper: figures and claims' "$CARGO" run $verification --package paper -- --check
 }
 
 c_driver() {

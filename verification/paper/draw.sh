@@ -1,9 +1,10 @@
 #!/bin/sh
-# draw.sh [GNUPLOT]: draws every picture of docs/figures from its data, and notes what it was drawn from.
+# draw.sh [GNUPLOT]: draws every picture of docs/figures from its data. The version of gnuplot is not written into them.
 set -eu
 cd "$(dirname "$0")"
 for plot in plots/*.gp; do
-    [ "$plot" = plots/style.gp ] || "${1:-gnuplot}" -e "docs = '../../docs/figures'" "$plot"
+    [ "$plot" != plots/style.gp ] || continue
+    picture=../../docs/figures/$(basename "$plot" .gp).svg
+    "${1:-gnuplot}" -e "docs = '../../docs/figures'" "$plot" | sed '/^<desc>/d' > "$picture.new"
+    mv "$picture.new" "$picture"
 done
-cd ../..
-sha256sum docs/figures/data/*.csv verification/paper/plots/*.gp > docs/figures/drawn.sha256

@@ -1,16 +1,16 @@
-//! The C interface as a caller sees it.
+//! The functions of the C interface.
 
-use crate::reference::Given;
 use microslip::ffi::*;
+use reference::Input;
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 
-pub fn prepare(given: &Given) -> Result<mslip_contact, i32> {
+pub fn prepare(input: &Input) -> Result<mslip_contact, i32> {
     let mut contact = MaybeUninit::uninit();
     let status = unsafe {
-        match given {
-            Given::Flat(p) => mslip_contact_init(p, contact.as_mut_ptr()),
-            Given::Ellipse(p) => mslip_contact_init_elliptic(p, contact.as_mut_ptr()),
+        match input {
+            Input::Flat(p) => mslip_contact_init(p, contact.as_mut_ptr()),
+            Input::Ellipse(p) => mslip_contact_init_elliptic(p, contact.as_mut_ptr()),
         }
     };
     if status == MSLIP_OK { Ok(unsafe { contact.assume_init() }) } else { Err(status) }

@@ -1,34 +1,29 @@
-//! Measures what the library promises against a reference in multi-precision.
+//! Measures the error of every output of the library against the multi-precision reference.
 //!
 //!     accuracy [--check] [--points N] [--minutes N] [--seed N] [--only NAMES] [--regions FILE] [--document FILE]
 //!
-//! `--check` is short, with a seed of its own each time; `--minutes` ends a run after the piece of work in hand. Regions go
-//! into a CSV, now and then during the run too; tables into a document, without a run (`--points 0`) those of the CSV.
+//! `--check` is short, with a new seed each time; after `--minutes` no further job starts. Regions are written to a CSV, also
+//! from time to time during a run; tables to a document, with `--points 0` those of the CSV without a run.
 
 mod bounds;
 mod call;
-mod cases;
 mod curve;
-mod cycle;
 mod harmonic;
 mod history;
-mod real;
-mod reference;
 mod report;
+mod sampler;
+mod stiffness;
 mod tally;
 mod tractions;
 
-#[cfg(test)]
-mod golden;
-
-use cases::{Dice, KINDS};
+use sampler::{KINDS, Sampler};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tally::Tally;
 
-/// One piece of work: what is measured, on which kind of contact, how often.
+/// What is measured, on which kind of contact, how often.
 #[derive(Clone, Copy)]
 struct Job {
     what: &'static str,
@@ -36,10 +31,10 @@ struct Job {
     count: usize,
 }
 
-/// All pieces for about that many points of every output.
+/// Jobs for about the given number of points of every output.
 fn jobs(points: f64) -> Vec<Job> {
     let mut jobs = Vec::new();
-    // What one count is worth in points, and counts of one piece.
+    // Points of one count, and counts of one job.
     for (what, per_count, piece) in [
         ("fields", 1.0, 4000),
         ("forces", 1.0, 10000),
@@ -50,77 +45,43 @@ fn jobs(points: f64) -> Vec<Job> {
         ("harmonic", 200.0, 100),
         ("neighbours", 2e4, 10),
         ("sliders", 1e5, 10),
+        ("amplitudes", 100.0, 50),
+        ("event_driven", 200.0, 25),
     ] {
         let pieces = (points / per_count / piece as f64).ceil().max(KINDS.len() as f64) as usize;
         let count = (points / per_count / pieces as f64).ceil() as usize;
         let place = |i: usize| (i as f64 + 0.5) / pieces as f64;
         jobs.extend((0..pieces).map(|i| (place(i), Job { what, kind: KINDS[i % KINDS.len()], count })));
     }
-    // An interpolant takes seconds to make.
-    let contacts = (points / 1e5).clamp(4.0, 32.0) as usize;
-    let count = (points / contacts as f64).ceil() as usize;
-    let place = |i: usize| i as f64 / contacts as f64;
-    jobs.extend(
-        (0..contacts).map(|i| (place(i), Job { what: "cycles", kind: KINDS[(3 * i + 1) % KINDS.len()], count })),
-    );
-    // All kinds of work side by side, so that a run that is cut short has some of each.
+    // Interleaved, so that a run that is cut short has some of each.
     jobs.sort_by(|one, two| one.0.total_cmp(&two.0));
     jobs.into_iter().map(|(_, job)| job).collect()
 }
 
-fn run(job: &Job, dice: &mut Dice, tally: &mut Tally) {
+fn run(job: &Job, sampler: &mut Sampler, tally: &mut Tally) {
     let Job { what, kind, count } = *job;
     if what == "fields" {
-        (0..count).for_each(|_| curve::fields(dice, kind, tally));
+        (0..count).for_each(|_| curve::fields(sampler, kind, tally));
         return;
     }
     let mut left = count as i64;
     while left > 0 {
-        let case = dice.case(kind, &mut tally.refused);
-        left -= match what {
-            "forces" => {
-                curve::at_forces(&case, dice, 50, tally);
-                50
-            }
-            "displacements" => {
-                curve::at_displacements(&case, dice, 50, tally);
-                50
-            }
-            "tractions" => {
-                tractions::at_forces(&case, dice, 48, tally);
-                48
-            }
-            "histories" => {
-                history::along_a_path(&case, dice, 48, tally);
-                48
-            }
-            "loops" => history::closed_loop(&case, dice, tally),
-            "harmonic" => {
-                harmonic::uniform_sampling(&case, dice, tally);
-                1
-            }
-            "neighbours" => {
-                curve::neighbours(&case, dice, tally);
-                1
-            }
-            "sliders" => {
-                curve::sliders(&case, dice, tally);
-                1
-            }
-            "cycles" => {
-                let cycles = cycle::Cycles::new(case);
-                let off = cycles.spot_check(dice);
-                assert!(off < 1e-20, "an interpolant is off by {off:e}");
-                cycles.at_amplitudes(dice, count, tally);
-                if cycles.interpolates() {
-                    for i in 0..count.div_ceil(30) {
-                        cycles.event_driven(dice, if i % 2 == 0 { 64 } else { 512 }, tally);
-                    }
-                }
-                left
-            }
+        let case = sampler.case(kind, &mut tally.rejected);
+        let mut done = 1;
+        match what {
+            "forces" => done = curve::at_forces(&case, sampler, 50, tally),
+            "displacements" => done = curve::at_displacements(&case, sampler, 50, tally),
+            "tractions" => done = tractions::at_forces(&case, sampler, 48, tally),
+            "histories" => done = history::along_a_path(&case, sampler, 48, tally),
+            "loops" => done = history::closed_loop(&case, sampler, tally),
+            "harmonic" => harmonic::uniform_sampling(&case, sampler, tally),
+            "neighbours" => curve::neighbours(&case, sampler, tally),
+            "sliders" => curve::sliders(&case, sampler, tally),
+            "amplitudes" => done = stiffness::at_amplitudes(&case, sampler, 5, tally),
+            "event_driven" => stiffness::event_driven(&case, sampler, tally),
             other => panic!("no job {other}"),
-        };
+        }
+        left -= done;
     }
 }
 
@@ -131,7 +92,7 @@ fn main() {
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
-            "--check" => (check, points) = (true, 2e4),
+            "--check" => (check, points) = (true, 1e4),
             "--points" => points = value().parse().expect("a number of points"),
             "--minutes" => minutes = value().parse().expect("a number of minutes"),
             "--seed" => seed = Some(value().parse().expect("a seed")),
@@ -166,8 +127,8 @@ fn main() {
                         break;
                     }
                     let mut tally = Tally::default();
-                    let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
-                    run(job, &mut dice, &mut tally);
+                    let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
+                    run(job, &mut sampler, &mut tally);
                     let mut all = all.lock().unwrap();
                     all.add(tally);
                     if let Some(path) = &regions

@@ -1,4 +1,4 @@
-//! The tables: a line for each output in the document, and a line for each region in a CSV.
+//! The tables: a row for each output in the document, and a row for each region in a CSV.
 
 use crate::bounds::BOUNDS;
 use crate::tally::{Cell, Key, Tally};
@@ -14,7 +14,7 @@ fn worst<'a>(tally: &'a Tally, output: &'a str) -> Option<(&'a Key, &'a Cell)> {
     of(tally, output).max_by(|one, two| one.1.worst.total_cmp(&two.1.worst))
 }
 
-/// Outputs that keep their bound, and that do not; those are printed.
+/// Number of outputs within their bound, and beyond it; the latter are printed.
 pub fn summary(tally: &Tally) -> (usize, usize) {
     let (mut passed, mut failed) = (0, 0);
     for bound in BOUNDS {
@@ -34,7 +34,7 @@ pub fn summary(tally: &Tally) -> (usize, usize) {
 
 fn table(tally: &Tally) -> String {
     let mut text = String::from(
-        "| output | where | promised k | relative to | κ | worst k | worst error, κ <= 1 | points | why |\n\
+        "| output | domain | promised k | relative to | κ | worst k | worst error, κ <= 1 | points | reason |\n\
          |---|---|---:|---|---|---:|---:|---:|---|\n",
     );
     for bound in BOUNDS {
@@ -67,7 +67,7 @@ fn places(tally: &Tally) -> String {
         let inputs: String = cell.inputs.chars().take(400).collect();
         writeln!(
             text,
-            "- `{}`: {}, {}; error {:.1e}, κ {:.1e}; {between} points between neighbours. `{inputs}`",
+            "- `{}`: {}, {}; error {:.1e}, κ {:.1e}; {between} points compared with neighbours. `{inputs}`",
             bound.output, key.1, key.2, cell.error, cell.condition
         )
         .unwrap();
@@ -75,16 +75,16 @@ fn places(tally: &Tally) -> String {
     text
 }
 
-/// Puts text between two marks of a file.
+/// Replaces the text between two markers of a file.
 fn insert(path: &Path, name: &str, text: &str) {
     let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
     let old = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let (head, rest) = old.split_once(&begin).expect("a mark");
-    let (_, tail) = rest.split_once(&end).expect("a mark");
+    let (head, rest) = old.split_once(&begin).expect("markers");
+    let (_, tail) = rest.split_once(&end).expect("markers");
     std::fs::write(path, format!("{head}{begin}{text}{end}{tail}")).unwrap();
 }
 
-/// Puts both tables into a document.
+/// Writes both tables into a document.
 pub fn write_tables(tally: &Tally, document: &Path) {
     insert(document, "errors", &table(tally));
     insert(document, "places", &places(tally));
@@ -92,7 +92,7 @@ pub fn write_tables(tally: &Tally, document: &Path) {
 
 const HEADER: &str = "output,contact,range,points,between,broken,worst_k,error,condition,plain_error,inputs";
 
-/// Every region on a line of its own.
+/// A row for each region.
 pub fn write_regions(tally: &Tally, path: &Path) {
     let mut csv = format!("{HEADER}\n");
     for (key, cell) in &tally.cells {
@@ -116,14 +116,14 @@ pub fn write_regions(tally: &Tally, path: &Path) {
     std::fs::write(path, csv).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
 }
 
-/// The regions that were written.
+/// Regions of a file.
 pub fn read_regions(path: &Path) -> Tally {
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some(HEADER));
     let mut tally = Tally::default();
     for line in lines {
-        // Commas stand in quotes, and quotes only round a field.
+        // Commas may be quoted; quotes only enclose whole fields.
         let mut quoted = false;
         let fields: Vec<&str> = line
             .split(|c| {

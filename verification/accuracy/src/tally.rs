@@ -1,7 +1,7 @@
-//! The worst errors seen, by output, kind of contact and range of the argument.
+//! The worst observed errors, by output, kind of contact and range of the argument.
 
 use crate::bounds::{self, EPSILON};
-use crate::real::Real;
+use reference::Real;
 use std::collections::BTreeMap;
 
 /// Output, kind of contact, range of the argument.
@@ -17,7 +17,7 @@ pub struct Cell {
     pub inputs: String,
     /// The largest error where κ <= 1.
     pub plain: f64,
-    /// Points held between the exact results of neighbouring inputs, because κ changes from one to the next.
+    /// Points compared with the exact results of neighbouring inputs, because κ is large or changes from one to the next.
     pub between: u64,
     pub broken: u64,
 }
@@ -25,8 +25,8 @@ pub struct Cell {
 #[derive(Debug, Default)]
 pub struct Tally {
     pub cells: BTreeMap<Key, Cell>,
-    /// Contacts that the library refused.
-    pub refused: u64,
+    /// Contacts that the library rejected.
+    pub rejected: u64,
 }
 
 impl Tally {
@@ -52,7 +52,7 @@ impl Tally {
         self.check_between(key, got, exact, scale, condition, inputs, || None);
     }
 
-    /// The same; where the bound does not hold, between the exact results for neighbouring inputs it does.
+    /// The same; beyond the bound a result is accepted if it lies between the exact results of neighbouring inputs.
     #[allow(clippy::too_many_arguments)]
     pub fn check_between(
         &mut self,
@@ -64,7 +64,7 @@ impl Tally {
         inputs: impl Fn() -> String,
         neighbours: impl FnOnce() -> Option<Vec<Real>>,
     ) {
-        // What is no normal double has fewer digits.
+        // Results near the subnormal range have fewer digits.
         if !exact.is_zero() && exact.exponent() < -1000 && exact.exponent() > -100_000 {
             return;
         }
@@ -103,7 +103,7 @@ impl Tally {
     }
 
     pub fn add(&mut self, other: Tally) {
-        self.refused += other.refused;
+        self.rejected += other.rejected;
         for (key, cell) in other.cells {
             let mine = self.cells.entry(key).or_default();
             let (points, between, broken) =

@@ -1,30 +1,29 @@
 //! Pressure, shear, slip and damage along the width.
 
 use crate::call;
-use crate::cases::{Case, Dice, text};
 use crate::curve::moved;
-use crate::real::Real;
-use crate::reference::{Given, Law, Point};
+use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
+use reference::{Input, Law, Point, Real};
 
-/// Units in the last place by which position and force may be taken for others, where that is what decides.
+/// ε by which position and force may be off, if the result is sensitive to that.
 const UNITS: f64 = 8.0;
 
-fn position(dice: &mut Dice, case: &Case, stick: f64, near_stick: bool) -> (f64, &'static str) {
+fn position(sampler: &mut Sampler, case: &Case, stick: f64, near_stick: bool) -> (f64, &'static str) {
     let b = case.contact.half_width;
-    let flat = match &case.reference.given {
-        Given::Flat(parameters) => parameters.flat_half_width,
-        Given::Ellipse(_) => 0.0,
+    let flat = match &case.reference.input {
+        Input::Flat(parameters) => parameters.flat_half_width,
+        Input::Ellipse(_) => 0.0,
     };
-    let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
-    let share = sign * dice.power(-16.0, -1.0);
-    match dice.below(8) {
-        0 if dice.chance(0.2) => (0.0, "x = 0"),
+    let sign = if sampler.chance(0.5) { 1.0 } else { -1.0 };
+    let share = sign * sampler.power(-16.0, -1.0);
+    match sampler.below(8) {
+        0 if sampler.chance(0.2) => (0.0, "x = 0"),
         1 => (flat * (1.0 + share), "x -> a"),
         2 if near_stick => (stick * (1.0 + share), "x -> c"),
-        3 if dice.chance(0.2) => (dice.near(b, 3), "x -> b"),
+        3 if sampler.chance(0.2) => (sampler.near(b, 3), "x -> b"),
         3 => (b * (1.0 - share.abs()), "x -> b"),
-        _ => (sign * b * dice.unit(), "between"),
+        _ => (sign * b * sampler.unit(), "between"),
     }
 }
 
@@ -33,21 +32,22 @@ fn place_of(law: &Law, x: f64) -> Real {
 }
 
 /// Tractions and slip at some positions under some forces.
-pub fn at_forces(case: &Case, dice: &mut Dice, count: usize, tally: &mut Tally) {
+pub fn at_forces(case: &Case, sampler: &mut Sampler, count: usize, tally: &mut Tally) -> i64 {
     for _ in 0..count.div_ceil(8) {
-        let (share, _) = dice.share_of_force();
-        at_force(case, share * case.contact.slip_force, dice, 8, tally);
+        let (share, _) = sampler.share_of_force();
+        at_force(case, share * case.contact.slip_force, sampler, 8, tally);
     }
+    count as i64
 }
 
-fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut Tally) {
+fn at_force(case: &Case, force: f64, sampler: &mut Sampler, count: usize, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let [_, _, stick] = call::displacement(contact, force);
-    let near = dice.chance(0.3);
-    let spots: Vec<_> = (0..count).map(|_| position(dice, case, stick, near)).collect();
+    let near = sampler.chance(0.3);
+    let spots: Vec<_> = (0..count).map(|_| position(sampler, case, stick, near)).collect();
     let x: Vec<f64> = spots.iter().map(|spot| spot.0).collect();
     let [pressure, shear] = call::tractions(contact, force, &x);
-    let no_slip = matches!(reference.given, Given::Ellipse(_));
+    let no_slip = matches!(reference.input, Input::Ellipse(_));
     let [slip, damage] = if no_slip { [vec![], vec![]] } else { call::slip(contact, force, &x) };
     let (law, point) = reference.at_force_with(force, if near { 130 } else { 40 });
     let pressure_unit = law.pressure_unit.clone();
@@ -56,8 +56,8 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
     let force = force.abs();
     let corners = |x: f64, f: &dyn Fn(&Law, &Real, &Point) -> Real| {
         let mut corners = Vec::new();
-        // The edge of the stick zone is known to a unit of b, which is more of a narrow slip zone.
-        let rate = if point.rest.is_zero() { 1.0 } else { (&point.tau * &point.curvature).f64() };
+        // The edge of the stick zone has an error relative to b, which is larger relative to a narrow slip zone.
+        let rate = if point.slips() { 1.0 } else { point.rate() };
         for at in [-UNITS, 0.0, UNITS] {
             let near = moved(force, at * (1.0 + 1.0 / rate.max(1e-300))).clamp(0.0, contact.slip_force);
             let (law, point) = reference.at_force_with(near, 130);
@@ -78,9 +78,9 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
         }
         Some(corners)
     };
-    let rate = if point.rest.is_zero() { 0.0 } else { (&point.tau * &point.curvature).f64() };
+    let rate = point.rate();
     for (i, &(x, range)) in spots.iter().enumerate() {
-        let place = || format!("{} T {force:e} x {x:e}", text(&reference.given));
+        let place = || format!("{} T {force:e} x {x:e}", text(&reference.input));
         let spot = place_of(&law, x);
         let p = law.pressure(&spot, None);
         let from = |edge: &Real| (&spot / (&spot - edge)).abs().f64();
@@ -89,7 +89,7 @@ fn at_force(case: &Case, force: f64, dice: &mut Dice, count: usize, tally: &mut 
         tally.check_between(("pressure", kind, range), pressure[i], &exact, &exact, from_b, place, || {
             Some([-UNITS, UNITS].map(|at| &pressure_unit * law.pressure(&place_of(&law, moved(x, at)), None)).into())
         });
-        let q = if point.rest.is_zero() { p.clone() } else { &p - law.pressure(&spot, Some(&point)) };
+        let q = if point.slips() { p.clone() } else { &p - law.pressure(&spot, Some(&point)) };
         let exact = &shear_unit * q;
         tally.check_between(("shear", kind, range), shear[i], &exact, &exact, from_b + from_c, place, || {
             corners(x, &|law, x, point| &shear_unit * law.shear(x, point))

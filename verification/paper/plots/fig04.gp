@@ -8,9 +8,6 @@ set yrange [0:1.05]
 set key top center maxrows 3
 set label 1 'a/b = 0.5' at 0, 0.72 center
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  plot for [i = 2:5] file(name) using 1:i with lines ls 7-i title columnheader(i), \
-       '' using 1:6 with lines ls 1 title 'Q/μP = 1: q = μp'
-  unset output
-}
+@set_terminal
+plot for [i = 2:5] file(name) using 1:i with lines ls 7-i title columnheader(i), \
+     '' using 1:6 with lines ls 1 title 'Q/μP = 1: q = μp'

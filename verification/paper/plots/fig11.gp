@@ -1,4 +1,4 @@
-# Fig. 11: first loading of cylinder and elliptical contact.
+# Fig. 11: initial loading of cylinder and elliptical contact.
 load 'plots/style.gp'
 name = 'fig11'; wide = 720; high = 480
 set xlabel displacement
@@ -8,10 +8,7 @@ set yrange [0:1.15]
 set key bottom right
 set label 1 'L/b = 10' at graph 0.03, 0.95
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  plot file(name) using 1:4 with lines ls 12 title 'common tangent', \
-       '' using 1:2 with lines ls 1 title 'cylinder, length L', \
-       '' using 1:3 with lines ls 2 title 'ellipse, semi-axes b and L/2'
-  unset output
-}
+@set_terminal
+plot file(name) using 1:4 with lines ls 12 title 'common tangent', \
+     '' using 1:2 with lines ls 1 title 'cylinder, length L', \
+     '' using 1:3 with lines ls 2 title 'ellipse, semi-axes b and L/2'

@@ -1,4 +1,4 @@
-# Tractions under an oscillating force: at the reversal and on the way back to the opposite one.
+# Tractions under an oscillating force: at a reversal and after it, up to the opposite force.
 load 'plots/style.gp'
 name = 'oscillating'; wide = 860; high = 520
 set xlabel place
@@ -8,9 +8,6 @@ set yrange [-0.9:0.9]
 set key outside right center width -2
 set label 1 'a/b = 0.5' at graph 0.06, 0.95
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  plot file(name) using 1:2 with lines ls 11 title '±μp', '' using 1:(-$2) with lines ls 11 notitle, \
-       for [i = 3:7] '' using 1:i with lines ls i-2 title columnheader(i)
-  unset output
-}
+@set_terminal
+plot file(name) using 1:2 with lines ls 11 title '±μp', '' using 1:(-$2) with lines ls 11 notitle, \
+     for [i = 3:7] '' using 1:i with lines ls i-2 title columnheader(i)

@@ -1,5 +1,5 @@
-# Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito); lines differ in dash and width too, so
-# that they can be told apart in grey. Columns bring their names along.
+# Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito), and lines also differ in dash and width.
+# Titles are the names of the columns.
 set datafile separator ','
 set datafile columnheaders
 set encoding utf8
@@ -27,12 +27,5 @@ force        = 'tangential force  Q / μP'
 energy       = 'energy per cycle  E π E^* / (2 (μP)^2 L)'
 place        = 'x / b'
 
-# Terminal and file of one picture: `extension` is svg or png, `name` the picture, sizes in points.
-set_terminal = " \
-  if (extension eq 'svg') { \
-    set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14' \
-  } else { \
-    set terminal pngcairo size 1.6*wide, 1.6*high background rgb 'white' font 'Helvetica,14' \
-      fontscale 1.6 linewidth 1.6 pointscale 1.6 \
-  }; \
-  set output sprintf('%s/%s.%s', docs, name, extension)"
+# `wide` and `high` are in points. The picture goes to standard output.
+set_terminal = "set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'"

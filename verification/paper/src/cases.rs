@@ -1,24 +1,27 @@
 //! Contacts by the paper's dimensionless ratios, and the units in which its figures are drawn.
 //!
-//! The law has similarity: in these units nothing depends on the numbers that are chosen here for size, modulus and friction.
+//! In these units the results do not depend on the size, modulus and friction chosen here.
 
 use microslip::constant_load::{masing, state};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
+use reference::law::load_of_size;
+use reference::{Input, Reference};
 use std::f64::consts::PI;
 
 /// Half-width b of the contacts \[m\].
 const HALF_WIDTH: f64 = 1e-3;
-/// Radius of the edges over b: large, as half-planes ask.
+/// Large compared with b, as for half-planes.
 const EDGE_RADIUS: f64 = 50.0 * HALF_WIDTH;
 const FRICTION: f64 = 0.5;
 const STEEL: Material = Material { young_modulus: 2.1e11, poisson_ratio: POISSON };
 
-/// The paper leaves Poisson's ratio open.
+/// The paper gives no Poisson's ratio.
 pub const POISSON: f64 = 0.3;
 
 /// A contact with its units.
 pub struct Case {
     pub contact: Contact,
+    input: Input,
     /// a \[m\].
     pub flat: f64,
     /// R \[m\].
@@ -28,12 +31,6 @@ pub struct Case {
     /// N \[N\].
     pub normal_force: f64,
     pub friction: f64,
-}
-
-/// `4 P R/E*` of a contact of half-width b (Eq. 1 as it holds), in the form of the angle φ0 with sin φ0 = a/b.
-pub fn load_of_size(flat: f64, half_width: f64) -> f64 {
-    let angle = (flat / half_width).acos(); // π/2 - φ0
-    2.0 * half_width * half_width * angle - 2.0 * flat * ((half_width - flat) * (half_width + flat)).sqrt()
 }
 
 /// E* of two like bodies (Eq. 2).
@@ -47,7 +44,7 @@ impl Case {
         Case::scaled(flat_over_width, length_over_width, EDGE_RADIUS, STEEL, FRICTION)
     }
 
-    /// The same with other dimensions: in the paper's units it must make no difference.
+    /// The same with other dimensions, which has the same results in the paper's units.
     pub fn scaled(
         flat_over_width: f64,
         length_over_width: f64,
@@ -56,11 +53,12 @@ impl Case {
         friction: f64,
     ) -> Case {
         let (flat, length) = (flat_over_width * HALF_WIDTH, length_over_width * HALF_WIDTH);
-        let line_load = composite_modulus(material) * load_of_size(flat, HALF_WIDTH) / (4.0 * edge_radius);
+        let w = ((HALF_WIDTH - flat) * (HALF_WIDTH + flat)).sqrt();
+        let line_load = composite_modulus(material) * load_of_size(flat, w) / (4.0 * edge_radius);
         Case::loaded(flat, edge_radius, length, line_load * length, material, friction)
     }
 
-    /// A flat by a/R, L/R and P/(E* R). Eq. 1 is evaluated with `widened` times R: 1, or 2 for the relation as printed.
+    /// A flat by a/R, L/R and P/(E* R). `widened` is 1, or 2 for Eq. 1 as printed, which is that of twice the radius.
     pub fn under_load(flat_over_radius: f64, length_over_radius: f64, load: f64, widened: f64) -> Case {
         let (flat, length) = (flat_over_radius * EDGE_RADIUS, length_over_radius * EDGE_RADIUS);
         let normal_force = load * composite_modulus(STEEL) * EDGE_RADIUS * length;
@@ -78,13 +76,13 @@ impl Case {
             ..Parameters::default()
         };
         let contact = Contact::rounded_flat(&parameters).expect("a contact of the paper");
-        Case { contact, flat, edge_radius, length, normal_force, friction }
+        Case { contact, input: Input::Flat(parameters), flat, edge_radius, length, normal_force, friction }
     }
 
-    /// The elliptical contact of section 3.3 beside the cylinder of that L/b: semi-axes b and L/2, the same normal force.
+    /// The elliptical contact of section 3.3 corresponding to the cylinder of this L/b: semi-axes b and L/2, the same normal force.
     pub fn ellipse(length_over_width: f64) -> Case {
-        let beside = Case::flat(0.0, length_over_width);
-        Case::hertz(beside.contact.half_width, beside.length / 2.0, beside.normal_force)
+        let cylinder = Case::flat(0.0, length_over_width);
+        Case::hertz(cylinder.contact.half_width, cylinder.length / 2.0, cylinder.normal_force)
     }
 
     pub fn sphere() -> Case {
@@ -101,7 +99,8 @@ impl Case {
         };
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;
-        Case { contact, flat: 0.0, edge_radius: f64::NAN, length, normal_force, friction: FRICTION }
+        let input = Input::Ellipse(parameters);
+        Case { contact, input, flat: 0.0, edge_radius: f64::NAN, length, normal_force, friction: FRICTION }
     }
 
     /// a/b of the contact.
@@ -157,13 +156,19 @@ impl Case {
         point.stick_half_width() / self.contact.half_width
     }
 
-    /// b p/P at x/b.
+    /// b p/P at x/b; 0 at the edge, though the rounded b may differ.
     pub fn pressure(&self, x: f64) -> f64 {
+        if x.abs() >= 1.0 {
+            return 0.0;
+        }
         self.contact.pressure(x * self.contact.half_width) * self.contact.half_width / self.line_load()
     }
 
     /// b q/(μP) at x/b and Q/μP.
     pub fn shear(&self, x: f64, force: f64) -> f64 {
+        if x.abs() >= 1.0 {
+            return 0.0;
+        }
         let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
         point.shear(x * self.contact.half_width) * self.contact.half_width / (self.friction * self.line_load())
     }
@@ -175,8 +180,8 @@ impl Case {
     }
 
     /// The state after displacements in their unit.
-    fn state_after(&self, displacements: &[f64]) -> [f64; state::state_length(2)] {
-        let mut state = [0.0; state::state_length(2)];
+    pub fn state_after(&self, displacements: &[f64]) -> Vec<f64> {
+        let mut state = vec![0.0; state::state_length(2)];
         state::state_init(&mut state).expect("a state");
         for displacement in displacements {
             let displacement = displacement * self.displacement_unit();
@@ -194,24 +199,27 @@ impl Case {
         step.force() / self.contact.slip_force
     }
 
-    /// Stiffness a little after a reversal at Q/μP, in its unit.
-    pub fn stiffness_after_reversal(&self, reversal: f64, little: f64) -> f64 {
+    /// Stiffness shortly after a reversal at Q/μP, in its unit: at the given share of the displacement back.
+    pub fn stiffness_after_reversal(&self, reversal: f64, share: f64) -> f64 {
         let at_reversal = self.displacement(reversal);
-        let back = (1.0 - little) * at_reversal * self.displacement_unit();
-        let state = self.state_after(&[at_reversal]);
-        masing::step(&self.contact, &state, back).stiffness() / self.stiffness_unit()
+        let back = (1.0 - share) * at_reversal * self.displacement_unit();
+        masing::step(&self.contact, &self.state_after(&[at_reversal]), back).stiffness() / self.stiffness_unit()
     }
 
-    /// b q/(μP) at each x/b, loaded to one Q/μP and brought back to another.
-    pub fn shear_after_reversal(&self, x: &[f64], reversal: f64, force: f64) -> Vec<f64> {
-        let half = self.displacement((reversal - force) / 2.0);
-        let at_reversal = self.displacement(reversal);
-        let state = self.state_after(&[at_reversal, at_reversal - 2.0 * half]);
-        let places: Vec<f64> = x.iter().map(|x| x * self.contact.half_width).collect();
-        let mut shear = vec![0.0; x.len()];
-        masing::shear_tractions(&self.contact, &state, &places, &mut shear).expect("tractions");
-        let unit = self.contact.half_width / (self.friction * self.line_load());
-        shear.iter().map(|shear| shear * unit).collect()
+    /// b q/(μP) at x/b of a state.
+    pub fn shear_of_state(&self, state: &[f64], x: f64) -> f64 {
+        if x.abs() >= 1.0 {
+            return 0.0;
+        }
+        let mut shear = [0.0];
+        let place = [x * self.contact.half_width];
+        masing::shear_tractions(&self.contact, state, &place, &mut shear).expect("a traction");
+        shear[0] * self.contact.half_width / (self.friction * self.line_load())
+    }
+
+    /// The contact in multi-precision.
+    pub fn reference(&self) -> Reference {
+        Reference::new(self.input)
     }
 
     /// Energy per cycle between ± Q/μP, in its unit.
@@ -232,7 +240,7 @@ impl Case {
         (stiffness.real() / self.stiffness_unit(), stiffness.imaginary() / self.stiffness_unit())
     }
 
-    /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants, the first repeated.
+    /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants and again the first.
     pub fn hysteresis_loop(&self, amplitude: f64, instants: usize) -> (Vec<f64>, Vec<f64>) {
         let cycle = self.contact.hysteresis_loop(amplitude * self.displacement_unit()).expect("an amplitude");
         (0..=instants)

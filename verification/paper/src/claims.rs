@@ -1,4 +1,4 @@
-//! What the paper claims, each claim computed.
+//! The paper's claims, in the order of the page.
 
 mod cycles;
 mod loops;
@@ -7,40 +7,32 @@ mod tractions;
 
 use crate::cases::{Case, POISSON};
 use crate::drawings::{
-    AMPLITUDES, FLATS_OVER_RADIUS, LARGEST_LOAD, LENGTH, LENGTH_OVER_RADIUS, LENGTHS, NEARLY_CYLINDER, NEARLY_FLAT,
-    REVERSAL, SHAPE, SHAPES, WAY_BACK, even,
+    AFTER_REVERSAL, AMPLITUDES, FLATS_OVER_RADIUS, LARGEST_LOAD, LENGTH, LENGTH_OVER_RADIUS, LENGTHS, NEARLY_CYLINDER,
+    NEARLY_FLAT, REVERSAL, SHAPE, SHAPES, even,
 };
-use crate::equations::{Reading, Tractions, integral, load_of_flat, pressure, relieved_traction};
+use crate::equations::{Tractions, integral, printed_load, printed_pressure, printed_relieved_traction};
 use microslip::Material;
 use std::f64::consts::PI;
 
-/// A claim with what became of it.
+/// The check of a claim. Its text and its verdict are on the page.
 pub struct Claim {
-    /// The figure of the page at which it stands.
+    /// The table of the page.
     pub figure: &'static str,
-    /// Section, equation or figure of the paper.
-    pub place: &'static str,
-    pub claim: &'static str,
     pub computed: String,
-    pub verdict: &'static str,
-    /// Whether the verdict is borne out.
+    /// Whether the verdict is true.
     pub stands: bool,
 }
 
-const HOLDS: &str = "holds";
-const IN_THE_LIMIT: &str = "in the limit";
-const AS_MENDED: &str = "as mended";
-
-/// Two closed forms of one quantity; a few roundings, and the cancellation of the formula the library avoids.
+/// Two closed forms of one quantity.
 const CLOSED_FORMS: f64 = 1e-12;
-/// Against quadrature: the rule leaves out 7e-14 of an interval at its ends, where a logarithm is 30, and sums some pieces.
+/// Quadrature: the rule omits 7e-14 of an interval at each end, where a logarithm is 30.
 const QUADRATURE: f64 = 1e-11;
-/// Other units: roundings, which near the edge of the contact, at x/b = 0.999, are a thousand times those of its width.
+/// Other units: near the edge of the contact, at x/b = 0.999, rounding of its width is amplified a thousand times.
 const OTHER_UNITS: f64 = 1e-11;
 
-/// The largest of the numbers.
+/// The largest value, or NaN.
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    // A NaN is to stay, and to fail.
+    // A NaN remains, and fails.
     values.into_iter().fold(0.0, |largest: f64, value| if value > largest || value.is_nan() { value } else { largest })
 }
 
@@ -60,7 +52,7 @@ fn shapes() -> Vec<Case> {
     SHAPES.iter().map(|&shape| Case::flat(shape, LENGTH)).collect()
 }
 
-/// The loop's area by chords of so many instants that it is within 1e-7.
+/// The area of the loop by the trapezoidal rule, to 1e-7.
 fn area(case: &Case, amplitude: f64) -> f64 {
     let (x, y) = case.hysteresis_loop(amplitude, 20_000);
     0.5 * x.windows(2).zip(y.windows(2)).map(|(x, y)| (y[0] + y[1]) * (x[0] - x[1])).sum::<f64>().abs()
@@ -108,26 +100,4 @@ pub fn all() -> Vec<Claim> {
         tractions::relieved_load(),
         tractions::slip_of_plane_problem(),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cases::load_of_size;
-    use std::f64::consts::LN_2;
-
-    #[test]
-    fn a_number_that_is_none_fails() {
-        assert!(largest([0.0, f64::NAN, 1.0]).is_nan());
-        assert_eq!(largest([0.5, 1.0, 0.0]), 1.0);
-        assert!(!falls(&[1.0, f64::NAN]) && falls(&[2.0, 1.0]) && !falls(&[1.0, 1.0]));
-    }
-
-    /// ln 2, which full stick adds in Eq. 10, from the traction that it has.
-    #[test]
-    fn quadrature_knows_logarithms() {
-        let traction = |x: f64| -x.ln() / (PI * (1.0 - x * x).sqrt());
-        assert!((2.0 * integral(&[0.0, 1.0], 1.0, traction) - LN_2).abs() < 1e-6);
-        assert!((load_of_size(0.0, 1.0) - PI).abs() < 1e-15);
-    }
 }

@@ -1,19 +1,19 @@
 //! The data of each figure.
 
 use crate::cases::Case;
-use crate::equations::{Reading, Tractions, load_of_flat, pressure, relieved_traction};
+use crate::equations::{Tractions, printed_load, printed_pressure, printed_relieved_traction};
 use crate::table::Table;
 use std::f64::consts::PI;
 
-/// L/b where the paper's captions say no more than that it is given.
+/// L/b where the paper's captions give none.
 pub const LENGTH: f64 = 10.0;
 /// The values of L/b in Fig. 9 and 14.
 pub const LENGTHS: [f64; 4] = [5.0, 10.0, 20.0, 40.0];
 /// a/b of the figures that compare shapes.
 pub const SHAPES: [f64; 5] = [0.0, 0.5, 0.75, 0.9, 0.99];
-/// a/b of the figures that show one shape between both limits.
+/// a/b of the figures of one shape.
 pub const SHAPE: f64 = 0.5;
-/// a/b of the two shapes of Fig. 8; the first is that of Fig. 9 and 14 too.
+/// a/b of the two shapes of Fig. 8; the first also of Fig. 9 and 14.
 pub const NEARLY_CYLINDER: f64 = 0.1;
 pub const NEARLY_FLAT: f64 = 0.9;
 /// Displacement amplitudes of Fig. 8: below gross slip of both shapes, and beyond.
@@ -23,16 +23,16 @@ pub const FLATS_OVER_RADIUS: [f64; 4] = [0.0, 0.02, 0.1, 0.5];
 pub const LENGTH_OVER_RADIUS: f64 = 10.0;
 /// Largest P/(E* R) of Fig. 10: b/R is 0.11 then for a cylinder, about as far as half-planes go.
 pub const LARGEST_LOAD: f64 = 0.01;
-/// Q/μP at the reversal of the figure of tractions, and on the way back.
+/// Q/μP at the reversal, and after it, in the figure of tractions.
 pub const REVERSAL: f64 = 0.8;
-pub const WAY_BACK: [f64; 4] = [0.4, 0.0, -0.4, -0.8];
+pub const AFTER_REVERSAL: [f64; 4] = [0.4, 0.0, -0.4, -0.8];
 
-/// n + 1 numbers from one to the other.
+/// n + 1 uniformly spaced values.
 pub fn even(from: f64, to: f64, n: usize) -> Vec<f64> {
     (0..=n).map(|i| from + (to - from) * i as f64 / n as f64).collect()
 }
 
-/// The same in equal ratios.
+/// The same on a logarithmic scale.
 fn geometric(from: f64, to: f64, n: usize) -> Vec<f64> {
     even(from.ln(), to.ln(), n).into_iter().map(f64::exp).collect()
 }
@@ -41,8 +41,8 @@ fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().copied().map(f).collect()
 }
 
-/// x/b over the width, denser towards its ends and on both sides of ± each of the given places, where curves are steep. The
-/// places themselves, where a term may be infinite, are left out.
+/// x/b over the width, denser near its ends and on both sides of ± each of the given places, where curves are steep. The places
+/// themselves, where a term may be infinite, are left out.
 fn across(places: &[f64]) -> Vec<f64> {
     let mut x = map(&even(-PI / 2.0, PI / 2.0, 240), f64::sin);
     for &place in places.iter().filter(|&&place| place > 0.0 && place < 1.0) {
@@ -60,8 +60,8 @@ pub fn all() -> Vec<Table> {
     tables.extend(loops_of_amplitudes());
     tables.extend([loops_of_shapes(), loops_of_lengths(), stiffness_under_load(), first_loading()]);
     tables.extend(complex_stiffness());
-    tables.extend([energy(), energy_logarithmic(), oscillating_tractions(), printed_load()]);
-    tables.extend([printed_tractions(), printed_slip()]);
+    tables.extend([energy(), energy_logarithmic(), oscillating_tractions(), load_as_printed()]);
+    tables.extend([tractions_as_printed(), slip_as_printed()]);
     tables
 }
 
@@ -88,12 +88,12 @@ fn shears() -> Table {
     })
 }
 
-/// Loops of amplitudes in shares of the displacement of gross slip, and the curve of the first loading.
+/// Loops of amplitudes relative to the displacement of gross slip, and the initial loading curve.
 fn loops_of_amplitudes() -> [Table; 2] {
     let case = Case::flat(NEARLY_CYLINDER, LENGTH);
     [("fig07a", [0.4, 0.7, 1.0]), ("fig07b", [1.0, 1.5, 2.0])].map(|(name, shares)| {
         let x = even(0.0, shares[2] * case.slip_displacement(), 240);
-        let first = Table::new(name).curve("first loading", x.clone(), map(&x, |x| case.force(x)));
+        let first = Table::new(name).curve("initial loading", x.clone(), map(&x, |x| case.force(x)));
         shares.iter().fold(first, |table, share| {
             let (x, y) = case.hysteresis_loop(share * case.slip_displacement(), 240);
             table.curve(&format!("δ0 = {share} δs"), x, y)
@@ -109,7 +109,7 @@ fn loops_of_shapes() -> Table {
     })
 }
 
-/// Loops that just reach gross slip.
+/// Loops at incipient gross slip.
 fn loops_of_lengths() -> Table {
     LENGTHS.iter().fold(Table::new("fig09"), |table, &length| {
         let case = Case::flat(NEARLY_CYLINDER, length);
@@ -118,7 +118,7 @@ fn loops_of_lengths() -> Table {
     })
 }
 
-/// The second half has Eq. 1 as it is printed: with twice the radius in it.
+/// The second half is by Eq. 1 as printed, which is that of twice the radius.
 fn stiffness_under_load() -> Table {
     let loads = map(&even(0.0, 1.0, 120), |share| LARGEST_LOAD * share.max(5e-3).powi(2));
     let readings = [(1.0, ""), (2.0, " by Eq. 1 as printed")];
@@ -143,7 +143,6 @@ fn first_loading() -> Table {
 fn complex_stiffness() -> [Table; 4] {
     let shapes = || SHAPES.iter().map(|&shape| (shape_name(shape), Case::flat(shape, LENGTH)));
     let lengths = || LENGTHS.iter().map(|&length| (format!("L/b = {length}"), Case::flat(NEARLY_CYLINDER, length)));
-    // Denser where the loops grow from nothing and where they begin to slip.
     let amplitudes = even(0.0, 12.0, 480);
     let part = |name, cases: &mut dyn Iterator<Item = (String, Case)>, imaginary: bool| {
         cases.fold(Table::new(name).column("amplitude", amplitudes.clone()), |table, (name, case)| {
@@ -177,43 +176,48 @@ fn energies(name: &'static str, forces: Vec<f64>) -> Table {
     })
 }
 
-/// Shear at the reversal and on the way back to the opposite one, between ±μp.
+/// Shear at the reversal and after it, up to the opposite one, between ±μp.
 fn oscillating_tractions() -> Table {
     let case = Case::flat(SHAPE, LENGTH);
     let places: Vec<f64> = [REVERSAL].iter().chain(&[0.2, 0.4, 0.6]).map(|&force| case.stick_zone(force)).collect();
     let x = across(&places);
     let limit = Table::new("oscillating").column("x/b", x.clone()).column("±μp", map(&x, |x| case.pressure(x)));
-    let first = limit.column(format!("Q/μP = {REVERSAL} at the reversal"), map(&x, |x| case.shear(x, REVERSAL)));
-    WAY_BACK.iter().fold(first, |table, &force| {
-        table.column(format!("{force} on the way back"), case.shear_after_reversal(&x, REVERSAL, force))
+    let first = limit.column(format!("Q/μP = {REVERSAL}"), map(&x, |x| case.shear(x, REVERSAL)));
+    AFTER_REVERSAL.iter().fold(first, |table, &force| {
+        let tractions = Tractions::after_reversal(&case, REVERSAL, force);
+        table.column(format!("{force} after the reversal"), map(&x, |x| tractions.at(x)))
     })
 }
 
-fn printed_load() -> Table {
-    let flats = map(&even(0.02, 0.98, 120), |x| x);
-    let load = |reading| map(&flats, |flat| flat * flat * load_of_flat(flat, reading));
+fn load_as_printed() -> Table {
+    let flats = even(0.02, 0.98, 120);
+    let load = |factor: f64| map(&flats, |flat| factor * flat * flat * printed_load(flat));
     Table::new("printed_load")
         .column("a/b", flats.clone())
-        .column("as printed", load(Reading::Printed))
-        .column("mended", load(Reading::Mended))
+        .column("as printed", load(1.0))
+        .column("corrected", load(2.0))
 }
 
-fn printed_tractions() -> Table {
+/// The relieved traction of a stick zone is the pressure of a contact of its size.
+fn tractions_as_printed() -> Table {
     let x = across(&[SHAPE]);
-    let table = Table::new("printed_tractions").column("x/b", x.clone());
-    [(Reading::Printed, "as printed"), (Reading::Mended, "mended")].into_iter().fold(table, |table, (reading, name)| {
-        table
-            .column(format!("Eq. 17 {name}"), map(&x, |x| pressure(SHAPE, x, reading)))
-            .column(format!("Eq. 22 {name}"), map(&x, |x| relieved_traction(SHAPE, x, reading)))
-    })
+    let case = Case::flat(SHAPE, LENGTH);
+    let corrected = map(&x, |x| case.pressure(x));
+    Table::new("printed_tractions")
+        .column("x/b", x.clone())
+        .column("Eq. 17 as printed", map(&x, |x| printed_pressure(SHAPE, x)))
+        .column("Eq. 22 as printed", map(&x, |x| printed_relieved_traction(SHAPE, x)))
+        .column("Eq. 17 corrected", corrected.clone())
+        .column("Eq. 22 corrected", corrected)
 }
 
 /// Slip under a force, by Eq. 15 with both upper limits.
-fn printed_slip() -> Table {
+fn slip_as_printed() -> Table {
     let x = even(0.005, 0.995, 99);
-    let tractions = Tractions::first(SHAPE, REVERSAL);
+    let case = Case::flat(SHAPE, LENGTH);
+    let tractions = Tractions::first(&case, REVERSAL);
     Table::new("printed_slip")
         .column("x/b", x.clone())
-        .column("upper limit a", map(&x, |x| tractions.slip(x, Reading::Printed)))
-        .column("upper limit b", map(&x, |x| tractions.slip(x, Reading::Mended)))
+        .column("upper limit a", map(&x, |x| tractions.slip(x, SHAPE)))
+        .column("upper limit b", map(&x, |x| case.slip(x, REVERSAL)))
 }

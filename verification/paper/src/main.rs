@@ -1,7 +1,7 @@
-//! The figures of the paper, computed through the library, and what the paper claims, checked.
+//! The figures of the paper computed by the library, and a check of each of its claims.
 //!
-//! - `figures` writes `docs/figures/data/*.csv` and the table of claims in `docs/paper.md`;
-//! - `figures --check` computes all the same, and compares with what is there; the last line has the counts.
+//! - `paper` writes `docs/figures/data/*.csv` and the tables of claims in `docs/paper.md`;
+//! - `paper --check` compares both with what the library computes now.
 
 mod cases;
 mod claims;
@@ -14,14 +14,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-fn begin(figure: &str) -> String {
-    format!("<!-- claims {figure}: begin -->\n")
-}
-
-fn end(figure: &str) -> String {
-    format!("<!-- claims {figure}: end -->")
-}
-
 fn docs() -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).to_path_buf()
 }
@@ -32,7 +24,7 @@ fn main() -> ExitCode {
         [] => false,
         ["--check"] => true,
         _ => {
-            eprintln!("usage: figures [--check]");
+            eprintln!("usage: paper [--check]");
             return ExitCode::from(2);
         }
     };
@@ -46,8 +38,7 @@ fn main() -> ExitCode {
 }
 
 fn verdict(claim: &Claim) -> Result<(), String> {
-    let Claim { place, claim, computed, verdict, stands, .. } = claim;
-    if *stands { Ok(()) } else { Err(format!("{place}: {claim}: not “{verdict}”: {computed}")) }
+    if claim.stands { Ok(()) } else { Err(format!("{}: the verdict is not true: {}", claim.figure, claim.computed)) }
 }
 
 fn read(path: &Path) -> Result<String, String> {
@@ -76,74 +67,36 @@ fn compare(claims: &[Claim]) -> Vec<Result<(), String>> {
         let fresh = with_claims(&text, claims)?;
         if text == fresh { Ok(()) } else { Err("docs/paper.md is stale: run `make figures`".to_owned()) }
     };
-    tables.chain([read(&docs().join("paper.md")).and_then(stale)]).chain(pictures()).collect()
+    tables.chain([read(&docs().join("paper.md")).and_then(stale)]).collect()
 }
 
-/// Every picture of the page is there, and every picture that is there is on the page.
-fn pictures() -> Vec<Result<(), String>> {
-    let page = read(&docs().join("paper.md")).unwrap_or_default();
-    let Ok(files) = fs::read_dir(docs().join("figures")) else {
-        return vec![Err("docs/figures: no such directory".to_owned())];
-    };
-    let mut names: Vec<String> = files.filter_map(|file| file.ok()?.file_name().into_string().ok()).collect();
-    names.sort();
-    let drawn = names.iter().filter(|name| name.ends_with(".svg")).map(|name| {
-        let png = name.replace(".svg", ".png");
-        match (page.contains(&format!("(figures/{name})")), names.contains(&png)) {
-            (true, true) => Ok(()),
-            (false, _) => Err(format!("docs/paper.md does not show {name}")),
-            (_, false) => Err(format!("docs/figures: no {png}")),
-        }
-    });
-    let shown = page.match_indices("(figures/").map(|(place, start)| {
-        let name = page[place + start.len()..].split(')').next().unwrap_or_default();
-        if names.iter().any(|file| file == name) {
-            Ok(())
-        } else {
-            Err(format!("docs/paper.md shows {name}, which is not there"))
-        }
-    });
-    drawn.chain(shown).collect()
-}
-
-/// The page with the claims between the markers of their figures.
+/// The page with the results of the claims in the third column of the tables between its markers.
 fn with_claims(page: &str, claims: &[Claim]) -> Result<String, String> {
-    let mut text = page.to_owned();
+    let mut text = String::new();
+    let mut left = page;
     for table in claims.chunk_by(|one, next| one.figure == next.figure) {
-        let (begin, end) = (begin(table[0].figure), end(table[0].figure));
-        let marked = text.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?.1)));
-        let (before, after) = marked.ok_or(format!("docs/paper.md: no {}…{end}", begin.trim_end()))?;
-        let row = |Claim { place, claim, computed, verdict, .. }: &Claim| {
-            format!("| {place} | {claim} | {computed} | {verdict} |\n")
-        };
-        let rows: String = table.iter().map(row).collect();
-        text = format!("{before}{begin}| where | claim | computed | verdict |\n|---|---|---|---|\n{rows}{end}{after}");
+        let name = table[0].figure;
+        let (begin, end) = (format!("<!-- claims {name}: begin -->\n"), format!("<!-- claims {name}: end -->"));
+        let marked = left.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?)));
+        let (before, (rows, after)) = marked.ok_or(format!("docs/paper.md: no {}…{end}", begin.trim_end()))?;
+        text += &format!("{before}{begin}");
+        let mut claims = table.iter();
+        for (i, row) in rows.lines().enumerate() {
+            let cells: Vec<&str> = row.split(" | ").collect();
+            match (&cells[..], i) {
+                (_, 0 | 1) => text += &format!("{row}\n"),
+                ([place, claim, _, verdict], _) => {
+                    let claim_of_row = claims.next().ok_or(format!("docs/paper.md: too many rows in {name}"))?;
+                    text += &format!("{place} | {claim} | {} | {verdict}\n", claim_of_row.computed);
+                }
+                _ => return Err(format!("docs/paper.md: {row}: not four cells")),
+            }
+        }
+        if claims.next().is_some() {
+            return Err(format!("docs/paper.md: too few rows in {name}"));
+        }
+        text += &end;
+        left = after;
     }
-    Ok(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_table_stands_between_its_markers_and_a_page_without_them_is_refused() {
-        let claim = |figure, claim| Claim {
-            figure,
-            place: "1",
-            claim,
-            computed: "2".to_owned(),
-            verdict: "holds",
-            stands: true,
-        };
-        let claims = [claim("x", "c"), claim("x", "d"), claim("y", "e")];
-        let page = format!("a\n{}old\n{}\nm\n{}{}\nz\n", begin("x"), end("x"), begin("y"), end("y"));
-        let filled = with_claims(&page, &claims).unwrap();
-        let head = "| where | claim | computed | verdict |\n|---|---|---|---|\n";
-        let table = |figure, rows: &str| begin(figure) + head + rows + &end(figure);
-        let (x, y) = ("| 1 | c | 2 | holds |\n| 1 | d | 2 | holds |\n", "| 1 | e | 2 | holds |\n");
-        assert_eq!(filled, format!("a\n{}\nm\n{}\nz\n", table("x", x), table("y", y)));
-        assert_eq!(with_claims(&filled, &claims).unwrap(), filled);
-        assert!(with_claims("a", &claims).is_err());
-    }
+    Ok(text + left)
 }

@@ -1,10 +1,11 @@
-//! Contacts of every kind: from the cylinder to a flat of which a billionth is rounded, short and long, of like and unlike
-//! bodies, elliptical, and in units of any size.
+//! Contacts of every kind: from the cylinder to a flat with a rounded share of 1e-12, short and long, of like and unlike bodies,
+//! elliptical, and in units of any size.
 
-use crate::family;
-use crate::library::{Contact, Given};
+use crate::library::Contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Material, Parameters};
+use reference::Input;
+use reference::law::load_of_size;
 
 const STEEL: Material = Material { young_modulus: 2.1e11, poisson_ratio: 0.29 };
 const TITANIUM: Material = Material { young_modulus: 1.14e11, poisson_ratio: 0.32 };
@@ -17,7 +18,7 @@ pub struct Named {
     pub contact: Contact,
 }
 
-/// A flat in its own terms: (1 - a/b), with 1 for a cylinder, and L/b.
+/// A flat by its ratios: 1 - a/b, which is 1 for a cylinder, and L/b.
 struct Shape {
     rounded: f64,
     length: f64,
@@ -26,22 +27,23 @@ struct Shape {
 }
 
 /// Parameters for a half-width of about 0.2 mm, in units of 2^length metres and 2^force newtons.
-fn flat(shape: &Shape, length: i32, force: i32) -> Given {
+fn flat(shape: &Shape, length: i32, force: i32) -> Input {
     let (metre, newton) = (2f64.powi(length), 2f64.powi(force));
     let half_width = 2e-4 * metre;
-    // w² = b² - a² as a product, which loses nothing.
+    // w² = b² - a² as a product, free of cancellation.
     let w = half_width * (shape.rounded * (2.0 - shape.rounded)).sqrt();
     let flat_half_width = half_width * (1.0 - shape.rounded);
     let material =
         shape.material.map(|body| Material { young_modulus: body.young_modulus * newton / metre / metre, ..body });
+    let composite =
+        1.0 / material.iter().map(|body| (1.0 - body.poisson_ratio.powi(2)) / body.young_modulus).sum::<f64>();
     let edge_radius = 0.1 * metre;
     let length = shape.length * half_width;
-    let load = family::load(flat_half_width, w) * family::composite_modulus(&material) / (4.0 * edge_radius);
-    Given::Flat(Parameters {
+    Input::Flat(Parameters {
         flat_half_width,
         edge_radius,
         length,
-        normal_force: load * length,
+        normal_force: load_of_size(flat_half_width, w) * composite / (4.0 * edge_radius) * length,
         friction_coefficient: 0.37,
         material,
         displacement_reference: shape.reference,
@@ -49,11 +51,11 @@ fn flat(shape: &Shape, length: i32, force: i32) -> Given {
     })
 }
 
-fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> Given {
+fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> Input {
     let (metre, newton) = (2f64.powi(length), 2f64.powi(force));
     let material =
         [STEEL, TITANIUM].map(|body| Material { young_modulus: body.young_modulus * newton / metre / metre, ..body });
-    Given::Ellipse(EllipticParameters {
+    Input::Ellipse(EllipticParameters {
         semi_axis_x: semi_axis_x * metre,
         semi_axis_y: semi_axis_y * metre,
         normal_force: 90.0 * newton,
@@ -69,7 +71,7 @@ pub fn all() -> Vec<Named> {
         |rounded: f64, reference: i32| Shape { material: [STEEL, TITANIUM], reference, ..shape(rounded, 40.0) };
     // Without Poisson's effect the compliance vanishes where 2L = b.
     let short = |excess: f64| Shape { material: [STIFF, STIFF], ..shape(1.0, 0.5 * (1.0 + excess)) };
-    let given = [
+    let inputs = [
         ("cylinder", flat(&unlike(1.0, CENTRE_POINT), 0, 0)),
         ("flat, a/b = 1e-6", flat(&shape(1.0 - 1e-6, 20.0), 0, 0)),
         ("flat, a/b = 0.3", flat(&unlike(0.7, RIGID_STRIP), 0, 0)),
@@ -88,11 +90,11 @@ pub fn all() -> Vec<Named> {
         ("cylinder, metres of 2^200", flat(&unlike(1.0, RIGID_STRIP), 200, 400)),
         ("ellipse, metres of 2^-200", ellipse(1e-4, 3e-4, -200, -400)),
     ];
-    given
+    inputs
         .into_iter()
-        .map(|(name, given)| match Contact::new(given) {
+        .map(|(name, input)| match Contact::new(input) {
             Ok(contact) => Named { name: name.to_owned(), contact },
-            Err(error) => panic!("{name}: {error}: {given:?}"),
+            Err(error) => panic!("{name}: {error}: {input:?}"),
         })
         .collect()
 }

@@ -1,14 +1,14 @@
-//! Histories of displacement: regular, random, chaotic, and such as look for the places where comparisons and rounding decide.
+//! Histories of displacement: regular, random, chaotic, and adversarial ones that depend on comparisons and rounding.
 
 use crate::memory::Memory;
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_chacha::ChaCha8Rng;
 
-/// The next displacement, from what is remembered.
+/// The next displacement, given the memory.
 pub type History = Box<dyn FnMut(&Memory, &mut ChaCha8Rng) -> f64 + Send>;
 
-/// Beyond this the interface takes no displacement (1e150), with room for sums.
+/// Below the largest displacement of the interface (1e150), with room for sums.
 const FARTHEST: f64 = 1e149;
 
 /// All kinds, by name, for a displacement of gross slip.
@@ -25,9 +25,9 @@ pub fn all(slip: f64) -> Vec<(&'static str, History)> {
         ("neighbours", neighbours(slip)),
         ("tiny and giant", tiny_and_giant(slip)),
         ("exact returns", exact_returns(slip)),
-        ("whole numbers", whole_numbers(slip / 16.0)),
-        ("last digits", whole_numbers(spacing)),
-        ("subnormal", whole_numbers(f64::from_bits(1))),
+        ("multiples", multiples(slip / 16.0)),
+        ("last digits", multiples(spacing)),
+        ("subnormal", multiples(f64::from_bits(1))),
     ]
 }
 
@@ -42,7 +42,7 @@ fn scattered(slip: f64) -> History {
     })
 }
 
-/// Steps of a tenth of gross slip, turned back at the ends of a range that changes.
+/// Steps of a tenth of gross slip within a range that changes.
 fn random_walk(slip: f64) -> History {
     let (mut place, mut range) = (0.0_f64, 1.0);
     Box::new(move |_, rng| {
@@ -54,15 +54,15 @@ fn random_walk(slip: f64) -> History {
     })
 }
 
-/// Inwards, ever smaller swings that all are remembered; outwards, closing loop after loop.
+/// Nested loops inwards, then outwards, closing loop after loop.
 fn spirals(slip: f64) -> History {
-    let (mut width, mut ratio, mut side, mut turns) = (1.0, 0.9, 1.0, 0);
+    let (mut width, mut ratio, mut side, mut left) = (1.0, 0.9, 1.0, 0);
     Box::new(move |_, rng| {
-        if turns == 0 {
-            turns = rng.random_range(2..60);
+        if left == 0 {
+            left = rng.random_range(2..60);
             ratio = rng.random_range(0.5_f64..0.999).powi(if ratio < 1.0 { -1 } else { 1 });
         }
-        turns -= 1;
+        left -= 1;
         side = -side;
         width *= ratio;
         if !(1e-6..=1.2).contains(&width) {
@@ -72,7 +72,7 @@ fn spirals(slip: f64) -> History {
     })
 }
 
-/// Cycles whose middle wanders off, far into gross slip, and comes back.
+/// Cycles whose mean drifts far into gross slip and back.
 fn drifting_sine(slip: f64) -> History {
     let (mut phase, mut middle, mut speed, mut amplitude) = (0.0_f64, 0.0, 1e-3, 0.8);
     Box::new(move |_, rng| {
@@ -97,7 +97,7 @@ fn logistic_map(slip: f64) -> History {
     })
 }
 
-/// One step of Runge's and Kutta's rule.
+/// A Runge-Kutta step.
 fn runge_kutta<const N: usize>(x: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
     let towards = |k: [f64; N], h: f64| std::array::from_fn(|i| x[i] + h * k[i]);
     let k1 = rate(x);
@@ -107,7 +107,6 @@ fn runge_kutta<const N: usize>(x: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [
     std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
 }
 
-/// Two lobes, each circled a number of times that never repeats, in small steps.
 fn lorenz(slip: f64) -> History {
     let mut x = [1.0, 1.0, 20.0];
     Box::new(move |_, _| {
@@ -116,7 +115,7 @@ fn lorenz(slip: f64) -> History {
     })
 }
 
-/// A driven beam between two magnets, in its chaotic range.
+/// A driven buckled beam in its chaotic range.
 fn duffing(slip: f64) -> History {
     let mut state = [0.1, 0.0, 0.0];
     Box::new(move |_, _| {
@@ -125,7 +124,7 @@ fn duffing(slip: f64) -> History {
     })
 }
 
-/// Turns by a few of the last digits, seldom a jump elsewhere.
+/// Reversals within a few doubles, rarely a jump.
 fn neighbours(slip: f64) -> History {
     let mut place = 0.4 * slip;
     Box::new(move |_, rng| {
@@ -151,15 +150,15 @@ fn tiny_and_giant(slip: f64) -> History {
     })
 }
 
-/// Whatever is remembered, its opposite, the ends of the elastic range and the origin: exactly there, or next to it.
+/// Exactly to a reversal, its opposite, the ends of the elastic range or the origin, or to the next double.
 fn exact_returns(slip: f64) -> History {
     Box::new(move |memory, rng| {
-        let remembered = memory.points.choose(rng).map_or(0.0, |point| point.displacement);
+        let reversal = memory.points.choose(rng).map_or(0.0, |point| point.displacement);
         let end = memory.points[0].displacement;
         let target = match rng.random_range(0..12) {
-            0..4 => remembered,
-            4 => -remembered,
-            5 => 2.0 * end - remembered,
+            0..4 => reversal,
+            4 => -reversal,
+            5 => 2.0 * end - reversal,
             6 => slip.copysign(rng.random_range(-1.0..1.0)),
             7 => end - memory.slip_direction * 2.0 * slip,
             8 => 0.0,
@@ -175,8 +174,8 @@ fn exact_returns(slip: f64) -> History {
     })
 }
 
-/// Small multiples of a unit, so that displacements meet again and again.
-fn whole_numbers(unit: f64) -> History {
+/// Small multiples of a unit, so that displacements repeat.
+fn multiples(unit: f64) -> History {
     let mut most = 20.0;
     Box::new(move |_, rng| {
         if rng.random_bool(0.01) {
@@ -185,4 +184,18 @@ fn whole_numbers(unit: f64) -> History {
         let number: f64 = rng.random_range(-most..=most);
         number.round() * unit
     })
+}
+
+/// Random displacements between two, in order, and the end.
+pub fn divided(from: f64, to: f64, parts: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    // Rounding must not exceed the end.
+    let (low, high) = (from.min(to), from.max(to));
+    let mut places: Vec<f64> =
+        (1..parts).map(|_| (from + rng.random::<f64>() * (to - from)).clamp(low, high)).collect();
+    places.sort_by(f64::total_cmp);
+    if to < from {
+        places.reverse();
+    }
+    places.push(to);
+    places
 }

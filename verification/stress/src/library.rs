@@ -1,52 +1,48 @@
-//! The functions of the C interface, as an application calls them.
+//! The functions of the C interface, with floating-point traps.
 
 use crate::Outcome;
-use crate::walk::BRANCH_ROUNDING;
 use microslip::ffi::{self, mslip_contact};
-use microslip::{EllipticParameters, Parameters};
+use reference::Input;
 use std::fmt::{self, Debug, Formatter};
 use std::mem::MaybeUninit;
 use std::ptr::{self, null, null_mut};
 use std::sync::Arc;
+
+/// Rounding of a force over mu N for each branch: the curve has an error of 1.5e-15 (see the tests of the interpolant) and is
+/// doubled, and sums round by a unit.
+pub const BRANCH_ROUNDING: f64 = 4e-15;
 
 /// `Ok` if the status of a call is 0.
 pub fn accepted(status: i32) -> Outcome {
     if status == ffi::MSLIP_OK { Ok(()) } else { Err(format!("rejected with status {status}")) }
 }
 
-/// Parameters of a contact.
-#[derive(Debug, Clone, Copy)]
-pub enum Given {
-    Flat(Parameters),
-    Ellipse(EllipticParameters),
-}
-
 /// An initialised contact.
 #[derive(Clone)]
 pub struct Contact {
-    pub given: Given,
+    pub input: Input,
     prepared: Arc<mslip_contact>,
 }
 
 impl Debug for Contact {
     fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {
-        self.given.fmt(formatter)
+        self.input.fmt(formatter)
     }
 }
 
 impl Contact {
-    pub fn new(given: Given) -> Result<Contact, String> {
+    pub fn new(input: Input) -> Result<Contact, String> {
         let mut prepared = Box::new(MaybeUninit::<mslip_contact>::uninit());
         let contact = prepared.as_mut_ptr();
         // SAFETY: both pointers are valid; a contact is initialised by the call that accepts it.
         let status = trapped(|| unsafe {
-            match &given {
-                Given::Flat(parameters) => ffi::mslip_contact_init(parameters, contact),
-                Given::Ellipse(parameters) => ffi::mslip_contact_init_elliptic(parameters, contact),
+            match &input {
+                Input::Flat(parameters) => ffi::mslip_contact_init(parameters, contact),
+                Input::Ellipse(parameters) => ffi::mslip_contact_init_elliptic(parameters, contact),
             }
         });
         accepted(status)?;
-        Ok(Contact { given, prepared: unsafe { prepared.assume_init() }.into() })
+        Ok(Contact { input, prepared: unsafe { prepared.assume_init() }.into() })
     }
 
     pub fn as_c(&self) -> &mslip_contact {
@@ -60,7 +56,7 @@ impl Contact {
     }
 
     /// mu N.
-    pub fn limit(&self) -> f64 {
+    pub fn slip_force(&self) -> f64 {
         self.prepared.slip_force
     }
 
@@ -81,19 +77,18 @@ impl Contact {
     /// Force and stiffness on the monotonic curve.
     pub fn monotonic(&self, displacement: f64) -> Result<(f64, f64), String> {
         let (mut force, mut stiffness) = (f64::NAN, f64::NAN);
-        // SAFETY: pointers to one number each.
+        // SAFETY: pointers to one double each.
         accepted(trapped(|| unsafe {
             ffi::mslip_monotonic_force(self.as_c(), 1, &displacement, &mut force, &mut stiffness, null_mut())
         }))?;
         Ok((force, stiffness))
     }
 
-    /// Energy of a cycle between displacements -amplitude and +amplitude, and its error by the rounding of the force amplitude:
-    /// `dE/dF = 4 (F dδ/dF - δ)`.
+    /// Energy of a cycle of an amplitude, and its error by the rounding of the force amplitude: `dE/dF = 4 (F dδ/dF - δ)`.
     pub fn cycle_energy(&self, amplitude: f64) -> Result<(f64, f64), String> {
         let (mut force, mut stiffness, mut energy) = (0.0, 0.0, 0.0);
         let sticks = amplitude.min(self.slip());
-        // SAFETY: pointers to one number each.
+        // SAFETY: pointers to one double each.
         accepted(trapped(|| unsafe {
             ffi::mslip_monotonic_force(self.as_c(), 1, &sticks, &mut force, &mut stiffness, null_mut())
         }))?;
@@ -102,19 +97,19 @@ impl Contact {
         // At gross slip the force amplitude is mu N exactly.
         let rounding =
             if sticks < self.slip() { 4.0 * (force / stiffness - sticks).abs() * BRANCH_ROUNDING * force } else { 0.0 };
-        Ok((energy + 4.0 * self.limit() * (amplitude - sticks), rounding))
+        Ok((energy + 4.0 * self.slip_force() * (amplitude - sticks), rounding))
     }
 }
 
 /// Results of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer {
+pub struct Response {
     pub force: f64,
     pub stiffness: f64,
     pub dissipated: f64,
 }
 
-/// A state in the caller's memory.
+/// A state.
 #[derive(Clone, PartialEq)]
 pub struct State(pub Vec<f64>);
 
@@ -145,7 +140,7 @@ impl State {
         (self.0[0].to_bits() & 0xff_ffff_ffff) as usize
     }
 
-    /// Reversals that it holds exactly.
+    /// Reversals that it can hold.
     pub fn capacity(&self) -> usize {
         (self.0.len() - HEADER) / PER_REVERSAL
     }
@@ -173,75 +168,60 @@ impl State {
         &self.0[..HEADER + PER_REVERSAL * self.depth()]
     }
 
-    /// That part to the bit, but for the sign of a zero.
+    /// Its bits, except for the sign of a zero.
     pub fn bits(&self) -> Vec<u64> {
         self.used().iter().map(|value| (value + 0.0).to_bits()).collect()
     }
 
-    /// Whether it is the state after the negative of a history, but for the sign of a zero.
+    /// Whether it is the negative of another state, except for the sign of a zero.
     pub fn is_mirror_of(&self, other: &State) -> bool {
         let (one, two) = (self.used(), other.used());
         one[0] == two[0] && one[1..].iter().zip(&two[1..]).all(|(a, b)| *a == -*b)
     }
 
-    /// One step, in place.
-    pub fn step(&mut self, contact: &Contact, displacement: f64) -> Result<Answer, String> {
-        let mut answer = Answer { force: f64::NAN, stiffness: f64::NAN, dissipated: f64::NAN };
-        let (state, Answer { force, stiffness, dissipated }) = (self.0.as_mut_ptr(), &mut answer);
-        // SAFETY: pointers as long as given; the old state may be the new one.
+    /// One step from this state; without `new` the new state is discarded, without an output that is not computed.
+    #[inline]
+    fn update(
+        &self,
+        contact: &Contact,
+        displacement: f64,
+        new: *mut f64,
+        [force, stiffness, dissipated]: [*mut f64; 3],
+    ) -> Outcome {
+        let (length, old) = (self.0.len(), self.0.as_ptr());
+        // SAFETY: states as long as given, the new one may alias the old one; outputs are null or valid for a double.
         accepted(trapped(|| unsafe {
-            let length = self.0.len();
-            ffi::mslip_masing_update(contact.as_c(), length, state, displacement, state, force, stiffness, dissipated)
-        }))?;
-        Ok(answer)
+            ffi::mslip_masing_update(contact.as_c(), length, old, displacement, new, force, stiffness, dissipated)
+        }))
     }
 
-    /// One step in place, of which only the force is requested.
+    /// One step, in place.
+    pub fn step(&mut self, contact: &Contact, displacement: f64) -> Result<Response, String> {
+        let mut response = Response { force: f64::NAN, stiffness: f64::NAN, dissipated: f64::NAN };
+        let outputs: [*mut f64; 3] = [&mut response.force, &mut response.stiffness, &mut response.dissipated];
+        let new = self.0.as_mut_ptr();
+        self.update(contact, displacement, new, outputs).map(|()| response)
+    }
+
+    /// The force after one step, in place.
     #[inline]
     pub fn force_after(&mut self, contact: &Contact, displacement: f64) -> Result<f64, String> {
         let mut force = f64::NAN;
-        let (state, length) = (self.0.as_mut_ptr(), self.0.len());
-        // SAFETY: as above.
-        accepted(trapped(|| unsafe {
-            ffi::mslip_masing_update(
-                contact.as_c(),
-                length,
-                state,
-                displacement,
-                state,
-                &mut force,
-                null_mut(),
-                null_mut(),
-            )
-        }))?;
-        Ok(force)
+        let new = self.0.as_mut_ptr();
+        self.update(contact, displacement, new, [&mut force, null_mut(), null_mut()]).map(|()| force)
     }
 
-    /// The force after a step; the new state is discarded.
+    /// The force after a step whose state is discarded.
     pub fn force_at(&self, contact: &Contact, displacement: f64) -> Result<f64, String> {
         let mut force = f64::NAN;
-        let (state, length) = (self.0.as_ptr(), self.0.len());
-        // SAFETY: as above.
-        accepted(trapped(|| unsafe {
-            ffi::mslip_masing_update(
-                contact.as_c(),
-                length,
-                state,
-                displacement,
-                null_mut(),
-                &mut force,
-                null_mut(),
-                null_mut(),
-            )
-        }))?;
-        Ok(force)
+        self.update(contact, displacement, null_mut(), [&mut force, null_mut(), null_mut()]).map(|()| force)
     }
 }
 
 /// Outputs of a path: force, stiffness and dissipated energy of each step, if requested.
 pub type PathOutputs = [Option<Vec<f64>>; 3];
 
-/// A path in one call; the new state is discarded unless it is kept.
+/// A path in one call; the new state is discarded unless `kept`.
 pub fn path(
     contact: &Contact,
     state: &mut State,
@@ -263,16 +243,16 @@ pub fn path(
     accepted(status).map(|()| outputs)
 }
 
-/// A call with traps for invalid operations, divisions by zero and overflows: one of them ends the program.
+/// A call with traps for invalid operations, divisions by zero and overflows, which end the program.
 #[inline]
 pub fn trapped<T>(call: impl FnOnce() -> T) -> T {
     /// Control words of SSE: all exceptions masked, or all but those of subnormal, underflowing and inexact numbers.
     const MASKED: u32 = 0x1f80;
     const TRAPPED: u32 = 0x1f80 & !(0x080 | 0x200 | 0x400);
     set_control(TRAPPED);
-    let answer = call();
+    let response = call();
     set_control(MASKED);
-    answer
+    response
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -1,17 +1,16 @@
-//! The memory against a bank of 4,096 spring-sliders, each with a memory of its own: a state that holds all reversals, and one that
-//! holds four and reports the error of those it merged.
+//! States against a bank of 4,096 spring-sliders: one that holds all reversals, and one that holds four and reports the error of
+//! those it merged.
 //!
-//! A bank obeys Masing's rule with its own monotonic curve. If that has an error of ε, then the force after a history that left n
+//! A bank obeys Masing's rule with its own monotonic curve. If that has an error of ε, the force after a history with n remaining
 //! reversals has one of (1 + 2n) ε at most: once on the initial loading curve and twice on each branch. The energy of a cycle of
 //! amplitude x, `8 ∫ M - 4 x M`, has an error of 12 x ε at most, and one branch dissipates half of it.
 
-use crate::bank::{Bank, polygon_error};
+use crate::bank::{Bank, CurvePoint, curve, polygon_error};
+use crate::checked::{CheckedHistory, Checks};
 use crate::contacts::Named;
-use crate::family::{CurvePoint, elliptic_curve, flat_curve};
-use crate::library::{Contact, Given, State, accepted, trapped};
-use crate::walk::{BRANCH_ROUNDING, Checks, Walk};
+use crate::library::{BRANCH_ROUNDING, Contact, State};
 use crate::{Case, Run, contacts, ensure, histories};
-use microslip::ffi;
+use reference::Reference;
 
 const SLIDERS: usize = 4096;
 
@@ -22,32 +21,16 @@ const POINTS: usize = 8;
 const BATCH: u64 = 100;
 
 pub fn cases(steps: u64) -> Vec<Case> {
-    let mut cases = Vec::new();
-    for (number, contact) in contacts::all().into_iter().enumerate() {
-        cases.push(own(contact.clone(), steps));
-        // A bank by the library has the same curve.
-        if number % 5 == 0 {
-            cases.push(library_s(contact, steps));
-        }
-    }
-    cases
+    contacts::all().into_iter().map(|contact| exact(contact, steps)).collect()
 }
 
-/// The contact's curve by itself; elliptical contacts from their first stiffness.
-fn curve_of(contact: &Contact) -> Vec<CurvePoint> {
-    match &contact.given {
-        Given::Flat(parameters) => flat_curve(parameters, SLIDERS * POINTS),
-        Given::Ellipse(_) => elliptic_curve(contact.limit(), contact.stiffness(), SLIDERS * POINTS),
-    }
-}
-
-fn own(named: Named, steps: u64) -> Case {
+fn exact(named: Named, steps: u64) -> Case {
     Case::new(format!("bank: {}: 4,096 sliders", named.name), steps, move |run| {
         let contact = &named.contact;
-        let curve = curve_of(contact);
+        let curve = curve(&Reference::new(contact.input), SLIDERS * POINTS);
         let end = curve[curve.len() - 1];
-        // Sums of as many positive pieces, and the library's own error of 1e-13.
-        let (force, slip) = (end.force / contact.limit() - 1.0, end.displacement / contact.slip() - 1.0);
+        // The error of the library.
+        let (force, slip) = (end.force / contact.slip_force() - 1.0, end.displacement / contact.slip() - 1.0);
         ensure!(
             force.abs() < 1e-13 && slip.abs() < 2e-13,
             "the curve ends at {end:?}, {force:e} {slip:e} off\n  {contact:?}"
@@ -58,21 +41,6 @@ fn own(named: Named, steps: u64) -> Case {
     })
 }
 
-fn library_s(named: Named, steps: u64) -> Case {
-    Case::new(format!("bank: {}: mslip_iwan_equivalent", named.name), steps, move |run| {
-        let contact = &named.contact;
-        let (mut stiffness, mut slip_force, mut error) = (vec![0.0; SLIDERS], vec![0.0; SLIDERS], 0.0);
-        // SAFETY: as long as given.
-        accepted(trapped(|| unsafe {
-            let (stiffness, slip_force) = (stiffness.as_mut_ptr(), slip_force.as_mut_ptr());
-            ffi::mslip_iwan_equivalent(contact.as_c(), SLIDERS, stiffness, slip_force, &mut error)
-        }))?;
-        let sliders = stiffness.iter().zip(&slip_force).filter(|(stiffness, _)| **stiffness > 0.0);
-        let bank = Bank::of(sliders.map(|(stiffness, slip_force)| (*stiffness, slip_force / stiffness)).collect());
-        compare(contact, bank, error * contact.limit(), steps, run)
-    })
-}
-
 /// Advances all through a history; `error` is that of the bank's monotonic force.
 fn compare(contact: &Contact, mut bank: Bank, error: f64, steps: u64, run: &mut Run) -> Result<String, String> {
     let slip = contact.slip();
@@ -80,27 +48,28 @@ fn compare(contact: &Contact, mut bank: Bank, error: f64, steps: u64, run: &mut 
     let mut kinds = histories::all(slip);
     kinds.truncate(kinds.len() - 2);
     let each = steps.div_ceil(kinds.len() as u64);
-    let (mut walk, mut short) = (Walk::new(contact, 64), State::new(4));
+    let (mut checked, mut short) = (CheckedHistory::new(contact, 64), State::new(4));
     let (mut worst_force, mut worst_energy) = (0.0_f64, 0.0_f64);
     for step in 0..steps {
         let (name, history) = &mut kinds[(step / each) as usize];
-        // Not so far that a step is lost in the rounding of displacements.
-        let displacement = history(&walk.memory, &mut run.rng).clamp(-100.0 * slip, 100.0 * slip);
-        let (depth, from) = (walk.memory.depth(), walk.memory.now().displacement);
-        walk.step(displacement, Checks::default(), &mut run.rng)
+        // Not so far that a step is below the rounding of displacements.
+        let displacement = history(&checked.memory, &mut run.rng).clamp(-100.0 * slip, 100.0 * slip);
+        let (depth, from) = (checked.memory.depth(), checked.memory.now().displacement);
+        checked
+            .step(displacement, Checks::default(), &mut run.rng)
             .map_err(|failure| format!("step {step}: {failure}\n  {contact:?}"))?;
         let (force, energy) = bank.step(displacement);
-        // A spring that sticks rounds its elongation and its way, which is at most twice as long, in each step; one that slips
-        // starts anew. Both curves end within 2e-13 of each other.
+        // Springs that stick round their elongation and the step, at most twice as long, in each step. The ends of both curves
+        // differ by at most 2e-13.
         let rounding = 2.0 * f64::EPSILON * (step + 1) as f64 + 1e-12;
-        let branches = (1 + 2 * walk.memory.depth()) as f64;
-        let bound = branches * (error + BRANCH_ROUNDING * contact.limit()) + rounding * contact.limit();
-        let off = (force - walk.now.force).abs();
-        worst_force = worst_force.max(off / contact.limit());
+        let branches = (1 + 2 * checked.memory.depth()) as f64;
+        let bound = branches * (error + BRANCH_ROUNDING * contact.slip_force()) + rounding * contact.slip_force();
+        let off = (force - checked.now.force).abs();
+        worst_force = worst_force.max(off / contact.slip_force());
         ensure!(
             off <= bound,
             "step {step}, {name}: the force {:?} of the bank {force:?}, {bound:?} allowed\n  {contact:?}",
-            walk.now.force
+            checked.now.force
         );
         let merged = short.force_after(contact, displacement)?;
         ensure!(
@@ -108,23 +77,23 @@ fn compare(contact: &Contact, mut bank: Bank, error: f64, steps: u64, run: &mut 
             "step {step}, {name}: the force with merged reversals {merged:?}, of the bank {force:?}, {:?} reported\n  {contact:?}",
             short.error()
         );
-        // A step passes the ends of as many branches as it closes, at most of all.
-        let stretches = (depth + 2) as f64;
-        let way = (displacement - from).abs();
-        let bound = stretches * 6.0 * slip * (error + BRANCH_ROUNDING * contact.limit())
-            + rounding * contact.limit() * (slip + way);
-        let off = (energy - walk.now.dissipated).abs();
-        worst_energy = worst_energy.max(off / (contact.limit() * slip));
+        // A step may close every branch.
+        let segments = (depth + 2) as f64;
+        let distance = (displacement - from).abs();
+        let bound = segments * 6.0 * slip * (error + BRANCH_ROUNDING * contact.slip_force())
+            + rounding * contact.slip_force() * (slip + distance);
+        let off = (energy - checked.now.dissipated).abs();
+        worst_energy = worst_energy.max(off / (contact.slip_force() * slip));
         ensure!(
             off <= bound,
             "step {step}, {name}: {:?} dissipated, by the bank {energy:?}, {bound:?} allowed\n  {contact:?}",
-            walk.now.dissipated
+            checked.now.dissipated
         );
         if step % BATCH == BATCH - 1 {
             run.done(BATCH);
         }
     }
     run.done(steps % BATCH);
-    let error = error / contact.limit();
+    let error = error / contact.slip_force();
     Ok(format!("error of the curve {error:.0e} of mu N, force off by {worst_force:.0e}, energy by {worst_energy:.0e}"))
 }

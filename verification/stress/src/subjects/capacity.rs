@@ -2,8 +2,7 @@
 //! by nothing while no reversals were merged.
 
 use crate::contacts::Named;
-use crate::library::{Answer, Contact, State, path};
-use crate::walk::BRANCH_ROUNDING;
+use crate::library::{BRANCH_ROUNDING, Contact, Response, State, path};
 use crate::{Case, contacts, ensure};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -16,11 +15,10 @@ pub fn cases(spirals: u64, deep: usize) -> Vec<Case> {
     cases
 }
 
-/// Nested loops, each the given ratio of the one before, and then displacements at random, which close some of them and open
-/// others.
-fn history(contact: &Contact, turns: usize, ratio: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
-    let spiral = (0..turns as i32).map(|turn| 0.95 * ratio.powi(turn) * f64::from(1 - 2 * (turn % 2)));
-    let scattered = (0..turns).map(|_| rng.random_range(-1.0..1.0));
+/// Nested loops of decreasing size, then random displacements, which close some of them and open others.
+fn history(contact: &Contact, reversals: usize, ratio: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    let spiral = (0..reversals as i32).map(|i| 0.95 * ratio.powi(i) * f64::from(1 - 2 * (i % 2)));
+    let scattered = (0..reversals).map(|_| rng.random_range(-1.0..1.0));
     spiral.chain(scattered).map(|share| share * contact.slip()).collect()
 }
 
@@ -30,10 +28,9 @@ fn full(named: Named, histories: u64) -> Case {
         let mut worst = 0.0_f64;
         for _ in 0..histories {
             let capacity = run.rng.random_range(2..24);
-            let turns = capacity + run.rng.random_range(2..10);
-            // Ranges of nearly the same size, and some near the last digits.
+            let reversals = capacity + run.rng.random_range(2..10);
             let ratio = [0.999, 0.9, 0.5, 0.02][run.rng.random_range(0..4)];
-            let history = history(contact, turns, ratio, &mut run.rng);
+            let history = history(contact, reversals, ratio, &mut run.rng);
             worst = bounded(contact, capacity, &history)
                 .map_err(|failure| format!("{failure}\n  capacity {capacity}, path {history:?}\n  {contact:?}"))?
                 .max(worst);
@@ -55,9 +52,9 @@ fn bounded(contact: &Contact, capacity: usize, history: &[f64]) -> Result<f64, S
         let difference = (found.force - exact.force).abs();
         ensure!(error > 0.0 || difference == 0.0, "nothing was merged: {found:?}, {exact:?}");
         ensure!(before.max(error) > 0.0 || found == exact, "nothing was merged: {found:?}, {exact:?}");
-        let rounding = BRANCH_ROUNDING * contact.limit();
+        let rounding = BRANCH_ROUNDING * contact.slip_force();
         ensure!(difference <= error + rounding, "{difference:?} off, {error:?} reported, at {displacement:?}");
-        worst = worst.max(error / contact.limit());
+        worst = worst.max(error / contact.slip_force());
         forces.push(found.force);
     }
     ensure!(long.error() == 0.0, "an error in a state that holds all reversals");
@@ -69,36 +66,35 @@ fn bounded(contact: &Contact, capacity: usize, history: &[f64]) -> Result<f64, S
         ensure!(!kept || state.bits() == short.bits(), "in one call: {:?}, {:?}", state.used(), short.used());
     }
     // Gross slip erases the memory.
-    let answers = [short.step(contact, 3.0 * contact.slip())?.force, long.step(contact, 3.0 * contact.slip())?.force];
-    ensure!(answers[0] == answers[1] && short.bits() == long.bits() && short.error() == 0.0, "after gross slip");
+    let responses = [short.step(contact, 3.0 * contact.slip())?.force, long.step(contact, 3.0 * contact.slip())?.force];
+    ensure!(responses[0] == responses[1] && short.bits() == long.bits() && short.error() == 0.0, "after gross slip");
     Ok(worst)
 }
 
-/// Hundreds of thousands of nested reversals, and out again: the force is exact.
-fn deeply_nested(named: Named, turns: usize) -> Case {
-    Case::new(format!("capacity: {}: {turns} reversals", named.name), turns as u64, move |run| {
+/// Hundreds of thousands of nested reversals, closed one by one: at each the force is what it was, to the bit.
+fn deeply_nested(named: Named, reversals: usize) -> Case {
+    Case::new(format!("capacity: {}: {reversals} reversals", named.name), reversals as u64, move |run| {
         let contact = &named.contact;
-        // Ranges decrease by the same length each, so that all of them are far above rounding.
-        let size = |turn: usize| 0.9 * contact.slip() * (turns - turn) as f64 / turns as f64;
-        let inwards: Vec<f64> = (0..turns).map(|turn| if turn % 2 == 0 { size(turn) } else { -size(turn) }).collect();
-        let mut state = State::new(turns);
+        // Ranges decrease linearly, so that all are far above rounding.
+        let size = |i: usize| 0.9 * contact.slip() * (reversals - i) as f64 / reversals as f64;
+        let inwards: Vec<f64> = (0..reversals).map(|i| if i % 2 == 0 { size(i) } else { -size(i) }).collect();
+        let mut state = State::new(reversals);
         let [forces, ..] = path(contact, &mut state, &inwards, [true, false, false], true)?;
         let forces = forces.unwrap_or_default();
-        ensure!(state.depth() == turns - 1, "{} reversals", state.depth());
-        // Back out, over every reversal in turn: there the force is what it was, to the bit.
+        ensure!(state.depth() == reversals - 1, "{} reversals", state.depth());
         let outwards: Vec<f64> = inwards.iter().rev().skip(1).copied().collect();
         let [back, ..] = path(contact, &mut state, &outwards, [true, false, false], true)?;
         for (place, (force, before)) in back.unwrap_or_default().iter().zip(forces.iter().rev().skip(1)).enumerate() {
-            ensure!(force == before, "reversal {}: {before:?}, then {force:?}\n  {contact:?}", turns - 1 - place);
+            ensure!(force == before, "reversal {}: {before:?}, then {force:?}\n  {contact:?}", reversals - 1 - place);
         }
-        ensure!(state.depth() == 0, "{} reversals are left", state.depth());
-        let answer: Answer = state.step(contact, 0.95 * contact.slip())?;
+        ensure!(state.depth() == 0, "{} reversals remain", state.depth());
+        let response: Response = state.step(contact, 0.95 * contact.slip())?;
         let unloaded = State::new(0).step(contact, 0.95 * contact.slip())?;
         ensure!(
-            answer == Answer { dissipated: answer.dissipated, ..unloaded },
-            "off the initial loading curve: {answer:?}"
+            response == Response { dissipated: response.dissipated, ..unloaded },
+            "off the initial loading curve: {response:?}"
         );
-        run.done(turns as u64);
+        run.done(reversals as u64);
         Ok(String::new())
     })
 }

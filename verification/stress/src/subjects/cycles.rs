@@ -1,20 +1,20 @@
-//! A hundred million cycles: at the end of each the force is that of the first, to the bit, and so is the state.
+//! A hundred million cycles: the force at the end of each, and the state, are those of the first, to the bit.
 
 use crate::contacts::Named;
 use crate::library::State;
 use crate::{Case, Outcome, Run, contacts, ensure};
 use rand::Rng;
 
-/// Cycles between two looks at the whole state, and reports of progress.
+/// Cycles between two comparisons of the state, and reports of progress.
 const BATCH: u64 = 100_000;
 
-/// What lies between two ends of a cycle, as displacements over that of gross slip.
+/// Minor loops between the ends of a cycle.
 #[derive(Debug, Clone, Copy)]
 enum Inner {
     Nothing,
-    /// The same loop in each half, and one within it.
+    /// The same loop in each half, and one in it.
     Loops,
-    /// Two turns at random in each half.
+    /// Two random reversals in each half.
     Random,
 }
 
@@ -42,7 +42,7 @@ fn cycling(named: Named, amplitude: f64, inner: Inner, cycles: u64) -> Case {
         let contact = &named.contact;
         let end = amplitude * contact.slip();
         let mut state = State::new(8);
-        // The initial loading curve, and one cycle from which the steady one starts.
+        // Initial loading, and one cycle to the steady state.
         for displacement in [end, -end] {
             state.force_after(contact, displacement)?;
         }
@@ -51,7 +51,7 @@ fn cycling(named: Named, amplitude: f64, inner: Inner, cycles: u64) -> Case {
         let bottom = state.force_at(contact, -end)?;
         for number in 1..=cycles {
             for (side, force) in [(-1.0, bottom), (1.0, top)] {
-                for displacement in turns(inner, side, run).map(|share| share * end) {
+                for displacement in reversals(inner, side, run).map(|share| share * end) {
                     state.force_after(contact, displacement)?;
                 }
                 let there = state.force_after(contact, side * end)?;
@@ -62,7 +62,7 @@ fn cycling(named: Named, amplitude: f64, inner: Inner, cycles: u64) -> Case {
                 );
             }
             if number % BATCH == 0 || number == cycles {
-                ensure!(state.bits() == steady, "cycle {number} leaves {:?}\n  {contact:?}", state.used());
+                ensure!(state.bits() == steady, "cycle {number} gives the state {:?}\n  {contact:?}", state.used());
                 run.done(if number % BATCH == 0 { BATCH } else { cycles % BATCH });
             }
         }
@@ -70,19 +70,18 @@ fn cycling(named: Named, amplitude: f64, inner: Inner, cycles: u64) -> Case {
     })
 }
 
-/// Shares of the amplitude at which a half cycle towards `side` turns on its way.
-fn turns(inner: Inner, side: f64, run: &mut Run) -> impl Iterator<Item = f64> + use<> {
-    let (turns, count) = match inner {
+/// Reversals of a half cycle towards `side`, over its amplitude.
+fn reversals(inner: Inner, side: f64, run: &mut Run) -> impl Iterator<Item = f64> + use<> {
+    let (reversals, count) = match inner {
         Inner::Nothing => ([0.0; 4], 0),
         Inner::Loops => ([0.5 * side, -0.4 * side, 0.3 * side, -0.2 * side], 4),
         Inner::Random => {
-            // There, and back again not as far as it came from.
             let [one, two]: [f64; 2] = [run.rng.random(), run.rng.random()];
             let there = 2.0 * one - 1.0;
             ([side * there, side * (there - two * (there + 1.0)), 0.0, 0.0], 2)
         }
     };
-    turns.into_iter().take(count)
+    reversals.into_iter().take(count)
 }
 
 /// Cycles with gross slip in one direction, up to a billion times the displacement of gross slip: the loop is the same to the bit
@@ -99,7 +98,7 @@ fn ratchet(named: Named, cycles: u64) -> Case {
         let mut end = 10.0 * on;
         let mut first = None;
         for number in 1..=cycles {
-            // Further on by steps that grow, yet stay whole.
+            // By growing steps of whole units.
             end += on + (number % 997 * number) as f64;
             let mut forces = [0.0; 5];
             let places = [end, end - back, end - inner, end - back + 1.0, end - 1.0];

@@ -1,10 +1,9 @@
-//! Energy: what closed loops dissipate is what the interface says of a cycle, and the area that they enclose.
+//! Energy: closed loops dissipate the cycle energy of the interface, and the area that they enclose.
 
 use crate::contacts::Named;
-use crate::library::{Contact, State};
+use crate::histories::divided;
+use crate::library::{BRANCH_ROUNDING, Contact, State};
 use crate::memory::{Memory, Point};
-use crate::subjects::divided;
-use crate::walk::BRANCH_ROUNDING;
 use crate::{Case, contacts, ensure};
 use quadrature::double_exponential::integrate;
 use rand::Rng;
@@ -13,13 +12,12 @@ pub fn cases(loops: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     for contact in contacts::all() {
         cases.push(symmetric(contact.clone(), loops));
-        cases.push(hanging(contact, loops));
+        cases.push(minor(contact, loops));
     }
     cases
 }
 
-/// Work done along a step, by quadrature of the force between the places where branches end, which the memory knows; and the
-/// path of it, over which forces round.
+/// Work of a step, by quadrature of the force between the ends of branches.
 fn work(contact: &Contact, state: &State, memory: &Memory, displacement: f64) -> Result<f64, String> {
     let from = memory.now().displacement;
     let direction = (displacement - from).signum();
@@ -38,11 +36,11 @@ fn work(contact: &Contact, state: &State, memory: &Memory, displacement: f64) ->
     let mut sum = 0.0;
     let mut start = from;
     for end in places {
-        // The rule gathers nodes at both ends, where the stiffness may have a logarithm.
+        // The rule has dense nodes at both ends, where the stiffness may be singular.
         let length = (end - start).abs();
-        let force = |way: f64| state.force_at(contact, start + direction * way).unwrap_or(f64::NAN);
+        let force = |distance: f64| state.force_at(contact, start + direction * distance).unwrap_or(f64::NAN);
         if length > 0.0 {
-            sum += direction * integrate(force, 0.0, length, 1e-16 * contact.limit() * length).integral;
+            sum += direction * integrate(force, 0.0, length, 1e-16 * contact.slip_force() * length).integral;
         }
         start = end;
     }
@@ -73,11 +71,11 @@ fn symmetric(named: Named, loops: u64) -> Case {
                     sum += go(contact, &mut state, &mut memory, displacement)?;
                 }
             }
-            // The energies of steps are differences of those of cycles and telescope; energies err by 1e-13 at most.
+            // The energies of steps are differences of those of cycles and telescope; energies have errors of at most 1e-13.
             let error = (sum - expected).abs() / (expected + 1e13 * rounding);
             worst = worst.max(error);
             ensure!(error <= 1e-13, "amplitude {end:?}: {sum:?} dissipated, {expected:?} in a cycle\n  {contact:?}");
-            let error = (area - sum).abs() / (4.0 * contact.limit() * end);
+            let error = (area - sum).abs() / (4.0 * contact.slip_force() * end);
             worst_area = worst_area.max(error);
             ensure!(error <= AREA, "amplitude {end:?}: the area is {area:?}, dissipated {sum:?}\n  {contact:?}");
             run.done(1);
@@ -86,13 +84,12 @@ fn symmetric(named: Named, loops: u64) -> Case {
     })
 }
 
-/// Error of an area over mu N times the path around it: the rule's weights have thirteen digits; rounding of forces is less.
+/// Error of an area over mu N times the length of its path: the weights of the rule have thirteen digits.
 const AREA: f64 = 3e-13;
 
-/// Loops that hang on a branch anywhere, with loops in them, and come back to where they began: the memory is as before, and
-/// the work done is dissipated.
-fn hanging(named: Named, loops: u64) -> Case {
-    Case::new(format!("loops: {}: hanging anywhere", named.name), loops, move |run| {
+/// Minor loops on a branch, with loops in them, back to their start: the state is as before, and the work is dissipated.
+fn minor(named: Named, loops: u64) -> Case {
+    Case::new(format!("loops: {}: minor loops", named.name), loops, move |run| {
         let contact = &named.contact;
         let mut worst = 0.0_f64;
         for _ in 0..loops {
@@ -102,8 +99,8 @@ fn hanging(named: Named, loops: u64) -> Case {
                 go(contact, &mut state, &mut memory, displacement)?;
             }
             let here = memory.now();
-            // Back towards where this branch came from, but not as far.
-            let way = match &memory.points[..] {
+            // Towards the start of this branch, but not as far.
+            let distance = match &memory.points[..] {
                 [.., before, _] => before.displacement - here.displacement,
                 _ => -here.displacement.clamp(-contact.slip(), contact.slip()),
             };
@@ -111,19 +108,19 @@ fn hanging(named: Named, loops: u64) -> Case {
             let (mut sum, mut area, mut path) = (0.0, 0.0, 0.0);
             for number in (0..run.rng.random_range(2..12)).rev() {
                 let share = if number == 0 { 0.0 } else { run.rng.random_range(0.0..0.95) };
-                let displacement = if number == 0 { here.displacement } else { here.displacement + share * way };
+                let displacement = if number == 0 { here.displacement } else { here.displacement + share * distance };
                 area += work(contact, &state, &memory, displacement)?;
                 path += (displacement - memory.now().displacement).abs();
                 sum += go(contact, &mut state, &mut memory, displacement)?;
             }
             ensure!(
                 state.bits() == before.bits(),
-                "a loop from {:?} leaves {:?}\n  {contact:?}",
+                "a loop from {:?} gives the state {:?}\n  {contact:?}",
                 before.used(),
                 state.used()
             );
             let rounding = 20.0 * BRANCH_ROUNDING * contact.slip_energy();
-            let error = (area - sum).abs() / (contact.limit() * path + rounding);
+            let error = (area - sum).abs() / (contact.slip_force() * path + rounding);
             worst = worst.max(error);
             ensure!(
                 error <= AREA,
@@ -136,9 +133,9 @@ fn hanging(named: Named, loops: u64) -> Case {
     })
 }
 
-/// One step; what it dissipates.
+/// One step, and the energy it dissipates.
 fn go(contact: &Contact, state: &mut State, memory: &mut Memory, displacement: f64) -> Result<f64, String> {
-    let answer = state.step(contact, displacement)?;
-    memory.visit(Point { displacement, force: answer.force }, state.slips());
-    Ok(answer.dissipated)
+    let response = state.step(contact, displacement)?;
+    memory.visit(Point { displacement, force: response.force }, state.slips());
+    Ok(response.dissipated)
 }

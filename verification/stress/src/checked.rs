@@ -1,28 +1,24 @@
-//! A history, with checks on every step that every contact and every history must pass.
+//! A history with checks on every step.
 
-use crate::library::{Answer, Contact, State};
+use crate::histories::divided;
+use crate::library::{BRANCH_ROUNDING, Contact, Response, State};
 use crate::memory::{Memory, Point};
-use crate::subjects::divided;
 use crate::{Outcome, ensure};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::VecDeque;
 
-/// Rounding of a force over mu N for each branch: the curve has an error of 1.5e-15 (see the tests of the interpolant) and is doubled,
-/// and sums round by a unit.
-pub const BRANCH_ROUNDING: f64 = 4e-15;
-
 /// Steps that a failure shows.
 const SHOWN: usize = 12;
 
-pub struct Walk<'a> {
+pub struct CheckedHistory<'a> {
     contact: &'a Contact,
     pub memory: Memory,
     pub state: State,
-    /// The negative of the history.
+    /// The state after the negative of the history.
     mirrored: State,
     capacity: usize,
-    pub now: Answer,
+    pub now: Response,
     recent: VecDeque<f64>,
     pub deepest: usize,
 }
@@ -34,38 +30,38 @@ pub struct Checks {
     pub repeat: bool,
     /// The state is copied through the bytes of a file.
     pub restart: bool,
-    /// The force by Masing's rule, and the same memory from an unloaded state by the shortest path.
-    pub relive: bool,
+    /// The force by Masing's rule, and the same state by the shortest path.
+    pub by_definition: bool,
     /// The same step in parts.
     pub divide: bool,
 }
 
 impl Checks {
-    /// Each of them once in a while.
+    /// Each of them from time to time.
     pub fn now_and_then(rng: &mut ChaCha8Rng) -> Checks {
-        let dice = rng.random::<u32>();
+        let bits = rng.random::<u32>();
         Checks {
-            repeat: dice & 7 == 0,
-            restart: (dice >> 3) & 63 == 0,
-            relive: (dice >> 9) & 63 == 0,
-            divide: (dice >> 15) & 63 == 0,
+            repeat: bits & 7 == 0,
+            restart: (bits >> 3) & 63 == 0,
+            by_definition: (bits >> 9) & 63 == 0,
+            divide: (bits >> 15) & 63 == 0,
         }
     }
 
-    pub const ALL: Checks = Checks { repeat: true, restart: true, relive: true, divide: true };
+    pub const ALL: Checks = Checks { repeat: true, restart: true, by_definition: true, divide: true };
 }
 
-impl<'a> Walk<'a> {
-    /// A history that may nest the given number of reversals at first.
-    pub fn new(contact: &'a Contact, capacity: usize) -> Walk<'a> {
+impl<'a> CheckedHistory<'a> {
+    /// From the unloaded state, at first with room for the given number of reversals.
+    pub fn new(contact: &'a Contact, capacity: usize) -> CheckedHistory<'a> {
         let state = State::new(capacity);
-        Walk {
+        CheckedHistory {
             contact,
             memory: Memory::new(contact.slip()),
             mirrored: state.clone(),
             state,
             capacity,
-            now: Answer { force: 0.0, stiffness: contact.stiffness(), dissipated: 0.0 },
+            now: Response { force: 0.0, stiffness: contact.stiffness(), dissipated: 0.0 },
             recent: VecDeque::new(),
             deepest: 0,
         }
@@ -80,7 +76,7 @@ impl<'a> Walk<'a> {
         let path = self.memory.shortest_path();
         self.checked_step(displacement, checks, rng).map_err(|failure| {
             let recent = &self.recent;
-            format!("{failure}\n  remembered before the step: {path:?}\n  last displacements: {recent:?}")
+            format!("{failure}\n  path to the state before: {path:?}\n  last displacements: {recent:?}")
         })
     }
 
@@ -88,54 +84,53 @@ impl<'a> Walk<'a> {
         let contact = self.contact;
         let (before, was, depth) = (checks.divide.then(|| self.state.clone()), self.now, self.memory.depth());
         let from = self.memory.now().displacement;
-        let answer = self.state.step(contact, displacement)?;
-        let Answer { force, stiffness, dissipated } = answer;
-        let limit = contact.limit();
+        let response = self.state.step(contact, displacement)?;
+        let Response { force, stiffness, dissipated } = response;
+        let slip_force = contact.slip_force();
 
-        // Exactly, whatever rounding does: Coulomb's bound, and no energy gained.
-        ensure!(force.abs() <= limit, "Coulomb's bound {limit:?} is exceeded: {force:?}");
+        // Without rounding errors: Coulomb's bound, and no energy gained.
+        ensure!(force.abs() <= slip_force, "Coulomb's bound {slip_force:?} is exceeded: {force:?}");
         ensure!(dissipated >= 0.0 && dissipated.is_finite(), "dissipated {dissipated:?}");
-        // The stiffness of a branch errs by as much as its curve.
+        // The stiffness of a branch has the error of its curve.
         let stiffest = contact.stiffness() * (1.0 + 2e-15);
         ensure!(stiffness >= 0.0 && stiffness <= stiffest, "stiffness {stiffness:?}");
 
-        // The memory.
         self.memory.visit(Point { displacement, force }, self.state.slips());
         self.deepest = self.deepest.max(self.memory.depth());
         ensure!(
             self.state.depth() == self.memory.depth(),
-            "{} reversals are remembered, {} needed",
+            "the state has {} reversals, by definition {}",
             self.state.depth(),
             self.memory.depth()
         );
-        ensure!(self.state.displacement() == displacement, "the displacement is not kept");
+        ensure!(self.state.displacement() == displacement, "the state has another displacement");
         if self.state.slips() {
-            ensure!(force == self.memory.slip_direction * limit, "gross slip with a force of {force:?}");
+            ensure!(force == self.memory.slip_direction * slip_force, "gross slip with a force of {force:?}");
         }
         if let Some(old) = self.memory.returned {
-            ensure!(force == old.force, "back at {displacement:?} the force is {force:?}, it was {:?}", old.force);
+            ensure!(force == old.force, "back at {displacement:?} the force is {force:?}, before {:?}", old.force);
         }
 
-        // The force follows the displacement, no steeper than at first. Rounding: of all branches before and after, and
-        // of the displacements themselves at both ends.
-        let way = (displacement - from).abs();
+        // The force increases with the displacement, with at most the initial stiffness. Rounding: of all branches before and
+        // after, and of the displacements at both ends.
+        let distance = (displacement - from).abs();
         let branches = (depth + self.memory.depth() + 2) as f64;
         let place = 4.0 * f64::EPSILON * (displacement.abs() + from.abs());
-        let rounding = branches * BRANCH_ROUNDING * limit + (stiffest * place).min(2.0 * limit);
+        let rounding = branches * BRANCH_ROUNDING * slip_force + (stiffest * place).min(2.0 * slip_force);
         let rise = (force - was.force) * if displacement < from { -1.0 } else { 1.0 };
-        ensure!(rise >= -rounding, "the force goes against the displacement: {rise:?}");
-        ensure!(rise <= stiffest * way + rounding, "the force jumps by {rise:?} on a way of {way:?}");
-        // At most the energy of gross slip all the way.
-        let energy_rounding = branches * BRANCH_ROUNDING * contact.slip_energy() + limit * place;
-        ensure!(dissipated <= limit * way + energy_rounding, "dissipated {dissipated:?} on a way of {way:?}");
+        ensure!(rise >= -rounding, "the force decreases with the displacement: {rise:?}");
+        ensure!(rise <= stiffest * distance + rounding, "the force changes by {rise:?} over {distance:?}");
+        // At most the energy of gross slip over the whole step.
+        let energy_rounding = branches * BRANCH_ROUNDING * contact.slip_energy() + slip_force * place;
+        ensure!(dissipated <= slip_force * distance + energy_rounding, "dissipated {dissipated:?} over {distance:?}");
 
         // Odd symmetry, to the bit.
         let mirrored = self.mirrored.step(contact, -displacement)?;
         ensure!(
-            mirrored == Answer { force: -force, ..answer } && self.state.is_mirror_of(&self.mirrored),
-            "the mirrored history answers {mirrored:?}, not {answer:?}"
+            mirrored == Response { force: -force, ..response } && self.state.is_mirror_of(&self.mirrored),
+            "the mirrored history gives {mirrored:?}, not {response:?}"
         );
-        self.now = answer;
+        self.now = response;
 
         if let Some(before) = before {
             self.divided(before, displacement, rng)?;
@@ -143,11 +138,12 @@ impl<'a> Walk<'a> {
         if checks.repeat {
             self.repeated()?;
         }
-        if checks.relive {
+        if checks.by_definition {
             self.by_masings_rule()?;
-            self.relived()?;
+            self.by_shortest_path()?;
         }
         if checks.restart {
+            // Through the bytes of a file, into a state of another size.
             let bytes: Vec<u8> = self.state.used().iter().flat_map(|value| value.to_le_bytes()).collect();
             self.capacity = self.memory.depth() + rng.random_range(1..=2 * self.capacity);
             let mut copy = State::new(self.capacity);
@@ -156,7 +152,7 @@ impl<'a> Walk<'a> {
             }
             self.state = copy;
         }
-        // No reversal may be merged here.
+        // Keep room, so that no reversal is merged.
         if self.memory.depth() + 1 >= self.capacity {
             self.capacity *= 2;
             self.state = self.state.moved(self.capacity);
@@ -171,34 +167,32 @@ impl<'a> Walk<'a> {
     fn repeated(&mut self) -> Outcome {
         let before = self.state.bits();
         let again = self.state.step(self.contact, self.state.displacement())?;
-        let expected = Answer { dissipated: 0.0, ..self.now };
-        ensure!(again == expected, "the same displacement again answers {again:?}, not {expected:?}");
+        let expected = Response { dissipated: 0.0, ..self.now };
+        ensure!(again == expected, "the same displacement again gives {again:?}, not {expected:?}");
         ensure!(self.state.bits() == before, "the same displacement again changes the state");
         Ok(())
     }
 
-    /// Masing's rule as it is written: the monotonic curve to the first point, and twice the curve of half the way from each
-    /// point to the next.
+    /// Masing's rule: the monotonic curve to the first point, and twice the curve of half the distance from each point to the next.
     fn by_masings_rule(&self) -> Outcome {
         let (contact, points) = (self.contact, &self.memory.points);
         let (mut force, mut stiffness) = match self.memory.slip_direction {
             0.0 => contact.monotonic(points[0].displacement)?,
-            slip_direction => (slip_direction * contact.limit(), 0.0),
+            slip_direction => (slip_direction * contact.slip_force(), 0.0),
         };
         for ends in points.windows(2) {
             let half = 0.5 * (ends[1].displacement - ends[0].displacement);
             let (jump, tangent) = contact.monotonic(half.clamp(-contact.slip(), contact.slip()))?;
             (force, stiffness) = (force + 2.0 * jump, tangent);
         }
-        // The same point of the same curve.
         ensure!(
             stiffness == self.now.stiffness,
             "the stiffness is {:?}, by Masing's rule {stiffness:?}",
             self.now.stiffness
         );
-        // Both round. Ways that exceed gross slip by the rounding of displacements end there.
+        // Both round; displacements too.
         let place = f64::EPSILON * points.iter().map(|point| point.displacement.abs()).fold(0.0, f64::max);
-        let rounding = 2.0 * points.len() as f64 * BRANCH_ROUNDING * contact.limit() + contact.stiffness() * place;
+        let rounding = 2.0 * points.len() as f64 * BRANCH_ROUNDING * contact.slip_force() + contact.stiffness() * place;
         ensure!(
             (force - self.now.force).abs() <= rounding,
             "the force is {:?}, by Masing's rule {force:?}",
@@ -207,48 +201,47 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// The shortest path to the same memory leaves the same state, to the bit: of loops that closed and of steps that went on
-    /// nothing is left.
-    fn relived(&mut self) -> Outcome {
+    /// The shortest path to the same memory gives the same state, to the bit: closed loops leave no trace.
+    fn by_shortest_path(&mut self) -> Outcome {
         let mut state = State::new(self.memory.depth());
-        let mut answer = self.now;
+        let mut response = self.now;
         for displacement in self.memory.shortest_path() {
-            answer = state.step(self.contact, displacement)?;
+            response = state.step(self.contact, displacement)?;
         }
-        answer.dissipated = self.now.dissipated;
-        ensure!(answer == self.now, "the shortest path answers {answer:?}, not {:?}", self.now);
+        response.dissipated = self.now.dissipated;
+        ensure!(response == self.now, "the shortest path gives {response:?}, not {:?}", self.now);
         ensure!(
             state.bits() == self.state.bits(),
-            "the shortest path leaves {:?}, not {:?}",
+            "the shortest path gives the state {:?}, not {:?}",
             state.used(),
             self.state.used()
         );
         Ok(())
     }
 
-    /// A step in parts leads to the same state, to the bit, and dissipates the same.
+    /// A step in parts gives the same state, to the bit, and the same dissipated energy.
     fn divided(&self, before: State, displacement: f64, rng: &mut ChaCha8Rng) -> Outcome {
         let (contact, from) = (self.contact, before.displacement());
         let parts = rng.random_range(2..40);
         let places = divided(from, displacement, parts, rng);
         let mut state = before.clone();
         let mut sum = 0.0;
-        let mut answer = self.now;
+        let mut response = self.now;
         for place in places {
-            answer = state.step(contact, place)?;
-            sum += answer.dissipated;
+            response = state.step(contact, place)?;
+            sum += response.dissipated;
         }
         let whole = self.now.dissipated;
         ensure!(
-            answer == Answer { dissipated: answer.dissipated, ..self.now } && state.bits() == self.state.bits(),
-            "in {parts} parts from {from:?} the step answers {answer:?} and leaves {:?}, not {:?}",
+            response == Response { dissipated: response.dissipated, ..self.now } && state.bits() == self.state.bits(),
+            "in {parts} parts from {from:?} the step gives {response:?} and the state {:?}, not {:?}",
             state.used(),
             self.state.used()
         );
-        // Each part is a difference of two energies of cycles that carry a rounding of their own.
-        let limit = contact.limit();
-        let scale = contact.slip_energy() + limit * (displacement - from).abs();
-        let place = limit * f64::EPSILON * (displacement.abs() + from.abs());
+        // Each part is a difference of two cycle energies, each with its own rounding.
+        let slip_force = contact.slip_force();
+        let scale = contact.slip_energy() + slip_force * (displacement - from).abs();
+        let place = slip_force * f64::EPSILON * (displacement.abs() + from.abs());
         let bound = (parts + before.depth() + 2) as f64 * (BRANCH_ROUNDING * scale + place);
         ensure!((sum - whole).abs() <= bound, "in {parts} parts from {from:?} {sum:?} is dissipated, not {whole:?}");
         Ok(())

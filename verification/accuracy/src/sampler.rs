@@ -1,15 +1,16 @@
-//! Contacts and arguments, clustered where it hurts.
+//! Random contacts and arguments, dense near the limits of the law and at every switch of formula.
 
 use crate::call;
-use crate::reference::{Given, Reference};
 use microslip::ffi::mslip_contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Material, Parameters};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
+use reference::law::load_of_size;
+use reference::{Input, Reference};
 use std::f64::consts::PI;
 
-/// A contact, as the library prepared it and in multi-precision.
+/// A contact of the library, and the same in multi-precision.
 pub struct Case {
     pub contact: mslip_contact,
     pub reference: Reference,
@@ -27,11 +28,11 @@ pub const KINDS: [&str; 8] = [
     "ellipse",
 ];
 
-pub struct Dice(SmallRng);
+pub struct Sampler(SmallRng);
 
-impl Dice {
-    pub fn new(seed: u64) -> Dice {
-        Dice(SmallRng::seed_from_u64(seed))
+impl Sampler {
+    pub fn new(seed: u64) -> Sampler {
+        Sampler(SmallRng::seed_from_u64(seed))
     }
 
     pub fn below(&mut self, n: usize) -> usize {
@@ -46,7 +47,7 @@ impl Dice {
         low + (high - low) * self.unit()
     }
 
-    /// 10 to a power between.
+    /// 10 to a random power.
     pub fn power(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(self.between(low, high))
     }
@@ -55,7 +56,7 @@ impl Dice {
         self.unit() < share
     }
 
-    /// A number some units in the last place from another.
+    /// A double within the given number of doubles from another.
     pub fn near(&mut self, value: f64, units: i64) -> f64 {
         let step = self.0.random_range(-units..=units);
         f64::from_bits((value.to_bits() as i64 + step) as u64)
@@ -78,8 +79,8 @@ impl Dice {
         [first, second]
     }
 
-    /// Parameters of a kind of contact; not all are allowed.
-    pub fn parameters(&mut self, kind: &str) -> Given {
+    /// Parameters of a kind of contact; some are rejected by the library.
+    pub fn parameters(&mut self, kind: &str) -> Input {
         let extreme = kind == "extreme scales";
         let (lengths, moduli) = if extreme { (self.power(-70.0, 70.0), self.power(-60.0, 60.0)) } else { (1.0, 1.0) };
         let size = lengths * self.power(-6.0, -2.0);
@@ -93,7 +94,7 @@ impl Dice {
                 2 => self.power(-8.0, 8.0),
                 _ => self.power(-1.0, 1.0),
             };
-            return Given::Ellipse(EllipticParameters {
+            return Input::Ellipse(EllipticParameters {
                 semi_axis_x: size,
                 semi_axis_y: size * ratio,
                 normal_force: self.power(-3.0, 5.0),
@@ -101,7 +102,7 @@ impl Dice {
                 material,
             });
         }
-        // a and w over b; the share 1 - a/b may be below rounding.
+        // a and w over b; 1 - a/b may be below rounding.
         let (a, w) = match (kind, self.below(5)) {
             ("cylinder" | "2L -> b, cylinder", _) => (0.0, 1.0),
             ("a/b < 1e-3", 0) => (self.power(-300.0, -15.0), 1.0),
@@ -121,8 +122,6 @@ impl Dice {
                 (a, ((1.0 - a) * (1.0 + a)).sqrt())
             }
         };
-        let psi = w.atan2(a);
-        let g = if w < 1e-3 { 4.0 / 3.0 * w * w * w / a.max(1e-300) } else { 2.0 * psi - 2.0 * a * w };
         let slenderness = match kind {
             "2L -> b, cylinder" | "2L -> b, flat" => {
                 if self.chance(0.7) {
@@ -137,11 +136,11 @@ impl Dice {
         let composite = 1.0 / (compliance(&material[0]) + compliance(&material[1]));
         let edge_radius = lengths * self.power(-4.0, 0.0);
         let length = 0.5 * size * slenderness;
-        Given::Flat(Parameters {
+        Input::Flat(Parameters {
             flat_half_width: a * size,
             edge_radius,
             length,
-            normal_force: size * size * (length / edge_radius) * composite * (0.25 * g),
+            normal_force: size * size * (length / edge_radius) * composite * (0.25 * load_of_size(a, w)),
             friction_coefficient,
             material,
             displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
@@ -149,13 +148,13 @@ impl Dice {
         })
     }
 
-    /// A contact of a kind, with the number of those that were refused on the way.
-    pub fn case(&mut self, kind: &'static str, refused: &mut u64) -> Case {
+    /// A contact of a kind; rejected ones are counted.
+    pub fn case(&mut self, kind: &'static str, rejected: &mut u64) -> Case {
         loop {
-            let given = self.parameters(kind);
-            match call::prepare(&given) {
-                Ok(contact) => return Case { contact, reference: Reference::new(given), kind },
-                Err(_) => *refused += 1,
+            let input = self.parameters(kind);
+            match call::prepare(&input) {
+                Ok(contact) => return Case { contact, reference: Reference::new(input), kind },
+                Err(_) => *rejected += 1,
             }
         }
     }
@@ -173,15 +172,15 @@ impl Dice {
     }
 }
 
-pub fn text(given: &Given) -> String {
+pub fn text(input: &Input) -> String {
     let bodies = |m: &[Material; 2]| {
         format!(
             "E {:e} {:e} nu {:e} {:e}",
             m[0].young_modulus, m[1].young_modulus, m[0].poisson_ratio, m[1].poisson_ratio
         )
     };
-    match given {
-        Given::Flat(p) => format!(
+    match input {
+        Input::Flat(p) => format!(
             "a {:e} R {:e} L {:e} N {:e} mu {:e} {} reference {}",
             p.flat_half_width,
             p.edge_radius,
@@ -191,7 +190,7 @@ pub fn text(given: &Given) -> String {
             bodies(&p.material),
             p.displacement_reference
         ),
-        Given::Ellipse(p) => format!(
+        Input::Ellipse(p) => format!(
             "b {:e} l {:e} N {:e} mu {:e} {}",
             p.semi_axis_x,
             p.semi_axis_y,

@@ -1,66 +1,68 @@
-//! The law in multi-precision, from the closed forms of the paper's equations as they are printed in the documentation: no
-//! series, no expansion and no interpolation. What cancels is met with more digits.
+//! One contact: size, monotonic curve, energy and tractions.
 //!
 //! Lengths are in units of b, loads of P, forces of mu N, displacements of 2 mu P/(πE*) (elliptical: mu N C0).
+//! A stick zone of half-width c with w² = c² - a², ψ = atan(w/a) carries g(w)/g(w_b) of the load, g = 2 (a² + w²) ψ - 2 a w.
 
-use crate::real::Real;
+use crate::Real;
 use microslip::parameters::CENTRE_POINT;
 use microslip::{EllipticParameters, Material, Parameters};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::rc::Rc;
 
-/// Bits of every result beyond what cancels: 33 digits.
-const KEPT: i32 = 112;
+/// Bits of every result after cancellation: 33 digits.
+const RESULT_BITS: i32 = 112;
 
+/// Parameters of a contact.
 #[derive(Debug, Clone, Copy)]
-pub enum Given {
+pub enum Input {
     Flat(Parameters),
     Ellipse(EllipticParameters),
 }
 
-/// A contact at every precision that was asked for.
+/// A contact at every precision used so far.
 #[derive(Clone)]
 pub struct Reference {
-    pub given: Given,
+    pub input: Input,
     levels: RefCell<BTreeMap<u32, Rc<Law>>>,
-    /// Bits that the closed forms of the contact lose: eight for each one by which w is below a.
+    /// Bits that the closed forms of this contact lose: eight for each one by which w is below a.
     lost: i32,
 }
 
-/// How many bits w is below a.
+/// Bits by which w is below a.
 fn flatness(a: &Real, w: &Real) -> i32 {
     if a.is_zero() { 0 } else { (a.exponent() - w.exponent()).max(0) }
 }
 
 impl Reference {
-    pub fn new(given: Given) -> Reference {
-        let lost = match &given {
-            Given::Flat(p) => {
+    pub fn new(input: Input) -> Reference {
+        let lost = match &input {
+            Input::Flat(p) => {
                 let (a, load) = (Real::new(64, p.flat_half_width), Law::load(p, 64));
                 let scale = &a + load.sqrt();
                 let a = a / &scale;
-                8 * flatness(&a, &Real::new(64, w_roughly(&a, &(load / scale.square()))))
+                8 * flatness(&a, &Real::new(64, w_guess(a.f64(), (load / scale.square()).f64())))
             }
-            Given::Ellipse(_) => 0,
+            Input::Ellipse(_) => 0,
         };
-        Reference { given, levels: RefCell::default(), lost }
+        Reference { input, levels: RefCell::default(), lost }
     }
 
-    /// The law with at least so many bits beyond those that every formula of the contact may lose.
+    /// The law with at least this many bits beyond those that every formula of the contact may lose.
     pub fn law(&self, extra: i32) -> Rc<Law> {
-        let need = (KEPT + self.lost + extra.max(0)) as u32;
+        let need = (RESULT_BITS + self.lost + extra.max(0)) as u32;
         let bits = [128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1536, 2048, 3072, 4096, 8192, 16384, 32768];
         let bits = *bits.iter().find(|bits| **bits >= need).expect("precision");
         let known = self.levels.borrow().get(&bits).cloned();
         known.unwrap_or_else(|| {
-            let law = Rc::new(Law::new(&self.given, bits));
+            let law = Rc::new(Law::new(&self.input, bits));
             self.levels.borrow_mut().insert(bits, law.clone());
             law
         })
     }
 
-    /// The law for a force \[N\], with bits to spare, and the point there.
+    /// The point of a force \[N\], and the law with bits to spare.
     pub fn at_force_with(&self, force: f64, extra: i32) -> (Rc<Law>, Point) {
         let first = self.law(0);
         let tau = Real::new(first.bits, force.abs()) / &first.slip_force;
@@ -73,21 +75,17 @@ impl Reference {
         self.at_force_with(force, 0)
     }
 
-    /// The law for a displacement \[m\], and the point there; `near` is some force \[N\] near that point's, from which the
-    /// search starts.
-    pub fn at_displacement(&self, displacement: f64, near: f64) -> (Rc<Law>, Point) {
+    /// The point of a displacement \[m\].
+    pub fn at_displacement(&self, displacement: f64) -> (Rc<Law>, Point) {
         let first = self.law(0);
-        let x = Real::new(first.bits, displacement.abs()) / &first.displacement_unit;
-        let left = (&first.slip_approach - &x) / &first.slip_approach;
-        let law = self.law(bits_for(&(x / &first.slip_approach)) + bits_for(&left) / 2);
-        let x = Real::new(law.bits, displacement.abs()) / &law.displacement_unit;
-        let near = Real::new(law.bits, near.abs()) / &law.slip_force;
-        let point = law.at_approach(&x, &near);
+        let share = Real::new(first.bits, displacement.abs()) / &first.displacement_unit / &first.x_slip;
+        let law = self.law(bits_for(&share) + bits_for(&(1.0 - &share)) / 2);
+        let point = law.at_x(&(Real::new(law.bits, displacement.abs()) / &law.displacement_unit));
         (law, point)
     }
 }
 
-/// Bits that differences of two members lose at a small share: three for each one by which it is below 1.
+/// Bits that differences of two stick zones lose at a small share: three for each one by which it is below 1.
 pub fn bits_for(share: &Real) -> i32 {
     if share.is_positive() { (-3 * share.exponent()).clamp(0, 24000) } else { 0 }
 }
@@ -97,16 +95,15 @@ pub struct Law {
     pub bits: u32,
     pub composite_modulus: Real,
     pub half_width: Real,
-    /// mu N, the product itself.
     pub slip_force: Real,
     pub displacement_unit: Real,
     pub stiffness_unit: Real,
     pub pressure_unit: Real,
     pub friction: Real,
-    /// Λ.
+    /// Λ: compliance of full stick.
     pub full_stick: Real,
     /// x at gross slip.
-    pub slip_approach: Real,
+    pub x_slip: Real,
     pub shape: Shape,
 }
 
@@ -122,21 +119,20 @@ pub struct Flat {
     pub psi: Real,
     pub g: Real,
     ln_a: Real,
-    half_pi: Real,
     /// B and C at b.
     b_sum: Real,
     c_sum: Real,
 }
 
-/// A member of the family: a stick zone, and the point of the curve that it belongs to.
+/// A stick zone, and its point of the monotonic curve.
 #[derive(Debug, Clone)]
 pub struct Point {
     pub tau: Real,
-    pub rest: Real,
-    /// x, and what is left until gross slip.
-    pub approach: Real,
-    pub left: Real,
-    /// dx/dτ = Λ + λ.
+    pub one_minus_tau: Real,
+    /// Displacement, and the remaining one before gross slip.
+    pub x: Real,
+    pub x_remaining: Real,
+    /// dx/dτ = Λ + λ; infinite in gross slip of a cylinder or an ellipse.
     pub compliance: Real,
     /// dλ/dτ.
     pub curvature: Real,
@@ -147,6 +143,22 @@ pub struct Point {
     pub psi: Real,
 }
 
+impl Point {
+    pub fn slips(&self) -> bool {
+        self.one_minus_tau.is_zero()
+    }
+
+    /// dτ/dx, 0 in gross slip.
+    pub fn stiffness(&self) -> Real {
+        if self.slips() { Real::new(self.tau.bits(), 0.0) } else { 1.0 / &self.compliance }
+    }
+
+    /// τ h'': by how much λ changes relative to τ.
+    pub fn rate(&self) -> f64 {
+        if self.slips() { 0.0 } else { (&self.tau * &self.curvature).f64() }
+    }
+}
+
 fn compliance_of(bits: u32, body: &Material) -> Real {
     let nu = Real::new(bits, body.poisson_ratio);
     (1.0 - nu.square()) / body.young_modulus
@@ -154,20 +166,16 @@ fn compliance_of(bits: u32, body: &Material) -> Real {
 
 /// Mean over both bodies, weighted by their compliances.
 fn mean(bits: u32, material: &[Material; 2], function: impl Fn(&Real) -> Real) -> Real {
-    let (mut sum, mut all) = (Real::new(bits, 0.0), Real::new(bits, 0.0));
-    for body in material {
-        let compliance = compliance_of(bits, body);
-        sum = sum + &compliance * function(&Real::new(bits, body.poisson_ratio));
-        all = all + compliance;
-    }
-    sum / all
+    let [one, two] = material.each_ref().map(|body| compliance_of(bits, body));
+    let [f, g] = material.each_ref().map(|body| function(&Real::new(bits, body.poisson_ratio)));
+    (&one * f + &two * g) / (one + two)
 }
 
 impl Law {
-    pub fn new(given: &Given, bits: u32) -> Law {
-        match given {
-            Given::Flat(p) => Law::flat(p, bits),
-            Given::Ellipse(p) => Law::ellipse(p, bits),
+    pub fn new(input: &Input, bits: u32) -> Law {
+        match input {
+            Input::Flat(p) => Law::flat(p, bits),
+            Input::Ellipse(p) => Law::ellipse(p, bits),
         }
     }
 
@@ -187,7 +195,7 @@ impl Law {
         let mut full_stick = (2.0 * &length / &half_width).ln() + ratio;
         if p.displacement_reference != CENTRE_POINT {
             let across = mean(bits, &p.material, |nu| (1.0 - 2.0 * nu) / (1.0 - nu));
-            let along = 1.0 - Real::ln_2(bits) + Real::parse(bits, "0.093");
+            let along = 1.0 - real(2.0).ln() + Real::parse(bits, "0.093");
             full_stick = full_stick - along + 8.0 / pi.square() * across * &half_width / &length;
         }
         let slip_force = real(p.friction_coefficient) * p.normal_force;
@@ -201,7 +209,7 @@ impl Law {
             stiffness_unit,
             composite_modulus: modulus,
             friction: real(p.friction_coefficient),
-            slip_approach: &full_stick + &flat.b_sum / &flat.g,
+            x_slip: &full_stick + &flat.b_sum / &flat.g,
             full_stick,
             shape: Shape::Flat(Box::new(flat)),
         }
@@ -209,7 +217,7 @@ impl Law {
 
     fn ellipse(p: &EllipticParameters, bits: u32) -> Law {
         let (b, l) = (Real::new(bits, p.semi_axis_x), Real::new(bits, p.semi_axis_y));
-        // Differences of both elliptic integrals lose as many bits as k² is below 1, twice.
+        // Differences of both elliptic integrals lose twice as many bits as k² is below 1.
         let k2 = (1.0 - (b.clone().min(&l) / b.clone().max(&l)).square()).abs();
         let more = bits + if k2.is_zero() { 0 } else { (-2 * k2.exponent()).max(0) as u32 };
         let (all, cosine) = cerruti(&b.at(more), &l.at(more));
@@ -230,13 +238,18 @@ impl Law {
             stiffness_unit: 1.0 / compliance,
             friction: Real::new(bits, p.friction_coefficient),
             full_stick: Real::new(bits, 1.0),
-            slip_approach: Real::new(bits, 1.5),
+            x_slip: Real::new(bits, 1.5),
             shape: Shape::Ellipse,
         }
     }
 
     pub fn real(&self, value: f64) -> Real {
         Real::new(self.bits, value)
+    }
+
+    /// A displacement \[m\] in its unit.
+    pub fn x(&self, displacement: f64) -> Real {
+        self.real(displacement) / &self.displacement_unit
     }
 
     pub fn energy_unit(&self) -> Real {
@@ -246,21 +259,23 @@ impl Law {
     /// The point of gross slip.
     pub fn slip_point(&self) -> Point {
         let (infinite, zero) = (self.real(f64::INFINITY), self.real(0.0));
-        let (excess, size, energy, psi) = match &self.shape {
+        let (increase, size, energy, psi) = match &self.shape {
             Shape::Flat(flat) => {
                 let energy = 4.0 * (&flat.b_sum / &flat.g - &flat.c_sum / flat.g.square());
-                let excess = if flat.a.is_zero() { infinite.clone() } else { -&flat.ln_a };
-                let psi = if flat.a.is_zero() { flat.half_pi.clone() } else { zero };
-                (excess, flat.a.clone(), energy, psi)
+                if flat.a.is_zero() {
+                    (infinite.clone(), zero.clone(), energy, Real::pi(self.bits) / 2.0)
+                } else {
+                    (-&flat.ln_a, flat.a.clone(), energy, zero)
+                }
             }
             Shape::Ellipse => (infinite.clone(), zero.clone(), self.real(6.0) / 5.0, zero),
         };
         Point {
             tau: self.real(1.0),
-            rest: self.real(0.0),
-            approach: self.slip_approach.clone(),
-            left: self.real(0.0),
-            compliance: &self.full_stick + excess,
+            one_minus_tau: self.real(0.0),
+            x: self.x_slip.clone(),
+            x_remaining: self.real(0.0),
+            compliance: &self.full_stick + increase,
             curvature: infinite,
             energy,
             size,
@@ -269,19 +284,19 @@ impl Law {
         }
     }
 
-    /// The point under a force \[N\]: what is mu N as a double is mu N.
+    /// The point of a force \[N\]; a double that equals the rounded mu N is mu N.
     pub fn at_force(&self, force: f64) -> Point {
         let force = force.abs();
         if force >= self.slip_force.f64() {
             self.slip_point()
         } else {
-            self.at_load(&(self.real(force) / &self.slip_force))
+            self.at_tau(&(self.real(force) / &self.slip_force))
         }
     }
 
-    pub fn at_load(&self, tau: &Real) -> Point {
-        let rest = 1.0 - tau;
-        if !rest.is_positive() {
+    pub fn at_tau(&self, tau: &Real) -> Point {
+        let one_minus_tau = 1.0 - tau;
+        if !one_minus_tau.is_positive() {
             return self.slip_point();
         }
         match &self.shape {
@@ -289,22 +304,31 @@ impl Law {
                 let (w, psi) = if tau.is_zero() {
                     (flat.w.clone(), flat.psi.clone())
                 } else {
-                    size_of_load(&flat.a, &(&rest * &flat.g), Some(tau))
+                    size_of_load(&flat.a, &(&one_minus_tau * &flat.g), Some(tau))
                 };
-                self.member(flat, w, psi, Some(rest))
+                self.stick_zone(flat, w, psi, Some(one_minus_tau))
             }
-            Shape::Ellipse => self.elliptic(rest.cbrt()),
+            Shape::Ellipse => self.elliptic(one_minus_tau.cbrt()),
         }
     }
 
-    /// The point of a stick zone, by its w.
+    /// The point of a stick zone by its w (elliptical: its size).
     pub fn at_w(&self, w: &Real) -> Point {
         match &self.shape {
-            Shape::Flat(flat) => {
-                let psi = flat.psi_of(w);
-                self.member(flat, w.clone(), psi, None)
-            }
+            Shape::Flat(flat) => self.stick_zone(flat, w.clone(), flat.psi_of(w), None),
             Shape::Ellipse => self.elliptic(w.clone()),
+        }
+    }
+
+    /// w of the whole contact, and -dτ/dw at a stick zone.
+    pub fn w_range(&self) -> Real {
+        if let Shape::Flat(flat) = &self.shape { flat.w.clone() } else { self.real(1.0) }
+    }
+
+    pub fn load_rate(&self, point: &Point) -> Real {
+        match &self.shape {
+            Shape::Flat(flat) => 4.0 * &point.w * &point.psi / &flat.g,
+            Shape::Ellipse => 3.0 * point.w.square(),
         }
     }
 
@@ -318,11 +342,11 @@ impl Law {
         let compliance = 1.0 / &size;
         Point {
             tau: 1.0 - &rest,
-            approach: 1.5 * (1.0 - &square),
-            left: 1.5 * &square,
+            x: 1.5 * (1.0 - &square),
+            x_remaining: 1.5 * &square,
             curvature: &compliance / (3.0 * &rest),
             energy,
-            rest,
+            one_minus_tau: rest,
             compliance,
             w: size.clone(),
             psi: self.real(0.0),
@@ -330,29 +354,38 @@ impl Law {
         }
     }
 
-    /// The point of a displacement over its unit, from a force over mu N near it: Newton's iteration with the curve's bend.
-    pub fn at_approach(&self, approach: &Real, near: &Real) -> Point {
-        let left = &self.slip_approach - approach;
-        if !left.is_positive() {
+    /// The point of a displacement in its unit, by Newton's iteration of third order.
+    pub fn at_x(&self, x: &Real) -> Point {
+        let x_remaining = &self.x_slip - x;
+        if !x_remaining.is_positive() {
             return self.slip_point();
         }
         let Shape::Flat(flat) = &self.shape else {
-            return self.elliptic((left / self.slip_approach.clone()).sqrt());
+            return self.elliptic((x_remaining / &self.x_slip).sqrt());
         };
-        if approach.is_zero() {
+        if x.is_zero() {
             return self.at_w(&flat.w);
         }
-        let share = approach / &self.slip_approach;
-        let start = if share.f64() > 0.5 {
-            self.real(self.rest_roughly(flat, left.f64()))
+        let share = x / &self.x_slip;
+        // Λτ + h''(0) τ²/2 <= x.
+        let root = (self.full_stick.square() + x * &flat.g / (2.0 * &flat.psi)).sqrt();
+        let tau = 2.0 * x / (&self.full_stick + root);
+        let mut w = if tau.f64() < 1e-4 {
+            &flat.w - tau * &flat.g / (4.0 * &flat.w * &flat.psi)
         } else {
-            1.0 - near.clone().min(&self.real(0.9999))
+            let remaining = x_remaining.f64();
+            // Newton's iteration in the guess converges from below; s > 0.18 up to half the displacement of gross slip.
+            let start = if share.f64() > 0.5 {
+                remaining / (self.full_stick.f64() + 0.25)
+            } else {
+                0.1f64.max(1.0 - tau.f64())
+            };
+            self.real(w_guess(flat.a.f64(), self.one_minus_tau_guess(flat, remaining, start) * flat.g.f64()))
         };
-        let mut w = self.real(w_roughly(&flat.a, &(start * &flat.g)));
         let mut psi = flat.psi_of(&w);
         for _ in 0..200 {
-            let now = self.member(flat, w.clone(), psi, None);
-            let newton = (approach - &now.approach) / &now.compliance;
+            let now = self.stick_zone(flat, w.clone(), psi, None);
+            let newton = (x - &now.x) / &now.compliance;
             // Second order in τ, then in w.
             let d_tau = &newton * (1.0 - &newton * &now.curvature / &now.compliance / 2.0);
             let slope = 4.0 * &w * &now.psi;
@@ -363,7 +396,7 @@ impl Law {
             let step = &first * (1.0 - &first * &bend / &slope / 2.0);
             let next = &w + &step;
             let last = w.clone();
-            // Neither beyond b nor to nothing.
+            // Keep w between 0 and w_b.
             w = if !next.is_positive() {
                 w / 4.0
             } else if next > flat.w {
@@ -375,79 +408,81 @@ impl Law {
                 return self.at_w(&w);
             }
             let relative = step.exponent() - last.exponent();
-            if w == next && 3 * relative < -(KEPT + 8 + 3 * needed(&share) + 2 * flatness(&flat.a, &w)) {
-                let psi = moved(&now.psi, &flat.a, &last, &c2, &step);
-                let mut found = self.member(flat, w, psi, None);
-                found.approach = approach.clone();
-                found.left = left;
-                return found;
+            let required = RESULT_BITS + 8 + 3 * bits_below_one(&share) + 2 * flatness(&flat.a, &w);
+            if w == next && 3 * relative < -required {
+                let psi = psi_after(&now.psi, &flat.a, &last, &c2, &step);
+                return Point { x: x.clone(), x_remaining, ..self.stick_zone(flat, w, psi, None) };
             }
             psi = flat.psi_of(&w);
         }
-        panic!("no point of the curve at {approach:?}");
+        panic!("no point of the curve at {:e} of gross slip", share.f64());
     }
 
-    /// s of what is left until gross slip, s (Λ + λ + β), in doubles.
-    fn rest_roughly(&self, flat: &Flat, left: f64) -> f64 {
-        let (a, g_b, full) = (flat.a.f64(), flat.g.f64(), self.full_stick.f64());
-        let mut rest = left / (full + 0.25);
+    /// s = 1 - τ of the remaining displacement s (Λ + λ + β), in doubles.
+    fn one_minus_tau_guess(&self, flat: &Flat, x_remaining: f64, mut s: f64) -> f64 {
+        let (a, g_b, full_stick) = (flat.a.f64(), flat.g.f64(), self.full_stick.f64());
         for _ in 0..12 {
-            let w = w_roughly_of(a, rest * g_b);
-            let (psi, excess) = (w.atan2(a), -0.5 * (a * a + w * w).ln());
-            let mean = if psi < 0.05 {
+            let w = w_guess(a, s * g_b);
+            let (psi, increase) = (w.atan2(a), -0.5 * (a * a + w * w).ln());
+            let beta = if psi < 0.05 {
                 psi * psi / 5.0
             } else {
                 ((w * w + 3.0 * a * a) * psi - 3.0 * a * w) / (2.0 * (a * a + w * w) * psi - 2.0 * a * w)
             };
-            let step = (left - rest * (full + excess + mean)) / (full + excess);
-            rest = (rest + step).max(0.25 * rest);
-            if step.abs() < 1e-13 * rest {
+            let step = (x_remaining - s * (full_stick + increase + beta)) / (full_stick + increase);
+            s = (s + step).max(0.25 * s);
+            if step.abs() < 1e-13 * s {
                 break;
             }
         }
-        rest
+        s
     }
 
-    fn member(&self, flat: &Flat, w: Real, psi: Real, rest: Option<Real>) -> Point {
+    fn stick_zone(&self, flat: &Flat, w: Real, psi: Real, one_minus_tau: Option<Real>) -> Point {
         let a = &flat.a;
         let c2 = a.square() + w.square();
-        let g = rest.as_ref().map_or_else(|| load(a, &w, &psi), |rest| rest * &flat.g);
-        let rest = rest.unwrap_or_else(|| &g / &flat.g);
-        let tau = 1.0 - &rest;
-        let excess = -c2.ln() / 2.0;
-        let (b_sum, c_sum) = (b_sum(a, &w, &psi), c_sum(a, &w, &g, &(&flat.ln_a + &excess)));
-        let way = (&flat.b_sum - b_sum) / &flat.g;
-        let h = &way - &rest * &excess;
-        let approach = &self.full_stick * &tau + h;
-        let energy = 4.0 * ((&tau - 1.0) * &excess + (2.0 - &tau) * way - (&flat.c_sum - c_sum) / flat.g.square());
+        let (g, one_minus_tau) = match one_minus_tau {
+            Some(s) => (&s * &flat.g, s),
+            None => {
+                let g = load(a, &w, &psi);
+                (g.clone(), g / &flat.g)
+            }
+        };
+        let tau = 1.0 - &one_minus_tau;
+        let increase = -c2.ln() / 2.0;
+        let (b_sum, c_sum) = (b_sum(a, &w, &psi), c_sum(a, &w, &g, &(&flat.ln_a + &increase)));
+        let difference = (&flat.b_sum - b_sum) / &flat.g;
+        let x = &self.full_stick * &tau + (&difference - &one_minus_tau * &increase);
+        let energy =
+            4.0 * ((&tau - 1.0) * &increase + (2.0 - &tau) * difference - (&flat.c_sum - c_sum) / flat.g.square());
         Point {
-            left: &self.slip_approach - &approach,
-            compliance: &self.full_stick + &excess,
+            x_remaining: &self.x_slip - &x,
+            compliance: &self.full_stick + &increase,
             curvature: &flat.g / (4.0 * &c2 * &psi),
             size: c2.sqrt(),
             tau,
-            rest,
-            approach,
+            one_minus_tau,
+            x,
             energy,
             w,
             psi,
         }
     }
 
-    /// Pressure under the contact of a stick zone (of b: `None`) at x/b, in units of N/(bL), elliptical of N/(b l).
+    /// Pressure at x/b under the contact of a stick zone (of b: `None`), in units of N/(bL), elliptical of N/(b l).
     pub fn pressure(&self, x: &Real, stick: Option<&Point>) -> Real {
-        let zero = self.real(0.0);
         let Shape::Flat(flat) = &self.shape else {
             // Hertz' ellipse on its x axis: the stick zone has σ³ of the load on σ² of the area.
             let size = stick.map_or(self.real(1.0), |point| point.size.clone());
-            return if x >= &size { zero } else { (size.square() - x.square()).sqrt() * 1.5 / Real::pi(self.bits) };
+            let square = size.square() - x.square();
+            return if x >= &size { self.real(0.0) } else { square.sqrt() * 1.5 / Real::pi(self.bits) };
         };
         let (w, psi) = stick.map_or((&flat.w, &flat.psi), |point| (&point.w, &point.psi));
         let a = &flat.a;
         let c2 = a.square() + w.square();
         let zeta2 = &c2 - x.square();
         if !zeta2.is_positive() {
-            return zero;
+            return self.real(0.0);
         }
         let zeta = zeta2.sqrt();
         // Eq. 17 with sin φ = x/c, sin φ0 = a/c; the quotients of both logarithms meet in |x² - a²|.
@@ -465,10 +500,10 @@ impl Law {
         4.0 / Real::pi(self.bits) * sum / &flat.g
     }
 
-    /// Shear over mu in the same units (Eq. 21).
+    /// Shear traction over mu in the same units (Eq. 21).
     pub fn shear(&self, x: &Real, stick: &Point) -> Real {
         let all = self.pressure(x, None);
-        if stick.rest.is_zero() { all } else { all - self.pressure(x, Some(stick)) }
+        if stick.slips() { all } else { all - self.pressure(x, Some(stick)) }
     }
 
     /// Slip at x/b (Eq. 15) in units of displacement; beyond b its continuation.
@@ -482,8 +517,8 @@ impl Law {
         }
         let xi = xi2.sqrt();
         let mut sum = x * psi * &xi + (x.square() + a.square()) * (a * &xi).atan2(&(x * w)) - 2.0 * a * x * xi.atan2(w);
-        if !stick.rest.is_zero() {
-            sum = sum - &stick.rest * &flat.g / 2.0 * (x / c2.sqrt()).acosh();
+        if !stick.slips() {
+            sum = sum - &stick.one_minus_tau * &flat.g / 2.0 * (x / c2.sqrt()).acosh();
         }
         2.0 * sum / &flat.g
     }
@@ -492,27 +527,23 @@ impl Law {
 impl Flat {
     /// The flat and its half-width b, under the load g = 4RP/E* \[length²\].
     fn new(a: &Real, load: &Real) -> (Flat, Real) {
-        let bits = a.bits();
         let (w, psi) = size_of_load(a, load, None);
         let b = (a.square() + w.square()).sqrt();
         let (a, w, g) = (a / &b, &w / &b, load / b.square());
-        let ln_a = if a.is_zero() { Real::new(bits, 0.0) } else { a.ln() };
-        let flat = Flat {
-            b_sum: b_sum(&a, &w, &psi),
-            c_sum: c_sum(&a, &w, &g, &ln_a),
-            half_pi: Real::pi(bits) / 2.0,
-            a,
-            w,
-            psi,
-            g,
-            ln_a,
-        };
-        (flat, b)
+        let ln_a = if a.is_zero() { a.clone() } else { a.ln() };
+        (Flat { b_sum: b_sum(&a, &w, &psi), c_sum: c_sum(&a, &w, &g, &ln_a), a, w, psi, g, ln_a }, b)
     }
 
     fn psi_of(&self, w: &Real) -> Real {
-        if self.a.is_zero() { self.half_pi.clone() } else { (w / &self.a).atan() }
+        if self.a.is_zero() { Real::pi(w.bits()) / 2.0 } else { (w / &self.a).atan() }
     }
+}
+
+/// The load g(w) rounded to a double: 4RP/E* of a contact of half-width √(a² + w²).
+pub fn load_of_size(a: f64, w: f64) -> f64 {
+    let lost = 4.0 * (a / w).max(1.0).log2();
+    let [a, w] = [a, w].map(|length| Real::new(128 + lost as u32, length));
+    load(&a, &w, &w.atan2(&a)).f64()
 }
 
 /// g = 2 (a² + w²) ψ - 2 a w.
@@ -539,13 +570,12 @@ fn c_sum(a: &Real, w: &Real, g: &Real, ln_a_over_c: &Real) -> Real {
     first - second + third / 3.0
 }
 
-/// Bits by which a share is below 1.
-fn needed(share: &Real) -> i32 {
+fn bits_below_one(share: &Real) -> i32 {
     (-share.exponent()).clamp(0, 8000)
 }
 
 /// ψ after a small step of w, to second order.
-fn moved(psi: &Real, a: &Real, w: &Real, c2: &Real, step: &Real) -> Real {
+fn psi_after(psi: &Real, a: &Real, w: &Real, c2: &Real, step: &Real) -> Real {
     if a.is_zero() {
         return psi.clone();
     }
@@ -554,14 +584,10 @@ fn moved(psi: &Real, a: &Real, w: &Real, c2: &Real, step: &Real) -> Real {
 }
 
 /// w of a load, in doubles.
-fn w_roughly(a: &Real, load: &Real) -> f64 {
-    if a.is_zero() {
-        return (load.at(64) / Real::pi(64)).sqrt().f64();
+fn w_guess(a: f64, load: f64) -> f64 {
+    if a == 0.0 {
+        return (load / PI).sqrt();
     }
-    w_roughly_of(a.f64(), load.f64())
-}
-
-fn w_roughly_of(a: f64, load: f64) -> f64 {
     let g = |w: f64| {
         let psi = w.atan2(a);
         if psi < 0.2 {
@@ -571,7 +597,7 @@ fn w_roughly_of(a: f64, load: f64) -> f64 {
             2.0 * (a * a + w * w) * psi - 2.0 * a * w
         }
     };
-    let hertz = load / std::f64::consts::PI;
+    let hertz = load / PI;
     let mut w = (hertz * hertz.sqrt() + 0.75 * a * load).cbrt();
     for _ in 0..6 {
         let slope = 4.0 * w * w.atan2(a);
@@ -582,7 +608,7 @@ fn w_roughly_of(a: f64, load: f64) -> f64 {
     w
 }
 
-/// w and ψ of the contact of a load: the root of g(w), by Halley's iteration; digits for a difference to b of that share.
+/// w and ψ of the contact of a load: the root of g(w) by Halley's iteration. With a share, to that share of its difference to b.
 fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
     let bits = load.bits();
     if a.is_zero() {
@@ -590,7 +616,7 @@ fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
         return ((load / &pi).sqrt(), pi / 2.0);
     }
     let scale = a + load.sqrt();
-    let mut w = Real::new(bits, w_roughly(&(a / &scale), &(load / scale.square()))) * &scale;
+    let mut w = Real::new(bits, w_guess((a / &scale).f64(), (load / scale.square()).f64())) * &scale;
     for _ in 0..400 {
         let psi = (&w / a).atan();
         let c2 = a.square() + w.square();
@@ -600,10 +626,11 @@ fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
         let newton = &value / &slope;
         let step = -(&newton / (1.0 - &newton * bend / slope / 2.0));
         let relative = step.exponent() - w.exponent();
-        let wanted = share.map_or(bits as i32, |share| KEPT + 8 + 3 * needed(share) + 2 * flatness(a, &w));
-        let psi = moved(&psi, a, &w, &c2, &step);
+        let required =
+            share.map_or(bits as i32, |share| RESULT_BITS + 8 + 3 * bits_below_one(share) + 2 * flatness(a, &w));
+        let psi = psi_after(&psi, a, &w, &c2, &step);
         let next = &w + &step;
-        if 3 * relative < -wanted {
+        if 3 * relative < -required {
             return (next, psi);
         }
         w = if next.is_positive() { next } else { w / 4.0 };
@@ -613,7 +640,7 @@ fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
 
 /// J = ∫ dθ/W and J_cos = ∫ cos²θ dθ/W, W² = l² cos²θ + b² sin²θ, θ from 0 to π/2, from K and E by the
 /// arithmetic-geometric mean.
-pub fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
+fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
     let bits = b.bits();
     let (small, large) = (b.clone().min(l), b.clone().max(l));
     let half_pi = Real::pi(bits) / 2.0;

@@ -1,5 +1,4 @@
-//! The same history step by step, as a path in one call or in pieces, with any outputs, and as a batch. All results have the same
-//! bits.
+//! The same history step by step, as a path in one call or in two, with any outputs, and as a batch: bitwise the same results.
 
 use crate::contacts::Named;
 use crate::library::{State, accepted, path, trapped};
@@ -10,7 +9,7 @@ use rand::Rng;
 use rand::seq::SliceRandom;
 use std::ptr::null;
 
-/// Steps of a piece, and reversals that a state holds: not more than the copy in which a path runs whose state is discarded.
+/// Steps of a piece, and reversals that a state holds.
 const PIECE: usize = 100;
 
 pub fn cases(pieces: u64) -> Vec<Case> {
@@ -36,16 +35,16 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
                 (single, whole, memory) = (State::new(PIECE), State::new(PIECE), Memory::new(contact.slip()));
             }
             let start = whole.clone();
-            let mut answers = [const { Vec::new() }; 3];
+            let mut responses = [const { Vec::new() }; 3];
             let mut displacements = Vec::new();
             while displacements.len() < PIECE && single.depth() + 1 < PIECE {
                 let displacement = history(&memory, &mut run.rng);
-                let answer = single.step(contact, displacement)?;
-                memory.visit(Point { displacement, force: answer.force }, single.slips());
+                let response = single.step(contact, displacement)?;
+                memory.visit(Point { displacement, force: response.force }, single.slips());
                 displacements.push(displacement);
-                answers[0].push(answer.force);
-                answers[1].push(answer.stiffness);
-                answers[2].push(answer.dissipated);
+                responses[0].push(response.force);
+                responses[1].push(response.stiffness);
+                responses[2].push(response.dissipated);
             }
             let requested: [bool; 3] = run.rng.random();
             let kept = run.rng.random_bool(0.9);
@@ -59,9 +58,9 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
                 for (found, output) in found.iter_mut().zip(outputs) {
                     found.extend(output.unwrap_or_default());
                 }
-                ensure!(kept || state == before, "a state that is not kept has changed");
+                ensure!(kept || state == before, "a discarded step changed the state");
             }
-            for ((requested, found), expected) in requested.iter().zip(&found).zip(&answers) {
+            for ((requested, found), expected) in requested.iter().zip(&found).zip(&responses) {
                 ensure!(
                     !requested || found == expected,
                     "piece {piece} from {:?} along {displacements:?}: {found:?}, step by step {expected:?}\n  {contact:?}",
@@ -70,7 +69,7 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
             }
             ensure!(
                 !kept || state.bits() == single.bits(),
-                "piece {piece} from {:?} along {displacements:?} leaves {:?}, step by step {:?}\n  {contact:?}",
+                "piece {piece} from {:?} along {displacements:?} gives the state {:?}, step by step {:?}\n  {contact:?}",
                 start.used(),
                 state.used(),
                 single.used()
@@ -82,7 +81,7 @@ fn paths(named: Named, kind: usize, name: &str, pieces: u64) -> Case {
     })
 }
 
-/// All contacts as a batch, by their index, some of them skipped in each call.
+/// All contacts as a batch, by their index, some of them inactive in each call.
 fn many_contacts(steps: u64) -> Case {
     Case::new("batch: all contacts at once".to_owned(), steps, move |run| {
         let mut contacts = contacts::all();
@@ -116,9 +115,10 @@ fn many_contacts(steps: u64) -> Case {
                 active[i] = run.rng.random_range(-1..=1);
                 if active[i] != 0 {
                     displacement[i] = histories[i](&memories[i], &mut run.rng);
-                    let answer = singles[i].step(contact, displacement[i])?;
-                    memories[i].visit(Point { displacement: displacement[i], force: answer.force }, singles[i].slips());
-                    expected[i] = [answer.force, answer.stiffness, answer.dissipated];
+                    let response = singles[i].step(contact, displacement[i])?;
+                    memories[i]
+                        .visit(Point { displacement: displacement[i], force: response.force }, singles[i].slips());
+                    expected[i] = [response.force, response.stiffness, response.dissipated];
                 }
             }
             let mut outputs = [const { Vec::new() }; 3];

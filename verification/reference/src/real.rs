@@ -1,4 +1,4 @@
-//! Real numbers of many digits: `rug::Float` with operators that keep the larger precision of both operands.
+//! `rug::Float` with operators that keep the larger precision of both operands.
 
 use rug::Float;
 use rug::float::Constant;
@@ -7,6 +7,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 #[derive(Debug, Clone, PartialEq, PartialOrd)]
 pub struct Real(Float);
+
+macro_rules! unary {
+    ($($name:ident)*) => { $(pub fn $name(&self) -> Real { Real(self.0.clone().$name()) })* };
+}
 
 impl Real {
     pub fn new(bits: u32, value: f64) -> Real {
@@ -21,15 +25,11 @@ impl Real {
         Real(Float::with_val(bits, Constant::Pi))
     }
 
-    pub fn ln_2(bits: u32) -> Real {
-        Real(Float::with_val(bits, Constant::Log2))
-    }
-
     pub fn bits(&self) -> u32 {
         self.0.prec()
     }
 
-    /// The same number at another precision.
+    /// Rounded to another precision.
     pub fn at(&self, bits: u32) -> Real {
         Real(Float::with_val(bits, &self.0))
     }
@@ -38,7 +38,7 @@ impl Real {
         self.0.to_f64()
     }
 
-    /// The exponent of 2 above it; very small for 0.
+    /// The least exponent of 2 above the absolute value; very small for 0.
     pub fn exponent(&self) -> i32 {
         self.0.get_exp().unwrap_or(i32::MIN / 8)
     }
@@ -51,54 +51,15 @@ impl Real {
         self.0.cmp0() == Some(Ordering::Greater)
     }
 
-    pub fn is_negative(&self) -> bool {
-        self.0.cmp0() == Some(Ordering::Less)
-    }
-
-    pub fn sqrt(&self) -> Real {
-        Real(self.0.clone().sqrt())
-    }
-
-    /// The root, and 0 of what only rounding made negative.
-    pub fn root(&self) -> Real {
-        if self.is_positive() { self.sqrt() } else { Real::new(self.bits(), 0.0) }
-    }
-
-    pub fn cbrt(&self) -> Real {
-        Real(self.0.clone().cbrt())
-    }
-
-    pub fn abs(&self) -> Real {
-        Real(self.0.clone().abs())
-    }
-
-    pub fn ln(&self) -> Real {
-        Real(self.0.clone().ln())
-    }
-
-    pub fn exp(&self) -> Real {
-        Real(self.0.clone().exp())
-    }
-
-    pub fn atan(&self) -> Real {
-        Real(self.0.clone().atan())
-    }
+    unary!(sqrt cbrt abs ln exp atan acosh square);
 
     pub fn atan2(&self, x: &Real) -> Real {
         Real(self.0.clone().atan2(&x.0))
     }
 
-    pub fn acosh(&self) -> Real {
-        Real(self.0.clone().acosh())
-    }
-
     pub fn sin_cos(&self) -> (Real, Real) {
         let (sine, cosine) = self.0.clone().sin_cos(Float::new(self.bits()));
         (Real(sine), Real(cosine))
-    }
-
-    pub fn square(&self) -> Real {
-        Real(self.0.clone().square())
     }
 
     pub fn max(self, other: &Real) -> Real {
@@ -178,6 +139,6 @@ impl Neg for Real {
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        Real(-self.0.clone())
+        -self.clone()
     }
 }

@@ -1,0 +1,75 @@
+//! Reader of the reference tables: inputs are exact doubles, outputs have 25 digits.
+
+use microslip::{EllipticParameters, Material, Parameters};
+use std::collections::HashMap;
+use std::ops::Index;
+
+/// A row by the names of its columns: as numbers (NaN if a cell is none) and as text.
+#[derive(Debug)]
+pub struct Row {
+    text: HashMap<&'static str, &'static str>,
+    numbers: HashMap<&'static str, f64>,
+}
+
+#[allow(dead_code)]
+impl Row {
+    pub fn has(&self, name: &str) -> bool {
+        self.text.contains_key(name)
+    }
+
+    pub fn text(&self, name: &str) -> &'static str {
+        self.text[name]
+    }
+}
+
+impl Index<&str> for Row {
+    type Output = f64;
+    fn index(&self, name: &str) -> &f64 {
+        &self.numbers[name]
+    }
+}
+
+macro_rules! tables {
+    ($name:expr, $($known:literal)*) => {
+        match $name { $($known => include_str!(concat!($known, ".csv")),)* name => panic!("no table {name}") }
+    };
+}
+
+pub fn table(name: &str) -> Vec<Row> {
+    let text: &'static str = tables!(name,
+        "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "monotonic" "monotonic_inverse"
+        "normal_law" "slip" "strip_3d" "tractions");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').map(str::trim).collect();
+    let row = |line: &'static str| {
+        let text: HashMap<_, _> = names.iter().copied().zip(line.split(',').map(str::trim)).collect();
+        let numbers = text.iter().map(|(name, value)| (*name, value.parse().unwrap_or(f64::NAN))).collect();
+        Row { text, numbers }
+    };
+    lines.filter(|line| !line.trim().is_empty()).map(row).collect()
+}
+
+/// The contact of a row of `contacts`.
+pub fn flat(row: &Row) -> Parameters {
+    let body = |e: &str, nu: &str| Material { young_modulus: row[e], poisson_ratio: row[nu] };
+    Parameters {
+        flat_half_width: row["a"],
+        edge_radius: row["R"],
+        length: row["L"],
+        normal_force: row["N"],
+        friction_coefficient: row["mu"],
+        material: [body("E1", "nu1"), body("E2", "nu2")],
+        ..Parameters::default()
+    }
+}
+
+/// The contact of a row of `elliptic`.
+pub fn ellipse(row: &Row) -> EllipticParameters {
+    EllipticParameters {
+        semi_axis_x: row["semi_axis_x"],
+        semi_axis_y: row["semi_axis_y"],
+        normal_force: row["N"],
+        friction_coefficient: row["mu"],
+        material: [Material { young_modulus: row["E"], poisson_ratio: row["nu"] }; 2],
+    }
+}

@@ -1,0 +1,12 @@
+//! The friction law in multi-precision: the closed forms of the paper's equations, with as many extra bits as they lose to
+//! cancellation. No series, expansion or interpolation, and no code of the library except its parameter structures.
+
+pub mod harmonic;
+pub mod history;
+pub mod law;
+pub mod quadrature;
+pub mod real;
+pub mod stiffness;
+
+pub use law::{Input, Law, Point, Reference};
+pub use real::Real;

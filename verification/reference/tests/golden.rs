@@ -1,0 +1,230 @@
+//! The reference against the tables of 25 digits, and against the integrals that its closed forms stand for.
+
+#[path = "../../../tests/golden/table.rs"]
+mod table;
+
+use reference::history::History;
+use reference::law::Shape;
+use reference::quadrature::Quadrature;
+use reference::stiffness::{complex_stiffness, cycle_energy, real_part};
+use reference::{Input, Real, Reference, harmonic};
+use table::{Row, ellipse, flat, table};
+
+fn contacts() -> Vec<Reference> {
+    table("contacts").iter().map(|row| Reference::new(Input::Flat(flat(row)))).collect()
+}
+
+/// The contact of a row.
+fn of<'a>(contacts: &'a [Reference], row: &Row) -> &'a Reference {
+    &contacts[row["contact"] as usize]
+}
+
+/// Compares with all digits of a cell, or with fewer of a quadrature's, on the scale of the value or of a larger one.
+fn agree(tolerance: f64, row: &Row, found: &[(&str, &Real)], scale: Option<&Real>) {
+    for (name, found) in found {
+        if !row[name].is_finite() {
+            continue;
+        }
+        let expected = Real::parse(256, row.text(name));
+        let scale = scale.unwrap_or(if expected.is_zero() { found } else { &expected });
+        let off = if found.is_zero() { expected.abs().f64() } else { ((*found - &expected) / scale).abs().f64() };
+        assert!(off < tolerance, "{name}: off by {off:e}: {}, {row:?}", found.f64());
+    }
+}
+
+#[test]
+fn contact_and_curve() {
+    for row in table("contacts") {
+        let law = Reference::new(Input::Flat(flat(&row))).law(0);
+        let found = [
+            ("E_star", &law.composite_modulus),
+            ("b", &law.half_width),
+            ("slip_force", &law.slip_force),
+            ("slip_displacement", &(&law.displacement_unit * &law.x_slip)),
+            ("initial_stiffness", &(&law.stiffness_unit / &law.full_stick)),
+            ("slip_energy", &(law.energy_unit() * law.slip_point().energy)),
+        ];
+        agree(1e-24, &row, &found, None);
+    }
+    let contacts = contacts();
+    for row in table("monotonic") {
+        let (law, point) = of(&contacts, &row).at_force(row["T"]);
+        if !point.slips() {
+            let found = [
+                ("displacement", &(&law.displacement_unit * &point.x)),
+                ("compliance", &(&point.compliance / &law.stiffness_unit)),
+                ("stick_half_width", &(&law.half_width * &point.size)),
+            ];
+            agree(1e-24, &row, &found, None);
+        }
+    }
+    for row in table("monotonic_inverse") {
+        let (law, point) = of(&contacts, &row).at_displacement(row["displacement"]);
+        agree(1e-24, &row, &[("T", &(&law.slip_force * &point.tau))], None);
+    }
+    for row in table("energy") {
+        let (law, point) = of(&contacts, &row).at_force(row["T"]);
+        agree(1e-24, &row, &[("dissipated_per_cycle", &(law.energy_unit() * &point.energy))], None);
+    }
+    for row in table("elliptic") {
+        let (law, point) = Reference::new(Input::Ellipse(ellipse(&row))).at_force(row["T"]);
+        agree(1e-24, &row, &[("initial_stiffness", &law.stiffness_unit)], None);
+        if !point.slips() {
+            let displacement = &law.displacement_unit * &point.x;
+            let energy = law.energy_unit() * &point.energy;
+            agree(1e-24, &row, &[("displacement", &displacement), ("dissipated_per_cycle", &energy)], None);
+        }
+    }
+}
+
+#[test]
+fn tractions_and_slip() {
+    let contacts = contacts();
+    for row in table("tractions").into_iter().chain(table("slip")) {
+        let (law, point) = of(&contacts, &row).at_force_with(row["T"], 150);
+        let x = law.real(row["x"]).abs() / &law.half_width;
+        let pressure = &law.pressure_unit * law.pressure(&x, None);
+        let shear_unit = &law.friction * &law.pressure_unit;
+        match &law.shape {
+            Shape::Flat(_) if row.has("slip") => {
+                let slip = &law.displacement_unit * law.slip(&x, &point);
+                let damage = &slip * &law.friction * pressure;
+                agree(1e-24, &row, &[("slip", &slip), ("damage", &damage)], None);
+            }
+            _ => {
+                agree(1e-24, &row, &[("pressure", &pressure)], None);
+                if row["T"] != 0.0 {
+                    agree(1e-24, &row, &[("shear", &(shear_unit * law.shear(&x, &point)))], None);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn complex_stiffness_and_energy() {
+    let contacts = contacts();
+    for row in table("complex_stiffness") {
+        let (law, point) = of(&contacts, &row).at_displacement(row["amplitude"]);
+        let x = law.x(row["amplitude"]);
+        let energy = law.energy_unit() * cycle_energy(&law, &x, &point).0;
+        agree(1e-24, &row, &[("dissipated_per_cycle", &energy)], None);
+        // Both are quadratures.
+        let share = (&x / &law.x_slip).f64();
+        if share > 0.4 && (share - 1.0).abs() > 1e-6 {
+            let [real, imaginary, d_real, d_imaginary] = complex_stiffness(of(&contacts, &row), row["amplitude"]);
+            agree(1e-20, &row, &[("k_real", &real), ("k_imag", &imaginary)], None);
+            let scale = &real / row["amplitude"];
+            agree(1e-19, &row, &[("dk_real", &d_real), ("dk_imag", &d_imaginary)], Some(&scale));
+        }
+    }
+}
+
+#[test]
+fn histories_and_harmonics() {
+    let contacts = contacts();
+    let mut last = f64::NAN;
+    let mut history = History::new(contacts[0].law(60));
+    for row in table("histories") {
+        if row["history"] != last {
+            history = History::new(of(&contacts, &row).law(60));
+            last = row["history"];
+        }
+        history.go(&history.law.x(row["displacement"]), 0);
+        let slip_force = &history.law.slip_force;
+        agree(1e-24, &row, &[("T", &(slip_force * &history.force()[0]))], Some(slip_force));
+    }
+    for row in table("harmonic_force").iter().step_by(4) {
+        let column = |kind, k| format!("{kind}{k}");
+        let u: Vec<f64> = (0..7).map(|k| row[&column("u", k)]).collect();
+        let contact = of(&contacts, row);
+        for (k, force) in harmonic::force(contact, &u, row["samples"] as usize).iter().enumerate() {
+            agree(1e-24, row, &[(&column("f", k), force)], Some(&contact.law(0).slip_force));
+        }
+    }
+}
+
+/// K' by quadrature, and its derivative by differences of fourth order.
+#[test]
+fn derivative_of_the_real_part() {
+    const STEP: f64 = 1.0 / 131_072.0;
+    let rule = Quadrature::new(320);
+    for contact in contacts().iter().step_by(2) {
+        let law = contact.law(200);
+        for share in [0.3, 0.95, 1.2, 5.0] {
+            let x = &law.x_slip * share;
+            let [_, slope] = real_part(&law, &rule, &x);
+            let at = |steps: f64| real_part(&law, &rule, &(&x * (1.0 + STEP * steps))).into_iter().next().unwrap();
+            let difference = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (&x * (12.0 * STEP));
+            let off = ((difference - &slope) / &slope).abs().f64();
+            assert!(off < 1e-15, "{share}: {off:e}");
+        }
+    }
+}
+
+/// The exact harmonic force: limit of very many samples, and K' and K'' of one harmonic.
+#[test]
+fn exact_harmonics() {
+    let contacts = contacts();
+    for (contact, size) in contacts.iter().step_by(3).zip([0.6, 2.0, 0.9]) {
+        let law = contact.law(50);
+        let slip = (&law.displacement_unit * &law.x_slip).f64();
+        let amplitude = size * slip;
+        let [real, imaginary, ..] = complex_stiffness(contact, amplitude);
+        let force = harmonic::force(contact, &[0.0, 0.6 * amplitude, 0.8 * amplitude], 0);
+        for (found, expected) in force.iter().zip([
+            law.real(0.0),
+            amplitude * (0.6 * &real + 0.8 * &imaginary),
+            amplitude * (0.8 * &real - 0.6 * &imaginary),
+        ]) {
+            let off = ((found - expected) / &law.slip_force).abs().f64();
+            assert!(off < 1e-15, "one harmonic: {off:e}"); // of 0.6² + 0.8² in doubles
+        }
+        let u = [0.1 * slip, 0.7 * amplitude, 0.0, 0.2 * slip, 0.5 * amplitude];
+        let (exact, sampled) = (harmonic::force(contact, &u, 0), harmonic::force(contact, &u, 2000));
+        for (exact, sampled) in exact.iter().zip(sampled) {
+            let off = ((exact - sampled) / &law.slip_force).abs().f64();
+            assert!(off < 1e-5, "two harmonics: {off:e}");
+        }
+    }
+}
+
+/// The closed forms are the integrals of the paper: Eq. 10, the area of Masing's loop (Eq. 13), the sum of flat punches under a
+/// growing load (Eq. 17) and that of their displacements (Eq. 15).
+#[test]
+fn closed_forms_are_the_integrals() {
+    let rule = Quadrature::new(320);
+    for contact in contacts().iter().step_by(3) {
+        let law = contact.law(150);
+        let Shape::Flat(flat) = &law.shape else { panic!() };
+        let zero = law.real(0.0);
+        for tau in [0.01, 0.5, 0.93] {
+            let tau = law.real(tau);
+            let point = law.at_tau(&tau);
+            let x = rule.integral(&zero, &tau, |t| law.at_tau(t).compliance);
+            let work = rule.integral(&zero, &tau, |t| t * law.at_tau(t).compliance);
+            let close = |found: Real, expected: &Real, what: &str| {
+                let off = ((&found - expected) / expected).abs().f64();
+                assert!(off < 1e-24, "{what}: {off:e}");
+            };
+            close(x, &point.x, "displacement");
+            close(8.0 * work - 4.0 * &tau * &point.x, &point.energy, "energy");
+            for share in [0.1, 0.6] {
+                // A point of the slip zone, and one of the stick zone.
+                let x = &point.size + (1.0 - &point.size) * share;
+                let w_x = (x.square() - flat.a.square()).sqrt();
+                let slip = rule.integral(&point.w, &w_x, |w| {
+                    let c = (flat.a.square() + w.square()).sqrt();
+                    (&x / c).max(&law.real(1.0)).acosh() * w * law.at_w(w).psi
+                });
+                close(4.0 * slip / &flat.g, &law.slip(&x, &point), "slip");
+                let x = &point.size * share;
+                let shear = rule.integral(&point.w, &flat.w, |w| {
+                    let zeta = flat.a.square() + w.square() - x.square();
+                    if zeta.is_positive() { w * law.at_w(w).psi / zeta.sqrt() } else { law.real(0.0) }
+                });
+                close(4.0 / Real::pi(law.bits) * shear / &flat.g, &law.shear(&x, &point), "shear");
+            }
+        }
+    }
+}
