@@ -1,4 +1,4 @@
-// The header in C++17: vectors as buffers, and threads that share contacts and have the bits of one thread.
+// The header in C++17: vectors as buffers; threads that share contacts compute the bits of one thread.
 #include "check.h"
 
 #include <microslip.h>
@@ -130,18 +130,6 @@ void test_threads()
     }
 }
 
-// A copy of the bytes of a contact is that contact.
-void test_copy()
-{
-    const mslip_contact contact = initialised(3);
-    std::vector<unsigned char> bytes(sizeof contact);
-    mslip_contact copy;
-    Workspace workspace;
-    std::memcpy(bytes.data(), &contact, sizeof contact);
-    std::memcpy(&copy, bytes.data(), sizeof copy);
-    CHECK(results_of(contact, workspace.data()) == results_of(copy, workspace.data()));
-}
-
 void test_rejection()
 {
     mslip_parameters p;
@@ -157,7 +145,6 @@ int main(int argc, char **argv)
 {
     check_arguments(argc, argv);
     test_threads();
-    test_copy();
     test_rejection();
     return check_report();
 }
