@@ -90,12 +90,12 @@ fn fortran() {
     let options = ["", "-fdefault-real-8 -fdefault-integer-8", "-fno-automatic"];
     let jobs = options.iter().enumerate().flat_map(|(i, options)| {
         let fortran = &fortran;
-        ["f2008", "f2018"].map(|standard| {
+        [("f2008", "bad_input"), ("f2018", "test_microslip")].map(|(standard, name)| {
             move || {
-                let program = format!("fortran_{standard}_{i}");
+                let program = format!("{name}_{i}");
                 let modules = BUILD.join(program.clone() + "_modules");
                 std::fs::create_dir_all(&modules).unwrap();
-                let sources = ["checks.f90", "test_microslip.f90"].map(|name| ROOT.join("tests/fortran").join(name));
+                let sources = ["checks", name].map(|name| ROOT.join(format!("tests/fortran/{name}.f90")));
                 let mut compiler = Command::new(fortran);
                 compiler.args(options.split_whitespace()).arg("-J").arg(modules);
                 compiler.args(["-Wall", "-Wextra", "-pedantic", "-Werror", "-ffpe-trap=invalid,zero,overflow"]);
