@@ -247,7 +247,12 @@ mod tests {
 
     /// Compiled once for all tests: the function itself is inlined into every caller.
     #[inline(never)]
-    fn evaluate(contact: &Contact, memory: &mut [f64], displacement: &[f64], output: HarmonicOutput) -> Result<(), Error> {
+    fn evaluate(
+        contact: &Contact,
+        memory: &mut [f64],
+        displacement: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error> {
         harmonic_force(contact, &mut Workspace::new(memory).unwrap(), displacement, output)
     }
 

@@ -20,7 +20,15 @@ static LIBRARY: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
         return ["include", "lib/libmicroslip.a"].map(|path| ROOT.join(&prefix).join(path));
     }
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(*ROOT).args(["rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib", "--target-dir"]);
+    cargo.current_dir(*ROOT).args([
+        "rustc",
+        "--release",
+        "--locked",
+        "--lib",
+        "--crate-type",
+        "staticlib",
+        "--target-dir",
+    ]);
     run(cargo.arg(&*BUILD)).unwrap();
     [ROOT.join("include"), BUILD.join("release/libmicroslip.a")]
 });
@@ -35,8 +43,19 @@ fn run(command: &mut Command) -> Result<String, String> {
 fn compiler(cpp: bool) -> Command {
     static HOST: LazyLock<String> = LazyLock::new(|| run(Command::new("rustc").arg("-vV")).unwrap());
     let host = HOST.lines().find_map(|line| line.strip_prefix("host: ")).expect("the host triple");
-    let mut compiler = cc::Build::new().cpp(cpp).target(host).host(host).opt_level(1).cargo_metadata(false).get_compiler().to_command();
-    compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]).arg(if cpp { "-std=c++17" } else { "-std=c99" });
+    let mut compiler = cc::Build::new()
+        .cpp(cpp)
+        .target(host)
+        .host(host)
+        .opt_level(1)
+        .cargo_metadata(false)
+        .get_compiler()
+        .to_command();
+    compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]).arg(if cpp {
+        "-std=c++17"
+    } else {
+        "-std=c99"
+    });
     compiler
 }
 
@@ -52,7 +71,11 @@ fn drive(mut compiler: Command, sources: &[PathBuf], program: &str) -> Result<()
     run(compiler.arg("-o").arg(&path))?;
     let text = run(Command::new(&path).arg("--trap").current_dir(*ROOT))?;
     let last = text.lines().last().unwrap_or_default();
-    if last.ends_with(" passed, 0 failed") && !last.starts_with("0 ") { Ok(()) } else { Err(format!("{program}: {text}")) }
+    if last.ends_with(" passed, 0 failed") && !last.starts_with("0 ") {
+        Ok(())
+    } else {
+        Err(format!("{program}: {text}"))
+    }
 }
 
 /// Runs all jobs on two threads, and fails with all of their errors.
@@ -60,7 +83,11 @@ fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
     assert!(!jobs.is_empty());
     let (jobs, errors) = (Mutex::new(jobs), Mutex::new(Vec::new()));
     let next = || jobs.lock().unwrap().pop();
-    let work = || while let Some(job) = next() { job().unwrap_or_else(|error| errors.lock().unwrap().push(error)) };
+    let work = || {
+        while let Some(job) = next() {
+            job().unwrap_or_else(|error| errors.lock().unwrap().push(error))
+        }
+    };
     std::thread::scope(|scope| [(); 2].map(|()| scope.spawn(work)).map(|thread| thread.join().unwrap()));
     let errors = errors.into_inner().unwrap();
     assert!(errors.is_empty(), "{}", errors.join("\n"));
@@ -69,7 +96,8 @@ fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
 #[test]
 fn c_and_cpp() {
     let entries = std::fs::read_dir(ROOT.join("c_tests")).unwrap().map(|entry| entry.unwrap().path());
-    let sources = entries.filter(|path| path.extension().is_some_and(|extension| extension == "c" || extension == "cpp"));
+    let sources =
+        entries.filter(|path| path.extension().is_some_and(|extension| extension == "c" || extension == "cpp"));
     run_all(
         sources
             .map(|source| {

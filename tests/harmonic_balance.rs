@@ -29,7 +29,8 @@ fn matrix_market(path: &Path) -> DMatrix<f64> {
     let (header, rest) = text.split_once('\n').unwrap();
     assert_eq!(header, "%%MatrixMarket matrix coordinate real symmetric");
     let lines = rest.lines().filter(|line| !line.starts_with('%'));
-    let mut rows = lines.map(|line| line.split_whitespace().map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
+    let mut rows =
+        lines.map(|line| line.split_whitespace().map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
     let size = rows.next().unwrap();
     let mut matrix = DMatrix::zeros(size[0] as usize, size[1] as usize);
     for row in rows {
@@ -457,7 +458,10 @@ fn the_fortran_program_finds_the_same_motion() {
         let output = command.current_dir(&copy).output().unwrap();
         assert!(output.status.success(), "{command:?}\n{}", String::from_utf8_lossy(&output.stderr));
     };
-    run(Command::new("cp").arg("-R").args(["src", "cases", "model", "Makefile"].map(|name| examples().join(name))).arg("."));
+    run(Command::new("cp")
+        .arg("-R")
+        .args(["src", "cases", "model", "Makefile"].map(|name| examples().join(name)))
+        .arg("."));
     let prefix = std::fs::canonicalize(&prefix).unwrap();
     let mut make = Command::new("make");
     // Not a child of a make that may have started this.

@@ -1,10 +1,10 @@
 //! Calls of the library, each compiled once for all tests of a crate: the functions themselves are inlined into every caller.
 #![allow(dead_code, reason = "not every crate uses all of them")]
 
+use microslip::Contact;
 use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
-use microslip::Contact;
 
 /// Harmonic force and its Jacobian, column-major, and dissipated energy.
 #[inline(never)]
@@ -13,7 +13,8 @@ pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f
     let mut memory = vec![0.0; rule.workspace_length(n / 2, samples)];
     rule.workspace_init(n / 2, samples, &mut memory).unwrap();
     let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], 0.0);
-    let output = HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut dissipated) };
+    let output =
+        HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut dissipated) };
     harmonic_force(contact, &mut Workspace::new(&mut memory).unwrap(), displacement, output).unwrap();
     (force, jacobian, dissipated)
 }
