@@ -321,9 +321,9 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
             }
             fill_states(f);
             for (size_t a = 0; a < LENGTH(amplitudes); ++a) {
-                const double unit = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE ? contact.slip_force
-                                                                                                          : contact.slip_displacement;
-                const double value = (unit == contact.slip_force ? fmin(amplitudes[a], 1.0) : amplitudes[a]) * unit;
+                const int is_force = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE;
+                const double value = is_force ? fmin(amplitudes[a], 1.0) * contact.slip_force
+                                              : amplitudes[a] * contact.slip_displacement;
                 call.scalar = f->scalar == NONE ? 0.0 : value;
                 for (size_t k = 0; k < f->inputs; ++k) {
                     const int alternates = f->kind == DISPLACEMENT && k % 2 == 1;

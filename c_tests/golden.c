@@ -363,7 +363,7 @@ static void check_elliptic(void)
         p.material[0].poisson_ratio = p.material[1].poisson_ratio = v[6];
         accepted(&t, mslip_contact_init_elliptic(&p, &contact));
         compare(&t, "initial stiffness", contact.initial_stiffness, v[7], 1e-13 * v[7]);
-        /* Near mu N the curve varies as (1-tau)^(2/3), which amplifies roundings of T and of mu N; the energy has five times that. */
+        /* Near mu N the curve varies as (1-tau)^(2/3), which amplifies roundings of T and of mu N, five times in the energy. */
         rest = fmax(0.0, 1.0 - v[8] / contact.slip_force);
         rounding = pow(rest + 2.0 * DBL_EPSILON, 2.0 / 3.0) - pow(rest, 2.0 / 3.0);
         accepted(&t, mslip_monotonic_displacement(&contact, 1, &v[8], &displacement, NULL, NULL));

@@ -156,7 +156,7 @@ static void test_path(void)
     CHECK(same_bits(state[1], state[0], STATE));
 }
 
-/* A slowly decaying vibration, each half cycle of which adds a reversal, and the way back through the displacement of each of them. */
+/* A slowly decaying vibration, each half cycle of which adds a reversal, and the return through the displacement of each. */
 enum { HALF_CYCLES = 600, VIBRATION = 2 * HALF_CYCLES - 1, LONG = 5 + 3 * HALF_CYCLES };
 static double vibration(const mslip_contact *contact, int i)
 {

@@ -1,5 +1,5 @@
-//! The drivers in C, C++ and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else against
-//! the archive as cargo builds it.
+//! The drivers in C, C++ and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else
+//! against the archive as cargo builds it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

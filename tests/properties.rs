@@ -307,7 +307,8 @@ proptest! {
         let (mut sums, mut dissipated) = ([0.0; 9], 0.0);
         for sample in 0..2 * samples {
             let row = row(sample);
-            let (now, _, loss) = stepper.step(row.iter().zip(&displacement).map(|(table, c)| table * c).sum::<f64>() / contact.slip_displacement);
+            let displacement: f64 = row.iter().zip(&displacement).map(|(table, c)| table * c).sum();
+            let (now, _, loss) = stepper.step(displacement / contact.slip_displacement);
             if sample >= samples {
                 sums.iter_mut().zip(&row).for_each(|(sum, table)| *sum += now * table);
                 dissipated += loss;

@@ -1,7 +1,7 @@
 program bad_input
-  ! Every procedure with a contact, by a table: each subset of the optional outputs, arrays of wrong size, invalid values (NaN, quiet
-  ! and signalling, and infinities), and memory that was never initialised or truncated. Each error has its own status and modifies
-  ! no output; compiled with traps, none raises a signal.
+  ! Every procedure with a contact, by a table: each subset of the optional outputs, arrays of wrong size, invalid values (quiet
+  ! and signalling NaN, infinities), and memory that was never initialised or truncated. Each error has its own status and
+  ! modifies no output; compiled with traps, none raises a signal.
   use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use microslip
@@ -17,7 +17,7 @@ program bad_input
   type :: procedure_info
     character(len=28) :: name
     integer(mslip_int) :: scalar, array  ! Status of an invalid scalar, and of an invalid element of the input array.
-    character(len=5) :: outputs          ! Four outputs and the new state: the ranks by the letters of `set_up`; required if upper case.
+    character(len=5) :: outputs          ! Four outputs and the new state: shapes as in `set_up`, upper case if required.
     character :: memory = ' '            ! s: state, w: workspace.
     logical :: batch = .false.
   end type procedure_info
