@@ -72,19 +72,19 @@ static int next_row(table *t)
         return 0;
     }
     ++t->line;
-    char *rest = line;
+    char *next = line;
     for (int column = 0; column < t->columns; ++column) {
-        char *end = rest;
-        t->value[column] = strtod(rest, &end);
-        if (end == rest) { /* variant i or ii */
-            end += strspn(rest, "i");
-            t->value[column] = (double)(end - rest);
+        char *end = next;
+        t->value[column] = strtod(next, &end);
+        if (end == next) { /* variant i or ii */
+            end += strspn(next, "i");
+            t->value[column] = (double)(end - next);
         }
-        if (end == rest || *end != (column + 1 < t->columns ? ',' : '\n')) {
+        if (end == next || *end != (column + 1 < t->columns ? ',' : '\n')) {
             fprintf(stderr, "%s: line %d is not a row of %d values\n", t->name, t->line, t->columns);
             exit(2);
         }
-        rest = end + 1;
+        next = end + 1;
     }
     return 1;
 }
@@ -352,7 +352,7 @@ static void check_elliptic(void)
         const double *v = t.value;
         mslip_elliptic_parameters p;
         mslip_contact contact;
-        double displacement, force, energy, rest, rounding;
+        double displacement, force, energy, remaining, rounding;
 
         mslip_elliptic_parameters_default(&p);
         p.semi_axis_x = v[1];
@@ -364,8 +364,8 @@ static void check_elliptic(void)
         accepted(&t, mslip_contact_init_elliptic(&p, &contact));
         compare(&t, "initial stiffness", contact.initial_stiffness, v[7], 1e-13 * v[7]);
         /* Near mu N the curve varies as (1-tau)^(2/3), which amplifies roundings of T and of mu N, five times in the energy. */
-        rest = fmax(0.0, 1.0 - v[8] / contact.slip_force);
-        rounding = pow(rest + 2.0 * DBL_EPSILON, 2.0 / 3.0) - pow(rest, 2.0 / 3.0);
+        remaining = fmax(0.0, 1.0 - v[8] / contact.slip_force);
+        rounding = pow(remaining + 2.0 * DBL_EPSILON, 2.0 / 3.0) - pow(remaining, 2.0 / 3.0);
         accepted(&t, mslip_monotonic_displacement(&contact, 1, &v[8], &displacement, NULL, NULL));
         compare(&t, "displacement", displacement, v[9], (1e-13 + rounding) * v[9]);
         accepted(&t, mslip_monotonic_force(&contact, 1, &v[9], &force, NULL, NULL));

@@ -26,9 +26,9 @@ fn text(path: &Path) -> String {
 /// A symmetric matrix of a Matrix Market file: its lower triangle by coordinates.
 fn matrix_market(path: &Path) -> DMatrix<f64> {
     let text = text(path);
-    let (header, rest) = text.split_once('\n').unwrap();
+    let (header, body) = text.split_once('\n').unwrap();
     assert_eq!(header, "%%MatrixMarket matrix coordinate real symmetric");
-    let lines = rest.lines().filter(|line| !line.starts_with('%'));
+    let lines = body.lines().filter(|line| !line.starts_with('%'));
     let mut rows =
         lines.map(|line| line.split_whitespace().map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
     let size = rows.next().unwrap();
@@ -331,7 +331,7 @@ impl TimeIntegration {
             let mut now = vec![Vec::with_capacity(steps); dofs];
             for step in 1..=steps {
                 let phase = 2.0 * PI * step as f64 / steps as f64;
-                now.iter_mut().zip(x.iter()).for_each(|(kept, x): (&mut Vec<f64>, &f64)| kept.push(*x));
+                now.iter_mut().zip(x.iter()).for_each(|(samples, x): (&mut Vec<f64>, &f64)| samples.push(*x));
                 let (x_free, v_free) = (&x + &v * h + &a * (0.25 * h * h), &v + &a * (0.5 * h));
                 let load = &case.excitation * phase.cos() - &case.damping * &v_free - &case.stiffness * &x_free;
                 let a_free = &inverse * load;

@@ -208,7 +208,7 @@ proptest! {
     }
 
     #[test]
-    fn odd_symmetry_and_rest(contact in contact(), path in path(30)) {
+    fn odd_symmetry_and_steps_of_zero(contact in contact(), path in path(30)) {
         let (mut one, mut mirrored) = (Stepper::new(&contact), Stepper::new(&contact));
         for displacement in path {
             let (force, stiffness, energy) = one.step(displacement);
@@ -308,10 +308,10 @@ proptest! {
         for sample in 0..2 * samples {
             let row = row(sample);
             let displacement: f64 = row.iter().zip(&displacement).map(|(table, c)| table * c).sum();
-            let (now, _, loss) = stepper.step(displacement / contact.slip_displacement);
+            let (now, _, energy_of_step) = stepper.step(displacement / contact.slip_displacement);
             if sample >= samples {
                 sums.iter_mut().zip(&row).for_each(|(sum, table)| *sum += now * table);
-                dissipated += loss;
+                dissipated += energy_of_step;
             }
         }
         for (k, (sum, force)) in sums.iter().zip(force).enumerate() {

@@ -385,14 +385,15 @@ contains
     real(wp), parameter :: expected(*) = [1.242778811039784882321255e2_wp, 3.127197957636783986432537e2_wp, &
       -2.337981528009959481468708e2_wp, -9.353392540431687732443905e1_wp, 1.214800760707371553515095e2_wp, &
       6.722106958983998626542111e1_wp, -4.333697401361703158366392e1_wp]
-    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7), lost, power
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7)
+    real(wp) :: dissipated, power
     real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     integer(mslip_int) :: status
     integer :: i, k
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
     call check_status('workspace', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, lost)
+    call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, dissipated)
     call check_status('harmonic force', status, MSLIP_OK)
     do i = 1, 7
       call check_close('coefficient of the force', force(i), expected(i), 1.0e-11_wp)
@@ -403,14 +404,14 @@ contains
     do k = 1, 3
       power = power + pi*real(k, wp)*(force(2*k)*displacement(2*k + 1) - force(2*k + 1)*displacement(2*k))
     end do
-    call check_close('energy of a period', lost, power, 2.0e-2_wp)
+    call check_close('energy of a period', dissipated, power, 2.0e-2_wp)
 
     ! Under one cosine the first harmonic is the complex stiffness, as far as the sampling allows.
-    call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=lost)
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=dissipated)
     call mslip_complex_stiffness(flat, 6.0e-7_wp, status, again(1), again(2))
     call check_close('first cosine', force(2), again(1)*6.0e-7_wp, 1.0e-3_wp)
     call check_close('first sine', -force(3), again(2)*6.0e-7_wp, 5.0e-3_wp)
-    call check_close('energy of a cycle', lost, pi*again(2)*6.0e-7_wp**2, tight)
+    call check_close('energy of a cycle', dissipated, pi*again(2)*6.0e-7_wp**2, tight)
     call check('no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
   end subroutine test_harmonic_force
 
@@ -419,19 +420,19 @@ contains
     integer(mslip_int), parameter :: rule = MSLIP_EVENT_DRIVEN
     real(wp), parameter :: amplitude = 6.0e-7_wp, cosine(*) = [0.0_wp, amplitude, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples, rule)), force(7), jacobian(7, 7)
-    real(wp) :: lost, k_real, k_imag
+    real(wp) :: dissipated, k_real, k_imag
     integer(mslip_size) :: found(2)
     integer(mslip_int) :: status, found_rule
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
     call check_status('event-driven workspace', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, lost)
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, dissipated)
     call check_status('event-driven harmonic force', status, MSLIP_OK)
     ! Under one cosine the first harmonic is the complex stiffness, to rounding.
     call mslip_complex_stiffness(flat, amplitude, status, k_real, k_imag)
     call check_close('event-driven: first cosine', force(2), k_real*amplitude, tight)
     call check_close('event-driven: first sine', -force(3), k_imag*amplitude, tight)
-    call check_close('event-driven: energy of a cycle', lost, pi*k_imag*amplitude**2, tight)
+    call check_close('event-driven: energy of a cycle', dissipated, pi*k_imag*amplitude**2, tight)
     call check('event-driven: no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
     ! A change of phase rotates the force.
     call check_close('event-driven: change of phase, real', jacobian(3, 3), k_real, tight)
