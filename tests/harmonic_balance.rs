@@ -120,73 +120,49 @@ fn fourier_row(coefficients: usize, phase: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Contact force from its displacement, coefficients [c0, cos1, sin1, ...] both.
-trait ContactForce {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64>;
-    /// Column-major.
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64>;
+/// Force and Jacobian of a contact from its displacement, coefficients [c0, cos1, sin1, ...].
+type Law<'a> = dyn Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) + 'a;
+
+/// The library's harmonic force with its own Jacobian.
+fn library(contact: &Contact, samples: usize) -> impl Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    move |displacement| {
+        let (force, jacobian, _) = harmonic(contact, Rule::UniformSampling, samples, displacement);
+        (force, DMatrix::from_vec(displacement.len(), displacement.len(), jacobian))
+    }
 }
 
 /// The contact stepped through three periods; derivatives by central differences.
-struct Stepped<'a> {
-    contact: &'a Contact,
-    samples: usize,
-}
-
-impl ContactForce for Stepped<'_> {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
-        let rows: Vec<Vec<f64>> = (0..self.samples)
-            .map(|sample| fourier_row(displacement.len(), 2.0 * PI * sample as f64 / self.samples as f64))
-            .collect();
-        let mut state = unloaded(self.samples + 1);
+fn stepped(contact: &Contact, samples: usize) -> impl Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    let force = move |displacement: &[f64]| -> Vec<f64> {
+        let row = |sample: usize| fourier_row(displacement.len(), 2.0 * PI * sample as f64 / samples as f64);
+        let rows: Vec<Vec<f64>> = (0..samples).map(row).collect();
+        let mut state = unloaded(samples + 1);
         let mut sums = vec![0.0; displacement.len()];
-        for period in 0..3 {
-            for row in &rows {
-                let place: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
-                let step = step(self.contact, &state, place);
-                step.write(&mut state);
-                if period == 2 {
-                    sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
-                }
+        for sample in 0..3 * samples {
+            let row = &rows[sample % samples];
+            let displacement: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
+            let step = step(contact, &state, displacement);
+            step.write(&mut state);
+            if sample >= 2 * samples {
+                sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
             }
         }
-        let mean = |(c, sum): (usize, f64)| sum * if c == 0 { 1.0 } else { 2.0 } / self.samples as f64;
+        let mean = |(c, sum): (usize, f64)| sum * if c == 0 { 1.0 } else { 2.0 } / samples as f64;
         sums.into_iter().enumerate().map(mean).collect()
-    }
-
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
-        let n = displacement.len();
+    };
+    move |displacement| {
         // Rounding of 1e-16/1e-5 and truncation of (1e-5)².
         let width = 1e-5 * displacement.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        let mut jacobian = DMatrix::zeros(n, n);
-        for j in 0..n {
-            let mut at = |sign: f64| {
+        let column = |j: usize| {
+            let moved = |sign: f64| {
                 let mut moved = displacement.to_vec();
                 moved[j] += sign * width;
-                self.force(&moved)
+                DVector::from_vec(force(&moved))
             };
-            for (i, (high, low)) in at(1.0).iter().zip(at(-1.0)).enumerate() {
-                jacobian[(i, j)] = (high - low) / (2.0 * width);
-            }
-        }
-        jacobian
-    }
-}
-
-/// The library's harmonic force with its own Jacobian.
-struct Library<'a> {
-    contact: &'a Contact,
-    samples: usize,
-}
-
-impl ContactForce for Library<'_> {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
-        harmonic(self.contact, Rule::UniformSampling, self.samples, displacement).0
-    }
-
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
-        let n = displacement.len();
-        DMatrix::from_vec(n, n, harmonic(self.contact, Rule::UniformSampling, self.samples, displacement).1)
+            (moved(1.0) - moved(-1.0)) / (2.0 * width)
+        };
+        let columns: Vec<DVector<f64>> = (0..displacement.len()).map(column).collect();
+        (force(displacement), DMatrix::from_columns(&columns))
     }
 }
 
@@ -237,23 +213,17 @@ impl<'a> Balance<'a> {
         (0..self.coefficients).map(|c| motion[self.at(c, dof)]).collect()
     }
 
-    fn residual(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DVector<f64> {
-        let mut residual = &self.linear * motion - &self.excitation;
-        for (c, force) in law.force(&self.of_dof(motion, self.case.touching)).iter().enumerate() {
-            residual[self.at(c, self.case.touching)] += force;
-        }
-        residual
-    }
-
-    fn jacobian(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DMatrix<f64> {
-        let mut jacobian = self.linear.clone();
-        let contact = law.jacobian(&self.of_dof(motion, self.case.touching));
+    fn residual_and_jacobian(&self, law: &Law, motion: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (mut residual, mut jacobian) = (&self.linear * motion - &self.excitation, self.linear.clone());
+        let (force, derivatives) = law(&self.of_dof(motion, self.case.touching));
+        let at = |coefficient: usize| self.at(coefficient, self.case.touching);
         for i in 0..self.coefficients {
+            residual[at(i)] += force[i];
             for j in 0..self.coefficients {
-                jacobian[(self.at(i, self.case.touching), self.at(j, self.case.touching))] += contact[(i, j)];
+                jacobian[(at(i), at(j))] += derivatives[(i, j)];
             }
         }
-        jacobian
+        (residual, jacobian)
     }
 
     /// The motion with a linear spring in place of the contact.
@@ -266,29 +236,30 @@ impl<'a> Balance<'a> {
     }
 
     /// Newton's method with step halving, down to rounding.
-    fn newton(&self, law: &mut impl ContactForce, start: DVector<f64>, share: f64) -> Solution {
+    fn newton(&self, law: &Law, mut motion: DVector<f64>, share: f64) -> Solution {
         let excitation = &self.excitation * share;
-        let residual_at = |law: &mut _, motion: &_| self.residual(law, motion) + &self.excitation - &excitation;
-        let mut motion = start;
-        let mut residual = residual_at(law, &motion);
+        let at = |motion: &DVector<f64>| {
+            let (residual, jacobian) = self.residual_and_jacobian(law, motion);
+            (residual + &self.excitation - &excitation, jacobian)
+        };
+        let (mut residual, mut jacobian) = at(&motion);
         let mut residuals = vec![residual.norm() / excitation.norm()];
         for _ in 0..60 {
             if residuals.last().is_some_and(|left| *left < 1e-14) {
                 break;
             }
-            let step = self.jacobian(law, &motion).lu().solve(&residual).unwrap();
+            let step = jacobian.clone().lu().solve(&residual).unwrap();
             let halved = (0..10).map(|halvings| &motion - &step * 0.5f64.powi(halvings));
-            let better =
-                halved.map(|trial| (residual_at(law, &trial), trial)).find(|(left, _)| left.norm() < residual.norm());
-            let Some((left, next)) = better else { break };
-            (motion, residual) = (next, left);
+            let better = halved.map(|trial| (at(&trial), trial)).find(|((left, _), _)| left.norm() < residual.norm());
+            let Some(((left, slope), next)) = better else { break };
+            (motion, residual, jacobian) = (next, left, slope);
             residuals.push(residual.norm() / excitation.norm());
         }
         Solution { motion, residuals }
     }
 
     /// Continuation in the excitation, with steps refined until Newton's method converges.
-    fn solve(&self, law: &mut impl ContactForce) -> Solution {
+    fn solve(&self, law: &Law) -> Solution {
         for steps in [1, 4, 16, 64] {
             let mut solution = Solution {
                 motion: self.with_spring(self.case.contact.initial_stiffness) / steps as f64,
@@ -424,7 +395,7 @@ fn compare(case: &Case, table: &str, name: &str) {
     let mut worst: f64 = 0.0;
     for (rows, &frequency) in rows.chunks(dofs).zip(&case.frequencies) {
         let balance = Balance::new(case, frequency, case.harmonics);
-        let solution = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
+        let solution = balance.solve(&stepped(&case.contact, case.samples));
         for (dof, row) in rows.iter().enumerate() {
             assert_eq!(row[..2], [frequency, (dof + 1) as f64], "{name}");
             let here = balance.of_dof(&solution.motion, dof);
@@ -477,8 +448,8 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
     let mut regimes = [false; 2];
     for &frequency in &case.frequencies {
         let balance = Balance::new(&case, frequency, case.harmonics);
-        let stepped = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
-        let library = balance.solve(&mut Library { contact: &case.contact, samples: case.samples });
+        let stepped = balance.solve(&stepped(&case.contact, case.samples));
+        let library = balance.solve(&library(&case.contact, case.samples));
         let moved = norm((&stepped.motion - &library.motion).as_slice()) / norm(library.motion.as_slice());
         // Both are converged to rounding error.
         assert!(moved < 1e-12, "{frequency} Hz: {moved:e}");
@@ -506,7 +477,7 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
 /// that of the omitted harmonics.
 fn finely_sampled(case: &Case, frequency: f64, harmonics: usize) -> [Vec<f64>; 2] {
     let balance = Balance::new(case, frequency, harmonics);
-    let solution = balance.solve(&mut Library { contact: &case.contact, samples: 1024 });
+    let solution = balance.solve(&library(&case.contact, 1024));
     [0, 1].map(|dof| balance.of_dof(&solution.motion, dof))
 }
 
