@@ -85,7 +85,7 @@ fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
     let next = || jobs.lock().unwrap().pop();
     let work = || {
         while let Some(job) = next() {
-            job().unwrap_or_else(|error| errors.lock().unwrap().push(error))
+            job().unwrap_or_else(|error| errors.lock().unwrap().push(error));
         }
     };
     std::thread::scope(|scope| [(); 2].map(|()| scope.spawn(work)).map(|thread| thread.join().unwrap()));

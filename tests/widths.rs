@@ -53,7 +53,7 @@ fn the_curve_has_the_same_bits() {
         let (mut force, mut stiffness) = (vec![0.0; 1000], vec![0.0; 1000]);
         let (f, k) = (force.as_mut_ptr(), stiffness.as_mut_ptr());
         // SAFETY: arrays of the given lengths.
-        assert_eq!(unsafe { mslip_monotonic_force(&in_c, 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
+        assert_eq!(unsafe { mslip_monotonic_force(&raw const in_c, 1000, displacement.as_ptr(), f, k, null_mut()) }, 0);
         for ((&x, force), stiffness) in displacement.iter().zip(force).zip(stiffness) {
             let point = contact.curve_at_displacement(x).unwrap();
             assert_eq!(bits(&[point.force(), point.stiffness()]), bits(&[force, stiffness]));
@@ -69,7 +69,7 @@ fn the_complex_stiffness_has_the_same_bits() {
             let mut outputs = [0.0; 4];
             let [a, b, c, d] = &mut outputs;
             // SAFETY: arrays of the given lengths.
-            assert_eq!(unsafe { mslip_complex_stiffness(&in_c, 1, &raw const amplitude, a, b, c, d) }, 0);
+            assert_eq!(unsafe { mslip_complex_stiffness(&raw const in_c, 1, &raw const amplitude, a, b, c, d) }, 0);
             let k = contact.complex_stiffness(amplitude).unwrap();
             assert_eq!(bits(&[k.real(), k.imaginary(), k.d_real(), k.d_imag()]), bits(&outputs), "{part}");
         }
@@ -86,9 +86,12 @@ fn a_path_has_the_same_bits() {
             let [mut force, mut stiffness, mut dissipated] = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
             if through_c {
                 let (state, length) = (state.as_mut_ptr(), state.len());
-                let [f, k, e] = [&mut force, &mut stiffness, &mut dissipated].map(|output| output.as_mut_ptr());
+                let [f, k, e] = [&mut force, &mut stiffness, &mut dissipated].map(Vec::as_mut_ptr);
                 // SAFETY: arrays of the given lengths.
-                assert_eq!(unsafe { mslip_masing_path(&in_c, length, state, n, path.as_ptr(), state, f, k, e) }, 0);
+                assert_eq!(
+                    unsafe { mslip_masing_path(&raw const in_c, length, state, n, path.as_ptr(), state, f, k, e) },
+                    0
+                );
             } else {
                 let [force, stiffness, dissipated] =
                     [&mut force, &mut stiffness, &mut dissipated].map(|v| Some(v.as_mut_slice()));
@@ -122,7 +125,7 @@ fn the_harmonic_force_has_the_same_bits() {
                 // SAFETY: arrays of the given lengths.
                 unsafe {
                     assert_eq!(mslip_harmonic_workspace_init(harmonics, samples, number, workspace.len(), w), 0);
-                    assert_eq!(mslip_harmonic_force(&in_c, w, u, f, j, &raw mut energy), 0);
+                    assert_eq!(mslip_harmonic_force(&raw const in_c, w, u, f, j, &raw mut energy), 0);
                 }
                 let expected = harmonic(&contact, rule, samples, &displacement);
                 let expected = [bits(&expected.0), bits(&expected.1), bits(&[expected.2])];
