@@ -87,11 +87,10 @@ fn a_path_has_the_same_bits() {
             if through_c {
                 let (state, length) = (state.as_mut_ptr(), state.len());
                 let [f, k, e] = [&mut force, &mut stiffness, &mut dissipated].map(Vec::as_mut_ptr);
+                let (contact, path) = (&raw const in_c, path.as_ptr());
                 // SAFETY: arrays of the given lengths.
-                assert_eq!(
-                    unsafe { mslip_masing_path(&raw const in_c, length, state, n, path.as_ptr(), state, f, k, e) },
-                    0
-                );
+                let status = unsafe { mslip_masing_path(contact, length, state, n, path, state, f, k, e) };
+                assert_eq!(status, 0);
             } else {
                 let [force, stiffness, dissipated] =
                     [&mut force, &mut stiffness, &mut dissipated].map(|v| Some(v.as_mut_slice()));
