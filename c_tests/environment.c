@@ -320,6 +320,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                 CONTACTS[k] = contact;
             }
             fill_states(f);
+            call.n = f->kind == NONE || f->kind == DISPLACEMENT ? call.n : 1; /* otherwise all items are equal */
             for (size_t a = 0; a < LENGTH(amplitudes); ++a) {
                 const int is_force = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE;
                 const double value = is_force ? fmin(amplitudes[a], 1.0) * contact.slip_force
