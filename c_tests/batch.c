@@ -1,144 +1,113 @@
-/* Batch calls: each item has the bits of a single call with its contact, whether contacts are shared by an index or not. Items that
-   are not active keep their outputs. */
-#include "bad_calls.h"
+/* Outputs of every function: each subset has the bits of the full call. Each item of a batch has the bits of a single call with its
+   contact, whether contacts are shared by an index or not. Items that are not active keep their outputs. */
+#include "calls.h"
 
-enum { SHARED = 3, BUFFERS = 5 };
+enum { SHARED = 3, MOST = ITEMS * (STATE + SQUARE) };
 static const int32_t shared_index[ITEMS] = { 2, 0, 2, 1, 2 };
+static double expected[OUTPUTS][MOST];
 
-/* Output buffers of a batch: the new states, and four arrays. */
-static size_t buffer_length(const function *f, int i)
-{
-    return i == 0 ? f->state1 : f->out[i - 1];
-}
-
-static double *buffer(int i)
-{
-    return i == 0 ? call.state1 : call.out[i - 1];
-}
-
-static void set_buffer(int i, double *memory)
-{
-    *(i == 0 ? &call.state1 : &call.out[i - 1]) = memory;
-}
-
-static void fill_outputs(void)
-{
-    memset(state1_region->start, 0xff, state1_region->bytes);
-    for (int i = 0; i < 4; ++i) {
-        memset(out_regions[i]->start, 0xff, out_regions[i]->bytes);
-    }
-}
-
-/* Valid arguments with contacts of three kinds: one per item, or shared, and then the last ones before the protected page. */
+/* Valid arguments. A batch has contacts of three kinds: one per item, or shared and the last ones before the protected page. */
 static void set_up_contacts(const function *f, int shared)
 {
-    const mslip_contact kinds[SHARED] = { flat_contact(), cylinder_contact(), elliptic_contact() };
     set_up(f);
-    for (size_t i = 0; i < ITEMS; ++i) {
-        contacts()[i] = kinds[shared_index[i]];
+    fill_outputs();
+    if (!(f->takes & IS_BATCH)) {
+        return;
     }
-    fill_states(f, HELD);
+    for (size_t i = 0; i < ITEMS; ++i) {
+        CONTACTS[i] = contact_of(shared_index[i]);
+    }
+    fill_states(f);
     call.index = NULL;
     if (shared) {
         call.index = last(index_region, sizeof shared_index);
-        memcpy(indices(), shared_index, sizeof shared_index);
-        call.contacts = last(contact_region, sizeof kinds);
-        memcpy(contacts(), kinds, sizeof kinds);
+        memcpy(INDICES, shared_index, sizeof shared_index);
+        call.contacts = last(contact_region, SHARED * sizeof(mslip_contact));
+        for (int i = 0; i < SHARED; ++i) {
+            CONTACTS[i] = contact_of(i);
+        }
         call.n_contacts = SHARED;
     }
 }
 
-static double expected[BUFFERS][ITEMS * (STATE + SQUARE)];
-
-/* The results of single calls. */
+/* The results of the full call, or for a batch those of single calls. */
 static void call_singly(const function *f)
 {
-    char name[64] = "mslip_";
-    const function *single;
-    strcat(name, f->name + strlen("mslip_batch_"));
-    single = find(name, f->rule);
+    const size_t items = items_of(f);
+    const function *single = f;
     set_up_contacts(f, 0);
-    fill_outputs();
-    const double *const all = call.input;
-    call.n = 1;
-    for (size_t i = 0; i < ITEMS; ++i) {
-        const double *const at = all + i * f->inputs / ITEMS;
-        call.input = at;
-        call.scalar = *at;
+    if (f->takes & IS_BATCH) {
+        char name[64] = "mslip_";
+        strcat(name, f->name + strlen("mslip_batch_"));
+        single = find(name, f->rule);
+        call.n = 1;
+    }
+    const arguments first = call;
+    for (size_t i = 0; i < items; ++i) {
+        if (f->takes & IS_BATCH) {
+            call.contacts = &first.contacts[i];
+            call.input = first.input + i * (f->inputs / items);
+            call.scalar = call.input[0];
+            call.state = f->takes & TAKES_STATE ? first.state + i * STATE : NULL;
+        }
         CHECK(single->call() == MSLIP_OK);
-        ++call.contacts;
-        if (f->takes & TAKES_STATE) {
-            call.state0 += STATE;
-        }
-        for (int k = 0; k < BUFFERS; ++k) {
-            const size_t length = buffer_length(f, k) / ITEMS;
+        for (int k = 0; k < OUTPUTS; ++k) {
+            const size_t length = f->out[k] / items;
             if (length > 0) {
-                memcpy(&expected[k][i * length], buffer(k), length * sizeof(double));
-                set_buffer(k, buffer(k) + length);
+                memcpy(&expected[k][i * length], call.out[k], length * sizeof(double));
+                call.out[k] += length;
             }
         }
     }
 }
 
-/* Requested outputs of active items have the bits of single calls; all else has its old bits. */
-static int is_as_expected(const function *f, int requested, int active_items, double *const outputs[BUFFERS])
+/* Requested outputs of active items have the expected bits; all others keep their bits. */
+static void check_call(const function *f, int shared, int requested, int active_items)
 {
-    int holds = 1;
-    for (int k = 0; k < BUFFERS; ++k) {
-        const size_t length = buffer_length(f, k) / ITEMS;
-        for (size_t i = 0; i < ITEMS && length > 0; ++i) {
-            const double *values = outputs[k] + i * length;
-            if ((requested >> k & 1) && (active_items >> i & 1)) {
-                holds &= same_bits(values, &expected[k][i * length], length);
-            } else {
-                for (size_t byte = 0; byte < length * sizeof(double); ++byte) {
-                    holds &= ((const unsigned char *)values)[byte] == 0xff;
-                }
-            }
-        }
-    }
-    return holds;
-}
-
-static void check_batch(const function *f, int shared, int requested, int active_items)
-{
-    double *outputs[BUFFERS];
+    double unset[MOST], *outputs[OUTPUTS];
+    int holds;
+    memset(unset, 0xff, sizeof unset);
     set_up_contacts(f, shared);
-    fill_outputs();
-    for (size_t i = 0; i < ITEMS; ++i) {
-        active()[i] = active_items >> i & 1 ? (int32_t)i - 7 : 0;
+    for (size_t i = 0; (f->takes & IS_BATCH) && i < ITEMS; ++i) {
+        ACTIVE[i] = active_items >> i & 1 ? (int32_t)i - 7 : 0;
     }
-    for (int k = 0; k < BUFFERS; ++k) {
-        outputs[k] = buffer(k);
-        set_buffer(k, requested >> k & 1 ? outputs[k] : NULL);
+    for (int k = 0; k < OUTPUTS; ++k) {
+        outputs[k] = call.out[k];
+        call.out[k] = requested >> k & 1 ? outputs[k] : NULL;
     }
-    if (!CHECK(f->call() == MSLIP_OK && raised() == 0 && is_as_expected(f, requested, active_items, outputs))) {
+    holds = f->call() == MSLIP_OK && raised() == 0;
+    for (int k = 0; k < OUTPUTS; ++k) {
+        const size_t length = f->out[k] / items_of(f);
+        for (size_t i = 0; i < items_of(f) && length > 0; ++i) {
+            const int written = (requested >> k & 1) && (active_items >> i & 1);
+            holds &= same_bits(outputs[k] + i * length, written ? &expected[k][i * length] : unset, length);
+        }
+    }
+    if (!CHECK(holds)) {
         printf("    %s, shared %d, outputs %x, active %x\n", f->name, shared, (unsigned)requested, (unsigned)active_items);
     }
 }
 
 int main(int argc, char **argv)
 {
-    enum { ALL_OUTPUTS = (1 << BUFFERS) - 1, ALL_ITEMS = (1 << ITEMS) - 1 };
+    enum { ALL_OUTPUTS = (1 << OUTPUTS) - 1, ALL_ITEMS = (1 << ITEMS) - 1 };
     check_arguments(argc, argv);
     make_regions();
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
-        if (!(f->takes & IS_BATCH)) {
-            continue;
-        }
+        const int is_batch = (f->takes & IS_BATCH) != 0;
         call_singly(f);
-        for (int shared = 0; shared < 2; ++shared) {
-            for (int items = 0; items <= ALL_ITEMS; ++items) {
-                check_batch(f, shared, ALL_OUTPUTS, items);
-            }
+        for (int shared = 0; shared <= is_batch; ++shared) {
             for (int outputs = 0; outputs <= ALL_OUTPUTS; ++outputs) {
-                check_batch(f, shared, outputs, ALL_ITEMS);
+                check_call(f, shared, outputs, ALL_ITEMS);
             }
-            if (f->state1 > 0) {
+            for (int items = 0; is_batch && items <= ALL_ITEMS; ++items) {
+                check_call(f, shared, ALL_OUTPUTS, items);
+            }
+            if (is_batch && f->out[0] > 0) {
                 set_up_contacts(f, shared);
-                call.state1 = states0();
-                CHECK(f->call() == MSLIP_OK && same_bits(states0(), expected[0], f->state1));
+                call.out[0] = STATES;
+                CHECK(f->call() == MSLIP_OK && same_bits(STATES, expected[0], f->out[0]));
             }
         }
     }

@@ -1,4 +1,4 @@
-/* check.h: what the drivers share: checks that count, floating-point traps, the last line. Include it first. */
+/* check.h: counted checks, floating-point traps and the last line of each driver. Include it first. */
 #ifndef CHECK_H
 #define CHECK_H
 
@@ -27,7 +27,7 @@ static inline int check_that(int holds, const char *file, int line, const char *
 /* The condition holds. */
 #define CHECK(condition) check_that(!!(condition), __FILE__, __LINE__, #condition)
 
-/* |got - want| <= tolerance. A NaN fails, and is kept from the comparison, where it would trap. */
+/* |got - want| <= tolerance. A NaN fails without being compared, which would trap. */
 static inline int is_near(double got, double want, double tolerance)
 {
     if (isinf(want)) {
@@ -48,7 +48,7 @@ static inline int check_near(double got, double want, double tolerance, const ch
 #define CHECK_NEAR(got, want, tolerance) check_near((got), (want), (tolerance), __FILE__, __LINE__, #got)
 #define CHECK_RELATIVE(got, want, tolerance) CHECK_NEAR((got), (want), (tolerance) * fabs(want))
 
-/* `--trap` makes invalid operations, divisions by zero and overflows deadly. Returns the index of the next argument. */
+/* With `--trap`, invalid operations, divisions by zero and overflows end the program. Returns the index of the next argument. */
 static inline int check_arguments(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "--trap") == 0) {

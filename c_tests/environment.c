@@ -1,7 +1,7 @@
 /* Floating-point environments of the caller: four rounding modes, subnormal values flushed, flags already raised. No call hangs,
    raises an exception that may be trapped, returns another status or changes the environment, and every result is near that of the
    default environment. */
-#include "bad_calls.h"
+#include "calls.h"
 
 #if defined(__SSE2__) && (defined(__GNUC__) || defined(__clang__))
 #include <xmmintrin.h>
@@ -30,7 +30,7 @@ static const struct {
     { "flushed, downward", FE_DOWNWARD, FLUSH_TO_ZERO | DENORMALS_ARE_ZERO },
 #endif
 };
-enum { ENVIRONMENTS = sizeof environments / sizeof *environments };
+enum { ENVIRONMENTS = LENGTH(environments) };
 
 static unsigned control_bits(void)
 {
@@ -50,30 +50,27 @@ static void enter(int environment)
 }
 
 /* Contacts of every kind, each initialised in the environment. */
-enum { CONTACTS = 8 };
-static int32_t make_contact(int kind, mslip_contact *contact)
+enum { CONTACT_KINDS = 8 };
+static mslip_contact contact_in_environment(int kind)
 {
     mslip_parameters p = flat_parameters();
-    mslip_elliptic_parameters e = elliptic_parameters();
+    mslip_contact contact;
     switch (kind) {
-        case 0: break;
-        case 1: p.flat_half_width = 0.0; break;
-        case 2: p.flat_half_width = 1e-6; break;
-        case 3: p.normal_force = 1e-9; break;             /* nearly flat */
-        case 4:                                           /* little longer than half the half-width */
+        case 5: p.flat_half_width = 1e-6; break;
+        case 6: p.normal_force = 1e-9; break; /* nearly flat */
+        case 7:                               /* little longer than half the half-width */
             p.normal_force *= 1.7e-4 / p.length;
             p.length = 1.7e-4;
             break;
-        case 5: p.normal_force = 0.0; break;              /* open */
-        case 6: p.friction_coefficient = 0.0; break;
-        default: return mslip_contact_init_elliptic(&e, contact);
+        default: return init_contact(kind);
     }
-    return mslip_contact_init(&p, contact);
+    CHECK(mslip_contact_init(&p, &contact) == MSLIP_OK);
+    return contact;
 }
 
 /* Factors of displacements and amplitudes: from full stick to gross slip, and far beyond. */
 static const double factors[] = { 1e-310, 1e-12, 0.03, 1.0, 12.0, 1e140 };
-enum { FACTORS = sizeof factors / sizeof *factors };
+enum { FACTORS = LENGTH(factors) };
 
 enum { MOST_VALUES = 1 << 19, MOST_CALLS = 1 << 12 };
 static double values[2][MOST_VALUES];
@@ -94,24 +91,24 @@ static void run(int environment, int32_t *status, double *value)
     const unsigned control = control_bits();
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
-        const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
-        for (int kind = 0; kind < CONTACTS; ++kind) {
+        const size_t items = items_of(f);
+        for (int kind = 0; kind < CONTACT_KINDS; ++kind) {
             for (int factor = 0; factor < FACTORS; ++factor) {
                 set_up(f);
                 for (size_t k = 0; k < items; ++k) {
-                    CHECK(make_contact((kind + (int)k) % CONTACTS, &contacts()[k]) == MSLIP_OK);
+                    CONTACTS[k] = contact_in_environment((kind + (int)k) % CONTACT_KINDS);
                 }
-                fill_states(f, HELD);
+                fill_states(f);
                 for (size_t k = 0; k < f->inputs; ++k) {
-                    input()[k] = valid_value(f->kind, k, contacts()[0].slip_force);
-                    input()[k] *= f->kind == DISPLACEMENT || f->kind == AMPLITUDE ? factors[factor] : 1.0;
+                    INPUT[k] = valid_value(f->kind, k, CONTACTS[0].slip_force);
+                    INPUT[k] *= f->kind == DISPLACEMENT || f->kind == AMPLITUDE ? factors[factor] : 1.0;
                 }
-                call.scalar = valid_value(f->scalar, 3, contacts()[0].slip_force);
+                call.scalar = valid_value(f->scalar, 3, CONTACTS[0].slip_force);
                 call.scalar *= f->scalar == DISPLACEMENT || f->scalar == AMPLITUDE ? factors[factor] : 1.0;
                 feclearexcept(FE_ALL_EXCEPT);
                 *status++ = f->call();
                 check_environment(environment, f->name, control);
-                for (int k = 0; k < 4; ++k) {
+                for (int k = 1; k < OUTPUTS; ++k) {
                     memcpy(value, last(out_regions[k], f->out[k] * 8), f->out[k] * 8);
                     value += f->out[k];
                 }
@@ -119,14 +116,13 @@ static void run(int environment, int32_t *status, double *value)
         }
     }
 }
+
 /* The largest finite magnitude of an array. */
 static double largest(const double *value, size_t n)
 {
     double most = 0.0;
     for (size_t i = 0; i < n; ++i) {
-        if (isfinite(value[i]) && fabs(value[i]) > most) {
-            most = fabs(value[i]);
-        }
+        most = isfinite(value[i]) ? fmax(most, fabs(value[i])) : most;
     }
     return most;
 }
@@ -138,8 +134,8 @@ static double distance(const double *value, const double *other, size_t n)
     for (size_t i = 0; i < n; ++i) {
         if (!isfinite(value[i]) || !isfinite(other[i])) {
             most = same_bits(&value[i], &other[i], 1) ? most : INFINITY;
-        } else if (fabs(value[i] - other[i]) > most) {
-            most = fabs(value[i] - other[i]);
+        } else {
+            most = fmax(most, fabs(value[i] - other[i]));
         }
     }
     return most;
@@ -149,7 +145,7 @@ static double distance(const double *value, const double *other, size_t n)
 static double tolerance(const function *f, int output, size_t factor)
 {
     if (strcmp(f->name, "mslip_iwan_equivalent") == 0) {
-        return output == 2 ? 1e-3 : 1e-6; /* by bisection to 1e-6; so small an error is mostly rounding */
+        return output == 3 ? 1e-3 : 1e-6; /* by bisection to 1e-6; so small an error is mostly rounding */
     }
     if (strcmp(f->name, "mslip_jenkins_equivalent") == 0) {
         return 1e-5; /* far in gross slip it depends on the third power of a small angle */
@@ -168,12 +164,10 @@ static double usual_size(const function *f, int output, const double *value, siz
 {
     double usual = 0.0;
     for (size_t k = 0; k + 1 < FACTORS; ++k) {
-        const double most = largest(value + k * all, n);
-        usual = most > usual ? most : usual;
+        usual = fmax(usual, largest(value + k * all, n));
     }
-    if (strstr(f->name, "complex_stiffness") != NULL && output >= 2 && factor > 0) {
-        const double quotient = largest(value + factor * all - output * n, n) / (4e-8 * factors[factor]);
-        usual = quotient > usual ? quotient : usual;
+    if (strstr(f->name, "complex_stiffness") != NULL && output >= 3 && factor > 0) {
+        usual = fmax(usual, largest(value + factor * all - (output - 1) * n, n) / (4e-8 * factors[factor]));
     }
     return usual;
 }
@@ -185,15 +179,15 @@ static void compare(int environment)
     const double *value = values[0], *other = values[1];
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
-        const size_t all = f->out[0] + f->out[1] + f->out[2] + f->out[3];
-        for (int kind = 0; kind < CONTACTS; ++kind) {
+        const size_t all = f->out[1] + f->out[2] + f->out[3] + f->out[4];
+        for (int kind = 0; kind < CONTACT_KINDS; ++kind) {
             for (size_t factor = 0; factor < FACTORS; ++factor) {
                 const double *first = value;
                 CHECK(*status++ == *other_status++);
-                for (int k = 0; k < 4; ++k) {
+                for (int k = 1; k < OUTPUTS; ++k) {
                     const size_t n = f->out[k];
-                    const double usual = usual_size(f, k, first - factor * all, all, n, factor), most = largest(value, n);
-                    const double scale = most > usual ? most : usual, off = distance(value, other, n);
+                    const double usual = usual_size(f, k, first - factor * all, all, n, factor);
+                    const double scale = fmax(largest(value, n), usual), off = distance(value, other, n);
                     if ((factor > 0 || environments[environment].flushing == 0) &&
                         !CHECK(off <= tolerance(f, k, factor) * scale)) {
                         printf("    %s, %s: contact %d, factor %g, output %d: %.2g of %.2g\n", f->name,
@@ -216,7 +210,7 @@ static void reject(int environment)
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
         set_up(f);
-        double *number = f->scalar != NONE ? &call.scalar : input();
+        double *number = f->scalar != NONE ? &call.scalar : INPUT;
         const int kind = f->scalar != NONE ? f->scalar : f->kind;
         for (int k = 0; kind != NONE && k < NON_FINITE; ++k) {
             memcpy(number, &non_finite[k], sizeof *number);
@@ -307,7 +301,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
     static const double amplitudes[] = { 0.0, 5e-324, 1e-300, 1e-40, 1e-20, 1e-12, 1e-6, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.975, 0.99,
                                          0.999, 0.999999, 1.0, 1.0000001, 1.01, 1.04, 1.06, 1.5, 3.0, 1e3, 1e100 };
     const unsigned control = control_bits();
-    for (size_t m = 0; m < sizeof margins / sizeof *margins; ++m) {
+    for (size_t m = 0; m < LENGTH(margins); ++m) {
         mslip_parameters p = *shortest;
         mslip_contact contact;
         p.length *= 1.0 + margins[m];
@@ -322,18 +316,19 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
         for (int i = 0; i < FUNCTIONS; ++i) {
             const function *f = &functions[i];
             set_up(f);
-            for (size_t k = 0; k < (f->takes & IS_BATCH ? ITEMS : 1); ++k) {
-                contacts()[k] = contact;
+            for (size_t k = 0; k < items_of(f); ++k) {
+                CONTACTS[k] = contact;
             }
-            fill_states(f, f->takes & TAKES_STATE ? HELD : 0);
-            for (size_t a = 0; a < sizeof amplitudes / sizeof *amplitudes; ++a) {
-                const double unit = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE ? contact.slip_force
-                                                                                                          : contact.slip_displacement;
-                const double value = (unit == contact.slip_force ? fmin(amplitudes[a], 1.0) : amplitudes[a]) * unit;
+            fill_states(f);
+            call.n = f->kind == NONE || f->kind == DISPLACEMENT ? call.n : 1; /* otherwise all items are equal */
+            for (size_t a = 0; a < LENGTH(amplitudes); ++a) {
+                const int is_force = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE;
+                const double value = is_force ? fmin(amplitudes[a], 1.0) * contact.slip_force
+                                              : amplitudes[a] * contact.slip_displacement;
                 call.scalar = f->scalar == NONE ? 0.0 : value;
                 for (size_t k = 0; k < f->inputs; ++k) {
                     const int alternates = f->kind == DISPLACEMENT && k % 2 == 1;
-                    input()[k] = f->kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
+                    INPUT[k] = f->kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
                 }
                 feclearexcept(FE_ALL_EXCEPT);
                 if (!CHECK(f->call() == MSLIP_OK || strcmp(f->name, "mslip_masing_tractions") == 0)) {
@@ -345,7 +340,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                     printf("    a %g, length %a, reference %d, amplitude %g\n", p.flat_half_width, p.length,
                            (int)p.displacement_reference, amplitudes[a]);
                 }
-                if (f->takes & IS_SLIDERS) {
+                if (f->takes & IS_IWAN) {
                     break;
                 }
             }

@@ -1,10 +1,9 @@
-/* Every table of high-precision reference values against the C interface.
+/* The C interface against every table of high-precision reference values.
  *
  *     golden [--trap] [DIRECTORY]
  *
- * The inputs of the tables are doubles, so a difference is the library's own, but for the rounding that the definition
- * of a quantity magnifies: mu N is rounded before it is compared with T, b before it is compared with x. Where that
- * matters, the tolerance says so. */
+ * The inputs of the tables are doubles, so a difference is an error of the library, or a rounding error that the definition of a
+ * quantity amplifies (mu N is rounded before it is compared with T, b before it is compared with x), which the tolerance covers. */
 #include "check.h"
 
 #include <microslip.h>
@@ -27,7 +26,7 @@ typedef struct table {
 typedef struct reference_contact {
     mslip_parameters parameters;
     mslip_contact contact;
-    double slip_force; /* as the table has it */
+    double slip_force; /* of the table */
     double tolerance;
 } reference_contact;
 
@@ -35,7 +34,7 @@ static const char *directory = "tests/golden";
 static reference_contact contacts[MAX_CONTACTS];
 static int contact_count;
 
-/* A table whose columns must be the expected ones. */
+/* Opens a table with these columns. */
 static table open_table(const char *name, const char *columns)
 {
     table t;
@@ -62,7 +61,7 @@ static table open_table(const char *name, const char *columns)
     return t;
 }
 
-/* Reads the next row; 0 at the end of the table, which must hold at least one row. */
+/* Reads the next row; 0 at the end. A table has at least one row. */
 static int next_row(table *t)
 {
     char line[8192];
@@ -73,19 +72,19 @@ static int next_row(table *t)
         return 0;
     }
     ++t->line;
-    char *rest = line;
+    char *next = line;
     for (int column = 0; column < t->columns; ++column) {
-        char *end = rest;
-        t->value[column] = strtod(rest, &end);
-        if (end == rest) { /* variant i or ii */
-            end += strspn(rest, "i");
-            t->value[column] = (double)(end - rest);
+        char *end = next;
+        t->value[column] = strtod(next, &end);
+        if (end == next) { /* variant i or ii */
+            end += strspn(next, "i");
+            t->value[column] = (double)(end - next);
         }
-        if (end == rest || *end != (column + 1 < t->columns ? ',' : '\n')) {
+        if (end == next || *end != (column + 1 < t->columns ? ',' : '\n')) {
             fprintf(stderr, "%s: line %d is not a row of %d values\n", t->name, t->line, t->columns);
             exit(2);
         }
-        rest = end + 1;
+        next = end + 1;
     }
     return 1;
 }
@@ -103,7 +102,7 @@ static const reference_contact *contact_of(const table *t, int column)
 static void compare(const table *t, const char *what, double got, double want, double tolerance)
 {
     char text[128];
-    snprintf(text, sizeof text, "%s is near the table's", what);
+    snprintf(text, sizeof text, "%s of the table", what);
     check_near(got, want, tolerance, t->name, t->line, text);
 }
 
@@ -112,7 +111,7 @@ static void accepted(const table *t, int32_t status)
     check_that(status == MSLIP_OK, t->name, t->line, mslip_status_text(status));
 }
 
-/* How far four roundings of tau move the stick half-width c, over c. From g(w_c) = (1-tau) g(w_b), with g' = 4 w psi and
+/* Relative error of the stick half-width c due to four roundings of tau. From g(w_c) = (1-tau) g(w_b), with g' = 4 w psi and
    g <= 2 w^2 psi: dc/c = w dw/c^2 <= (w/c)^2 dtau/(2 (1-tau)). */
 static double stick_uncertainty(const reference_contact *r, double force, double stick)
 {
@@ -206,7 +205,7 @@ static void check_complex_stiffness(void)
         const reference_contact *r = contact_of(&t, 0);
         double amplitude = t.value[1], k_real = t.value[2], k_imag = t.value[3], energy = t.value[6];
         double got[4], slipped = 0.0;
-        /* What slips is a difference of two displacements: to a nearly flat contact its rounding is all. */
+        /* The slipped length is a difference of two displacements: of a nearly flat contact it is all rounding. */
         if (amplitude >= r->contact.slip_displacement * (1.0 - 4.0 * DBL_EPSILON)) {
             slipped = 4.0 * r->slip_force * 2.0 * DBL_EPSILON * r->contact.slip_displacement;
         }
@@ -216,8 +215,7 @@ static void check_complex_stiffness(void)
                 r->tolerance * k_imag + slipped / (PI * amplitude * amplitude));
         compare(&t, "pi K'' amplitude^2", PI * got[1] * amplitude * amplitude, energy,
                 2.0 * r->tolerance * energy + slipped);
-        /* A derivative counts as far as it moves K over an amplitude; where it jumps, the table has none, and the
-           library one of its two sides. */
+        /* Errors of a derivative are relative to K over an amplitude; at a jump the table has NaN, and the library one side. */
         for (int part = 0; part < 2; ++part) {
             check_that(isfinite(got[2 + part]), t.name, t.line, "the derivative of K is finite");
             if (!isnan(t.value[4 + part])) {
@@ -242,7 +240,7 @@ static void check_history(const table *t, const reference_contact *r, size_t n, 
     accepted(t, mslip_state_init(length, state));
     accepted(t, mslip_masing_path(&r->contact, length, state, n, displacement, state, force, NULL, NULL));
     for (size_t i = 0; i < n; ++i) {
-        /* A force is a sum over reversals: it has the roundings of the largest of them. */
+        /* A force is a sum over reversals and has the rounding error of the largest term. */
         largest = fmax(largest, fabs(want[i]));
         compare(t, "force", force[i], want[i], 2.0 * r->tolerance * largest);
     }
@@ -299,8 +297,8 @@ static void check_harmonic_force(void)
     }
 }
 
-/* How far the rounding of x and of the edge moves a quantity that falls to zero at the edge like a power of the
-   distance from it, over that quantity. */
+/* Relative error, due to the rounding of x and of the edge, of a quantity that decreases to zero at the edge as a power of the
+   distance. */
 static double edge_uncertainty(double power, double x, double edge, double uncertainty)
 {
     double distance = fabs(edge - fabs(x)) / fmax(edge, DBL_MIN);
@@ -338,7 +336,7 @@ static void check_slip(void)
 
         accepted(&t, mslip_monotonic_displacement(&r->contact, 1, &force, NULL, NULL, &stick));
         accepted(&t, mslip_slip(&r->contact, force, 1, &x, &got[0], &got[1]));
-        /* Slip grows like the 3/2 to 5/2 power of the distance from the stick zone. */
+        /* Slip scales as the 3/2 to 5/2 power of the distance from the stick zone. */
         relative = r->tolerance + edge_uncertainty(2.5, x, stick, stick_uncertainty(r, force, stick));
         compare(&t, "slip", got[0], t.value[3], relative * t.value[3]);
         relative += edge_uncertainty(0.5, x, r->contact.half_width, 0.0);
@@ -354,7 +352,7 @@ static void check_elliptic(void)
         const double *v = t.value;
         mslip_elliptic_parameters p;
         mslip_contact contact;
-        double displacement, force, energy, rest, rounding;
+        double displacement, force, energy, remaining, rounding;
 
         mslip_elliptic_parameters_default(&p);
         p.semi_axis_x = v[1];
@@ -365,10 +363,9 @@ static void check_elliptic(void)
         p.material[0].poisson_ratio = p.material[1].poisson_ratio = v[6];
         accepted(&t, mslip_contact_init_elliptic(&p, &contact));
         compare(&t, "initial stiffness", contact.initial_stiffness, v[7], 1e-13 * v[7]);
-        /* The last of the curve goes with (1-tau)^(2/3), where roundings of T and of mu N count; the energy has five
-           times that. */
-        rest = fmax(0.0, 1.0 - v[8] / contact.slip_force);
-        rounding = pow(rest + 2.0 * DBL_EPSILON, 2.0 / 3.0) - pow(rest, 2.0 / 3.0);
+        /* Near mu N the curve varies as (1-tau)^(2/3), which amplifies roundings of T and of mu N, five times in the energy. */
+        remaining = fmax(0.0, 1.0 - v[8] / contact.slip_force);
+        rounding = pow(remaining + 2.0 * DBL_EPSILON, 2.0 / 3.0) - pow(remaining, 2.0 / 3.0);
         accepted(&t, mslip_monotonic_displacement(&contact, 1, &v[8], &displacement, NULL, NULL));
         compare(&t, "displacement", displacement, v[9], (1e-13 + rounding) * v[9]);
         accepted(&t, mslip_monotonic_force(&contact, 1, &v[9], &force, NULL, NULL));
@@ -378,8 +375,7 @@ static void check_elliptic(void)
     }
 }
 
-/* The strip of the tables of boundary elements: half-width of contact 1, and mu N such that the unit of displacement,
-   2 mu P/(pi E*), is 1. */
+/* The strip of the boundary element tables: half-width 1, and mu N such that the unit of displacement, 2 mu P/(pi E*), is 1. */
 static void init_strip(const table *t, double aspect_ratio, double a, double nu, mslip_contact *contact)
 {
     double w = sqrt((1.0 - a) * (1.0 + a));
@@ -400,7 +396,7 @@ static void init_strip(const table *t, double aspect_ratio, double a, double nu,
 }
 
 /* MSLIP_RIGID_STRIP against three-dimensional boundary elements, under the uniform pressure of the strip (variant i) and
-   under the true one (ii), where the law is meant to hold: within 0.3 % up to 0.98 mu N for L/2b >= 5 and nu = 0.3. */
+   under the true one (ii), for which the law holds: within 0.3 % up to 0.98 mu N for L/2b >= 5 and nu = 0.3. */
 static void check_strip(void)
 {
     static const double level[4] = { 0.3, 0.6, 0.9, 0.98 };
@@ -411,18 +407,18 @@ static void check_strip(void)
                          "Wclosed_0.98,W3D_1,Wlaw_1,Wclosed_1,W1_exactform,grid_rel_diff_d,grid_rel_diff_W");
     while (next_row(&t)) {
         const double *v = t.value;
-        int meant = v[0] == 2.0 && v[3] == 0.3;
+        int holds = v[0] == 2.0 && v[3] == 0.3;
         int stocky = v[1] < 5.0;
         double compliance;
         mslip_contact contact;
 
         init_strip(&t, v[1], v[2], v[3], &contact);
         compliance = contact.slip_force / contact.initial_stiffness;
-        /* The fitted number of the law has three decimals, the table's was a little finer. */
+        /* The fitted constant of the law has three decimals, that of the table has more. */
         compare(&t, "initial compliance", compliance, v[7], 2e-4);
         if (v[0] == 1.0) {
             compare(&t, "initial compliance against 3-D", compliance, v[6], 0.0025 * v[6]);
-        } else if (meant) {
+        } else if (holds) {
             compare(&t, "initial compliance against 3-D", compliance, v[6], (stocky ? 0.018 : 0.0045) * v[6]);
         }
         for (int i = 0; i < 4; ++i) {
@@ -431,7 +427,7 @@ static void check_strip(void)
             if (v[0] == 2.0) {
                 compare(&t, "displacement", displacement, v[10 + 3 * i], 2e-4);
             }
-            if (meant) {
+            if (holds) {
                 compare(&t, "displacement against 3-D", displacement, in_3d, (stocky ? 0.014 : 0.003) * in_3d);
             }
         }

@@ -1,12 +1,9 @@
-/* Alternating frequency/time through the C interface: workspaces, forces, Jacobians. */
-#include "fixture.h"
+/* Alternating frequency/time through the C interface: workspaces, forces, Jacobians, by both rules. */
+#include "calls.h"
 
-#include <stdlib.h>
-
-enum { HARMONICS = 3, SAMPLES = 128, N = 2 * HARMONICS + 1 };
+enum { H = 3, TABLE_SAMPLES = 128, FINE = 1024, NODES = 64, N = 2 * H + 1, GUARD = 8 };
 
 static const double PI = 3.14159265358979323846;
-static size_t length; /* of a workspace of HARMONICS and SAMPLES */
 
 /* Case 3 of the table of harmonic forces: contact 3. */
 static const double displacement[N] = {
@@ -16,199 +13,117 @@ static const double displacement[N] = {
 static const double force_of_table[N] = {
     -4.187659061710047803366514e-1, 4.143565000565348613576092e1, -7.64493260539773256124719e1,
     -1.081698314128846294125077,    -2.885322988101795434779141,  3.443354832948413483986706e1,
-    -5.283214385921310079379079,
+    -5.283214385921310379079379,
 };
 
-static double *workspace(void)
+/* An initialised workspace; initialisation writes nothing beyond the reported length. */
+static double *workspace_of(size_t samples, int32_t rule)
 {
-    double *w = malloc(length * sizeof *w);
-    CHECK(w != NULL && mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_OK);
+    const size_t length = mslip_harmonic_workspace_length(H, samples, rule);
+    double *w = malloc((length + GUARD) * sizeof *w), guard[GUARD];
+    memset(guard, 0x5a, sizeof guard);
+    CHECK(length > 0 && w != NULL && mslip_harmonic_workspace_length(H + 1, samples, rule) > length);
+    memcpy(w + length, guard, sizeof guard);
+    CHECK(mslip_harmonic_workspace_init(H, samples, rule, length, w) == MSLIP_OK && same_bits(w + length, guard, GUARD));
     return w;
 }
 
-static void test_workspace(void)
+/* One harmonic: the complex stiffness, and the energy of its loop. A constant displacement: a constant force. */
+static void check_harmonic(const mslip_contact *contact, double *w, int event_driven)
 {
-    double *w;
+    const double amplitude = 0.8 * contact->slip_displacement;
+    double k_real, k_imag, u[N] = { 0.0 }, force[N], energy, steady;
+    u[1] = amplitude;
+    CHECK(mslip_harmonic_force(contact, w, u, force, NULL, &energy) == MSLIP_OK);
+    CHECK(mslip_complex_stiffness(contact, 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
+    CHECK_RELATIVE(force[1], k_real * amplitude, event_driven ? 1e-12 : 1e-6);
+    CHECK_NEAR(force[2], -k_imag * amplitude, (event_driven ? 1e-12 * k_real : 1e-4 * k_imag) * amplitude);
+    CHECK_RELATIVE(energy, PI * k_imag * amplitude * amplitude, 1e-12);
 
-    length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
-    CHECK(length > 0);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS + 1, SAMPLES, MSLIP_UNIFORM_SAMPLING) > length);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS, 2 * SAMPLES, MSLIP_UNIFORM_SAMPLING) > length);
-
-    /* Nothing is written beyond the reported length. */
-    w = malloc((length + 8) * sizeof *w);
-    memset(w, 0x5a, (length + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_OK);
-    CHECK(is_poison(w + length, 8));
-
-    memset(w, 0x5a, (length + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init(0, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init(SIZE_MAX, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 0, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, MSLIP_UNIFORM_SAMPLING, length, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, NULL) == MSLIP_NULL_POINTER);
-    CHECK(is_poison(w, length + 8));
-    free(w);
+    u[1] = 0.0;
+    u[0] = 0.3 * contact->slip_displacement;
+    CHECK(mslip_harmonic_force(contact, w, u, force, NULL, &energy) == MSLIP_OK);
+    CHECK(mslip_monotonic_force(contact, 1, u, &steady, NULL, NULL) == MSLIP_OK);
+    CHECK_RELATIVE(force[0], steady, 1e-13);
+    for (int i = 1; i < N; ++i) {
+        CHECK_NEAR(force[i], 0.0, 1e-14 * steady);
+    }
+    CHECK_NEAR(energy, 0.0, 1e-30);
 }
 
-static void test_force(void)
+/* The Jacobian is the derivative of the force: central differences, two steps extrapolated. */
+static void check_jacobian(const mslip_contact *contact, double *w, const double *jacobian)
 {
-    static const size_t lengths[3] = { N, N * N, 1 };
-    const mslip_contact contact = flat_contact(), open = open_contact();
-    double bad[N];
-    double *w = workspace(), *junk = malloc(length * sizeof *junk);
-
-    EVERY_SUBSET(3, lengths, mslip_harmonic_force(&contact, w, displacement, OUT(0), OUT(1), OUT(2)));
-    for (int i = 0; i < N; ++i) {
-        CHECK_NEAR(reference[0][i], force_of_table[i], 2e-13 * 76.4);
-    }
-
-    /* A constant displacement has a constant force. */
-    double constant[N] = { 0.0 };
-    constant[0] = 0.3 * contact.slip_displacement;
-    CHECK(mslip_harmonic_force(&contact, w, constant, out[0], NULL, out[2]) == MSLIP_OK);
-    double steady;
-    CHECK(mslip_monotonic_force(&contact, 1, constant, &steady, NULL, NULL) == MSLIP_OK);
-    CHECK_RELATIVE(out[0][0], steady, 1e-13);
-    for (int i = 1; i < N; ++i) {
-        CHECK_NEAR(out[0][i], 0.0, 1e-14 * steady);
-    }
-    CHECK_NEAR(out[2][0], 0.0, 1e-30);
-
-    /* The Jacobian is the derivative of the force: central differences, two steps extrapolated. */
+    static const double step[4] = { 1.0, -1.0, 0.5, -0.5 };
+    const double h = 1e-3 * contact->slip_displacement;
     for (int j = 0; j < N; ++j) {
-        const double h = 1e-3 * contact.slip_displacement;
-        double moved[N], f[4][N];
+        double f[4][N];
         for (int k = 0; k < 4; ++k) {
-            static const double step[4] = { 1.0, -1.0, 0.5, -0.5 };
+            double moved[N];
             memcpy(moved, displacement, sizeof moved);
             moved[j] += step[k] * h;
-            CHECK(mslip_harmonic_force(&contact, w, moved, f[k], NULL, NULL) == MSLIP_OK);
+            CHECK(mslip_harmonic_force(contact, w, moved, f[k], NULL, NULL) == MSLIP_OK);
         }
         for (int i = 0; i < N; ++i) {
-            double coarse = (f[0][i] - f[1][i]) / (2.0 * h), fine = (f[2][i] - f[3][i]) / h;
-            CHECK_NEAR(reference[1][i + N * j], fine + (fine - coarse) / 3.0, 2e-3 * contact.initial_stiffness);
+            const double coarse = (f[0][i] - f[1][i]) / (2.0 * h), fine = (f[2][i] - f[3][i]) / h;
+            CHECK_NEAR(jacobian[i + N * j], fine + (fine - coarse) / 3.0, 2e-3 * contact->initial_stiffness);
         }
     }
-
-    /* One harmonic at fine sampling: the complex stiffness, and the energy of its loop. */
-    const double amplitude = 0.8 * contact.slip_displacement;
-    double k_real, k_imag, single[N] = { 0.0 };
-    size_t fine_length = mslip_harmonic_workspace_length(HARMONICS, 1024, MSLIP_UNIFORM_SAMPLING);
-    double *fine = malloc(fine_length * sizeof *fine);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 1024, MSLIP_UNIFORM_SAMPLING, fine_length, fine) == MSLIP_OK);
-    single[1] = amplitude;
-    CHECK(mslip_harmonic_force(&contact, fine, single, out[0], NULL, out[2]) == MSLIP_OK);
-    CHECK(mslip_complex_stiffness(&contact, 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
-    CHECK_RELATIVE(out[0][1], k_real * amplitude, 1e-6);
-    CHECK_NEAR(out[0][2], -k_imag * amplitude, 1e-4 * k_imag * amplitude);
-    CHECK_RELATIVE(out[2][0], PI * k_imag * amplitude * amplitude, 1e-12);
-    free(fine);
-
-    for (int i = 0; i < 3; ++i) {
-        memcpy(bad, displacement, sizeof bad);
-        bad[N - 1] = not_finite[i];
-        REJECTED(mslip_harmonic_force(&contact, w, bad, out[0], out[1], out[2]), MSLIP_BAD_DISPLACEMENT);
-    }
-    REJECTED(mslip_harmonic_force(NULL, w, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    REJECTED(mslip_harmonic_force(&contact, NULL, displacement, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    REJECTED(mslip_harmonic_force(&contact, w, NULL, out[0], out[1], out[2]), MSLIP_NULL_POINTER);
-    for (int i = 0; i < UNINITIALISED; ++i) {
-        const mslip_contact uninitialised = uninitialised_contact(i);
-        REJECTED(mslip_harmonic_force(&uninitialised, w, displacement, out[0], out[1], out[2]), MSLIP_BAD_CONTACT);
-        memset(junk, i == 0 ? 0 : 0xff, length * sizeof *junk);
-        REJECTED(mslip_harmonic_force(&contact, junk, displacement, out[0], out[1], out[2]), MSLIP_BAD_WORKSPACE);
-    }
-
-    /* Earlier calls do not affect the result. */
-    CHECK(mslip_harmonic_force(&contact, w, displacement, out[0], out[1], out[2]) == MSLIP_OK);
-    CHECK(same_bits(out[0], reference[0], N) && same_bits(out[1], reference[1], N * N));
-    CHECK(out[2][0] == reference[2][0]);
-
-    CHECK(mslip_harmonic_force(&open, w, displacement, out[0], out[1], out[2]) == MSLIP_OK);
-    for (int i = 0; i < N; ++i) {
-        CHECK(out[0][i] == 0.0 && out[1][i] == 0.0);
-    }
-    CHECK(out[2][0] == 0.0);
-    free(junk);
-    free(w);
 }
 
-/* Gauss-Legendre nodes between the events. */
-static void test_event_driven(void)
+/* The table is for 128 uniformly spaced samples and has their error. Other calls in between do not affect the result. */
+static void test_table(int32_t rule, size_t samples)
 {
-    enum { NODES = 64 };
-    static const size_t lengths[3] = { N, N * N, 1 };
-    const mslip_contact contacts[] = { flat_contact(), cylinder_contact(), elliptic_contact(), open_contact() };
-    const int32_t rule = MSLIP_EVENT_DRIVEN;
-    const size_t needed = mslip_harmonic_workspace_length(HARMONICS, NODES, rule);
-    double *w = malloc((needed + 8) * sizeof *w);
-
-    CHECK(needed > 0 && mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING) == length);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS, NODES, 2) == 0);
-    CHECK(mslip_harmonic_workspace_length(HARMONICS, NODES, -1) == 0);
-    CHECK(mslip_harmonic_workspace_length(0, NODES, rule) == 0);
-    CHECK(mslip_harmonic_workspace_length(SIZE_MAX, SIZE_MAX, rule) == 0);
-    memset(w, 0x5a, (needed + 8) * sizeof *w);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, 2, needed, w) == MSLIP_BAD_RULE);
-    CHECK(mslip_harmonic_workspace_init(0, NODES, rule, needed, w) == MSLIP_BAD_HARMONICS);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, 2 * HARMONICS, rule, needed, w) == MSLIP_BAD_SAMPLES);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed - 1, w) == MSLIP_WORKSPACE_TOO_SHORT);
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed, NULL) == MSLIP_NULL_POINTER);
-    CHECK(is_poison(w, needed + 8));
-    CHECK(mslip_harmonic_workspace_init(HARMONICS, NODES, rule, needed, w) == MSLIP_OK);
-    CHECK(is_poison(w + needed, 8));
-
-    EVERY_SUBSET(3, lengths, mslip_harmonic_force(&contacts[0], w, displacement, OUT(0), OUT(1), OUT(2)));
+    const int event_driven = rule == MSLIP_EVENT_DRIVEN;
+    const mslip_contact contact = contact_of(FLAT);
+    double *w = workspace_of(samples, rule), *fine = workspace_of(event_driven ? samples : FINE, rule);
+    double force[2][N], jacobian[2][N * N], energy[2];
+    for (int i = 0; i < 2; ++i) {
+        CHECK(mslip_harmonic_force(&contact, w, displacement, force[i], jacobian[i], &energy[i]) == MSLIP_OK);
+        check_jacobian(&contact, w, jacobian[i]);
+        check_harmonic(&contact, fine, event_driven);
+    }
     for (int i = 0; i < N; ++i) {
-        /* The table is for 128 uniformly spaced samples and has their error. */
-        CHECK_NEAR(reference[0][i], force_of_table[i], 1e-2 * 76.4);
+        CHECK_NEAR(force[0][i], force_of_table[i], (event_driven ? 1e-2 : 2e-13) * 76.4);
     }
+    CHECK(same_bits(force[0], force[1], N) && same_bits(jacobian[0], jacobian[1], N * N) && energy[0] == energy[1]);
+    free(w);
+    free(fine);
+}
 
-    for (int i = 0; i < 4; ++i) {
-        /* Motions of every kind and size have finite results. */
-        static const double shapes[][N] = {
-            { 0.0 },
-            { 1.0 },
-            { 0.0, 1.0 },
-            { 0.5, 0.0, 1.0 },
-            { 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 / 3.0 }, /* sin t - sin(3t)/3: flat at its reversals */
-            { 0.0, 1.0, 0.0, -0.25 },                     /* cos t - cos(2t)/4: flat at a reversal */
-            { 0.1, 0.3, -0.2, 0.2, 0.3, -0.4, 0.5 },
-            { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0 },
-        };
-        static const double sizes[] = { 1e-310, 1e-200, 1e-12, 0.3, 0.999999999999, 1.0, 1.5, 1e3, 1e17, 1e100 };
-        const double slip = contacts[i].slip_displacement > 0.0 ? contacts[i].slip_displacement : 1e-7;
-        for (size_t shape = 0; shape < sizeof shapes / sizeof shapes[0]; ++shape) {
-            for (size_t size = 0; size < sizeof sizes / sizeof sizes[0]; ++size) {
-                double u[N];
-                for (int k = 0; k < N; ++k) {
-                    u[k] = shapes[shape][k] * sizes[size] * slip;
-                }
-                CHECK(mslip_harmonic_force(&contacts[i], w, u, out[0], out[1], out[2]) == MSLIP_OK);
-                for (int k = 0; k < N; ++k) {
-                    CHECK(isfinite(out[0][k]) && fabs(out[0][k]) <= 1.3 * contacts[i].slip_force);
-                }
-                for (int k = 0; k < N * N; ++k) {
-                    CHECK(isfinite(out[1][k]));
-                }
-                CHECK(isfinite(out[2][0]) && out[2][0] >= 0.0);
+/* Motions of every kind and size have finite results, and forces of at most mu N. */
+static void test_motions(int32_t rule)
+{
+    static const double shapes[][N] = {
+        { 0.0 },
+        { 1.0 },
+        { 0.0, 1.0 },
+        { 0.5, 0.0, 1.0 },
+        { 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0 / 3.0 }, /* sin t - sin(3t)/3: flat at its reversals */
+        { 0.0, 1.0, 0.0, -0.25 },                     /* cos t - cos(2t)/4: flat at a reversal */
+        { 0.1, 0.3, -0.2, 0.2, 0.3, -0.4, 0.5 },
+        { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0 },
+    };
+    static const double sizes[] = { 1e-310, 1e-200, 1e-12, 0.3, 0.999999999999, 1.0, 1.5, 1e3, 1e17, 1e100 };
+    double *w = workspace_of(NODES, rule);
+    for (int kind = FLAT; kind <= OPEN; ++kind) {
+        const mslip_contact contact = contact_of(kind);
+        const double slip = kind < OPEN ? contact.slip_displacement : 1e-7;
+        for (size_t i = 0; i < LENGTH(shapes) * LENGTH(sizes); ++i) {
+            double u[N], force[N], jacobian[N * N], energy;
+            int holds;
+            for (int k = 0; k < N; ++k) {
+                u[k] = shapes[i / LENGTH(sizes)][k] * sizes[i % LENGTH(sizes)] * slip;
             }
+            holds = mslip_harmonic_force(&contact, w, u, force, jacobian, &energy) == MSLIP_OK;
+            for (int k = 0; holds && k < N; ++k) {
+                holds &= isfinite(force[k]) && fabs(force[k]) <= 1.3 * contact.slip_force;
+            }
+            for (int k = 0; holds && k < N * N; ++k) {
+                holds &= !!isfinite(jacobian[k]);
+            }
+            CHECK(holds && isfinite(energy) && energy >= 0.0);
         }
-    }
-
-    /* One harmonic: the complex stiffness, and the energy of its loop. */
-    for (int i = 0; i < 3; ++i) {
-        const double amplitude = 0.8 * contacts[i].slip_displacement;
-        double k_real, k_imag, single[N] = { 0.0 };
-        single[1] = amplitude;
-        CHECK(mslip_harmonic_force(&contacts[i], w, single, out[0], NULL, out[2]) == MSLIP_OK);
-        CHECK(mslip_complex_stiffness(&contacts[i], 1, &amplitude, &k_real, &k_imag, NULL, NULL) == MSLIP_OK);
-        CHECK_RELATIVE(out[0][1], k_real * amplitude, 1e-12);
-        CHECK_NEAR(out[0][2], -k_imag * amplitude, 1e-12 * k_real * amplitude);
-        CHECK_RELATIVE(out[2][0], PI * k_imag * amplitude * amplitude, 1e-12);
     }
     free(w);
 }
@@ -216,8 +131,15 @@ static void test_event_driven(void)
 int main(int argc, char **argv)
 {
     check_arguments(argc, argv);
-    test_workspace();
-    test_force();
-    test_event_driven();
+    test_table(MSLIP_UNIFORM_SAMPLING, TABLE_SAMPLES);
+    test_table(MSLIP_EVENT_DRIVEN, NODES);
+    test_motions(MSLIP_UNIFORM_SAMPLING);
+    test_motions(MSLIP_EVENT_DRIVEN);
+    for (int kind = CYLINDER; kind <= ELLIPSE; ++kind) {
+        const mslip_contact contact = contact_of(kind);
+        double *w = workspace_of(NODES, MSLIP_EVENT_DRIVEN);
+        check_harmonic(&contact, w, 1);
+        free(w);
+    }
     return check_report();
 }

@@ -59,24 +59,8 @@ int main(int argc, char **argv)
     memset(guard, 0x5a, sizeof guard);
 
     mslip_parameters_default(&memory.parameters);
-    CHECK(isnan(memory.parameters.flat_half_width) && isnan(memory.parameters.edge_radius));
-    CHECK(isnan(memory.parameters.length) && isnan(memory.parameters.normal_force));
-    CHECK(isnan(memory.parameters.friction_coefficient));
-    for (body = 0; body < 2; ++body) {
-        CHECK(isnan(memory.parameters.material[body].young_modulus));
-        CHECK(isnan(memory.parameters.material[body].poisson_ratio));
-    }
-    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT);
-    CHECK(memory.parameters.reserved == 0);
-
     mslip_elliptic_parameters_default(&memory.elliptic);
-    CHECK(isnan(memory.elliptic.semi_axis_x) && isnan(memory.elliptic.semi_axis_y));
-    CHECK(isnan(memory.elliptic.normal_force) && isnan(memory.elliptic.friction_coefficient));
-    for (body = 0; body < 2; ++body) {
-        CHECK(isnan(memory.elliptic.material[body].young_modulus));
-        CHECK(isnan(memory.elliptic.material[body].poisson_ratio));
-    }
-
+    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT && memory.parameters.reserved == 0);
     memory.parameters.flat_half_width = 0.0;
     memory.parameters.edge_radius = 5e-3;
     memory.parameters.length = 2e-2;
@@ -90,9 +74,7 @@ int main(int argc, char **argv)
     CHECK_RELATIVE(memory.contact.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.contact.slip_force, 50.0, 1e-15);
 
-    CHECK(memcmp(memory.before, guard, sizeof guard) == 0);
-    CHECK(memcmp(memory.between, guard, sizeof guard) == 0);
-    CHECK(memcmp(memory.gap, guard, sizeof guard) == 0);
-    CHECK(memcmp(memory.after, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.before, guard, sizeof guard) == 0 && memcmp(memory.between, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.gap, guard, sizeof guard) == 0 && memcmp(memory.after, guard, sizeof guard) == 0);
     return check_report();
 }

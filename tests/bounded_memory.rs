@@ -1,10 +1,12 @@
-//! A state of few reversals against one that holds the whole history: the force differs by no more than the error that the
-//! state reports, and by nothing while no reversals were merged.
+//! A state of few reversals against one with the whole history: the forces are equal until reversals are merged, then differ by no
+//! more than the error that the state reports.
 //!
 //! `MICROSLIP_CYCLES` sets the number of cycles of a decaying vibration; 1000000 is the full test.
 
-use microslip::constant_load::masing;
-use microslip::constant_load::state::{state_check, state_error, state_init, state_length};
+mod common;
+
+use common::{step, unloaded};
+use microslip::constant_load::state::{state_check, state_error};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use std::sync::Mutex;
 
@@ -60,15 +62,9 @@ struct Histories<'c> {
     bounded: Vec<Bounded>,
 }
 
-fn unloaded(reversals: usize) -> Vec<f64> {
-    let mut state = vec![0.0; state_length(reversals)];
-    state_init(&mut state).unwrap();
-    state
-}
-
 /// Advances a state; force and stiffness.
 fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> [f64; 2] {
-    let step = masing::step(contact, state, displacement);
+    let step = step(contact, state, displacement);
     step.write(state);
     [step.force(), step.stiffness()]
 }
@@ -92,7 +88,7 @@ impl<'c> Histories<'c> {
             let found = advance(self.contact, &mut bounded.state, displacement);
             let reported = state_error(&bounded.state).unwrap() / self.contact.slip_force;
             if reported == 0.0 {
-                assert_eq!(found, expected, "nothing was merged");
+                assert_eq!(found, expected, "no reversals were merged");
             }
             let difference = (found[0] - expected[0]).abs() / self.contact.slip_force;
             bounded.reported = bounded.reported.max(reported);

@@ -1,130 +1,137 @@
-//! The C drivers against the archive as cargo builds it.
-//!
-//! `cargo test` leaves no archive of its own, so one is built here, apart from the build that runs the tests.
+//! The drivers in C, C++ and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else
+//! against the archive as cargo builds it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{LazyLock, Mutex};
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+static ROOT: LazyLock<&Path> = LazyLock::new(|| Path::new(env!("CARGO_MANIFEST_DIR")));
 
 /// Where the archive and the drivers are built.
-fn build_directory() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_drivers")
+static BUILD: LazyLock<PathBuf> = LazyLock::new(|| {
+    let build = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_drivers");
+    std::fs::create_dir_all(&build).unwrap();
+    build
+});
+
+/// The include directory and the archive.
+static LIBRARY: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
+    if let Some(prefix) = std::env::var_os("MICROSLIP_PREFIX") {
+        return ["include", "lib/libmicroslip.a"].map(|path| ROOT.join(&prefix).join(path));
+    }
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(*ROOT).args([
+        "rustc",
+        "--release",
+        "--locked",
+        "--lib",
+        "--crate-type",
+        "staticlib",
+        "--target-dir",
+    ]);
+    run(cargo.arg(&*BUILD)).unwrap();
+    [ROOT.join("include"), BUILD.join("release/libmicroslip.a")]
+});
+
+/// Standard output of a program that succeeds, or else everything it printed.
+fn run(command: &mut Command) -> Result<String, String> {
+    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+    let [text, errors] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    if output.status.success() { Ok(text) } else { Err(format!("{command:?}: {}\n{text}{errors}", output.status)) }
 }
 
-fn run(command: &mut Command) -> String {
-    let program = command.get_program().to_string_lossy().into_owned();
-    let output = command.output().unwrap_or_else(|error| panic!("{program}: {error}"));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{program} failed\n{text}{}", String::from_utf8_lossy(&output.stderr));
-    text
+fn compiler(cpp: bool) -> Command {
+    static HOST: LazyLock<String> = LazyLock::new(|| run(Command::new("rustc").arg("-vV")).unwrap());
+    let host = HOST.lines().find_map(|line| line.strip_prefix("host: ")).expect("the host triple");
+    let mut compiler = cc::Build::new()
+        .cpp(cpp)
+        .target(host)
+        .host(host)
+        .opt_level(1)
+        .cargo_metadata(false)
+        .get_compiler()
+        .to_command();
+    compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]).arg(if cpp {
+        "-std=c++17"
+    } else {
+        "-std=c99"
+    });
+    compiler
 }
 
-/// The archive, and what it is to be linked with.
-fn archive() -> &'static (PathBuf, Vec<String>) {
-    static ARCHIVE: OnceLock<(PathBuf, Vec<String>)> = OnceLock::new();
-    ARCHIVE.get_or_init(|| {
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(root()).args(["rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib"]);
-        cargo.arg("--target-dir").arg(build_directory()).args(["--", "--print", "native-static-libs"]);
-        let output = cargo.output().expect("cargo runs");
-        let messages = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{messages}");
-        let libraries = messages.lines().find_map(|line| line.split_once("native-static-libs: "));
-        let libraries = libraries.map_or(Vec::new(), |(_, names)| names.split(' ').map(str::to_owned).collect());
-        (build_directory().join("release/libmicroslip.a"), libraries)
-    })
-}
-
-/// Builds and runs a driver, and once more with floating-point traps.
-fn drive(name: &str) {
-    let (archive, libraries) = archive();
-    let program = build_directory().join(name);
-    let triple = run(Command::new("rustc").arg("-vV"));
-    let triple = triple.lines().find_map(|line| line.strip_prefix("host: ")).expect("rustc names its host");
-    let compiler = cc::Build::new().target(triple).host(triple).opt_level(1).cargo_metadata(false).get_compiler();
-    let mut build = compiler.to_command();
-    build.args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]).arg("-I").arg(root().join("include"));
-    build.arg(root().join("c_tests").join(name).with_extension("c")).arg(archive).args(libraries).arg("-lm");
+/// Links the sources, runs the program, and checks that all of its checks passed.
+fn drive(mut compiler: Command, sources: &[PathBuf], program: &str) -> Result<(), String> {
+    let [include, archive] = &*LIBRARY;
+    let path = BUILD.join(program);
+    compiler.arg("-I").arg(include).args(sources).arg(archive).args(["-lm", "-lpthread", "-ldl"]);
     if std::env::var_os("LLVM_PROFILE_FILE").is_some() {
-        // Counters of coverage in the archive are written at the end by what this name brings along.
-        build.arg("-Wl,-u,__llvm_profile_runtime");
+        // This symbol links the code that writes the coverage counters of the archive.
+        compiler.arg("-Wl,-u,__llvm_profile_runtime");
     }
-    run(build.arg("-o").arg(&program));
-    for arguments in [&[][..], &["--trap"]] {
-        let text = run(Command::new(&program).args(arguments).current_dir(root()));
-        let last = text.lines().last().unwrap_or_default();
-        assert!(last.ends_with(" passed, 0 failed") && !last.starts_with("0 "), "{name}: {text}");
+    run(compiler.arg("-o").arg(&path))?;
+    let text = run(Command::new(&path).arg("--trap").current_dir(*ROOT))?;
+    let last = text.lines().last().unwrap_or_default();
+    if last.ends_with(" passed, 0 failed") && !last.starts_with("0 ") {
+        Ok(())
+    } else {
+        Err(format!("{program}: {text}"))
     }
 }
 
-#[test]
-fn layout() {
-    drive("layout");
-}
-
-#[test]
-fn interface() {
-    drive("interface");
-}
-
-#[test]
-fn masing() {
-    drive("masing");
-}
-
-#[test]
-fn batch() {
-    drive("batch");
-}
-
-#[test]
-fn harmonic() {
-    drive("harmonic");
-}
-
-#[test]
-fn equivalents() {
-    drive("equivalents");
-}
-
-#[test]
-fn bad_parameters() {
-    drive("bad_parameters");
-}
-
-#[test]
-fn bad_arguments() {
-    drive("bad_arguments");
-}
-
-#[test]
-fn bad_memory() {
-    drive("bad_memory");
-}
-
-#[test]
-fn environment() {
-    drive("environment");
-}
-
-#[test]
-fn golden() {
-    drive("golden");
-}
-
-/// No driver is forgotten above.
-#[test]
-fn every_driver_is_run() {
-    let source = std::fs::read_to_string(root().join(file!())).expect("this file is there");
-    for entry in std::fs::read_dir(root().join("c_tests")).expect("the drivers are there") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|extension| extension == "c") {
-            let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-            assert!(source.contains(&format!("drive(\"{name}\")")), "{name} is not run");
+/// Runs all jobs on two threads, and fails with all of their errors.
+fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
+    assert!(!jobs.is_empty());
+    let (jobs, errors) = (Mutex::new(jobs), Mutex::new(Vec::new()));
+    let next = || jobs.lock().unwrap().pop();
+    let work = || {
+        while let Some(job) = next() {
+            job().unwrap_or_else(|error| errors.lock().unwrap().push(error));
         }
+    };
+    std::thread::scope(|scope| [(); 2].map(|()| scope.spawn(work)).map(|thread| thread.join().unwrap()));
+    let errors = errors.into_inner().unwrap();
+    assert!(errors.is_empty(), "{}", errors.join("\n"));
+}
+
+#[test]
+fn c_and_cpp() {
+    let entries = std::fs::read_dir(ROOT.join("c_tests")).unwrap().map(|entry| entry.unwrap().path());
+    let sources =
+        entries.filter(|path| path.extension().is_some_and(|extension| extension == "c" || extension == "cpp"));
+    run_all(
+        sources
+            .map(|source| {
+                let program = source.file_name().unwrap().to_string_lossy().replace('.', "_");
+                move || drive(compiler(program.ends_with("cpp")), &[source], &program)
+            })
+            .collect(),
+    );
+}
+
+/// The module compiles without warnings by both standards, and the tests pass with every default kind and with static variables.
+#[test]
+fn fortran() {
+    let fortran = std::env::var("FC").unwrap_or("gfortran".to_string());
+    if run(Command::new(&fortran).arg("--version")).is_err() {
+        return println!("no {fortran}");
     }
+    let options = ["", "-fdefault-real-8 -fdefault-integer-8", "-fno-automatic"];
+    let jobs = options.iter().enumerate().flat_map(|(i, options)| {
+        let fortran = &fortran;
+        [("f2008", "bad_input"), ("f2018", "test_microslip")].map(|(standard, name)| {
+            move || {
+                let program = format!("{name}_{i}");
+                let modules = BUILD.join(program.clone() + "_modules");
+                std::fs::create_dir_all(&modules).unwrap();
+                let sources = ["checks", name].map(|name| ROOT.join(format!("tests/fortran/{name}.f90")));
+                let mut compiler = Command::new(fortran);
+                compiler.args(options.split_whitespace()).arg("-J").arg(modules);
+                compiler.args(["-Wall", "-Wextra", "-pedantic", "-Werror", "-ffpe-trap=invalid,zero,overflow"]);
+                compiler.arg(format!("-std={standard}"));
+                let sources = [&[LIBRARY[0].join("microslip.f90")][..], &sources].concat();
+                drive(compiler, &sources, &program)
+            }
+        })
+    });
+    run_all(jobs.collect());
 }

@@ -1,12 +1,13 @@
-//! Harmonic balance of two masses with one contact, by other means than the Fortran programs of `fortran_examples`.
+//! Harmonic balance of two masses with one contact, solved independently of the Fortran programs of `fortran_examples`.
 //!
 //! They condense the structure to the contact, work with complex amplitudes and take force and Jacobian from the library.
 //! Here all harmonics of all degrees of freedom are real unknowns, the force comes from a time history of three periods, and the
 //! Jacobian from central differences. Both must give the same motion, and both that of time integration.
 
-use microslip::constant_load::masing;
-use microslip::constant_load::state::{state_init, state_length};
-use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
+mod common;
+
+use common::{harmonic, step, unloaded};
+use microslip::hbm::Rule;
 use microslip::{Contact, Material, Parameters};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;
@@ -22,43 +23,19 @@ fn text(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// A real matrix of a Matrix Market file: `coordinate` or `array`, `general` or `symmetric` with its lower triangle.
+/// A symmetric matrix of a Matrix Market file: its lower triangle by coordinates.
 fn matrix_market(path: &Path) -> DMatrix<f64> {
-    let text = text(path).to_lowercase();
-    let kind: Vec<&str> = text.lines().next().unwrap().split_whitespace().collect();
-    let &["%%matrixmarket", "matrix", format, "real", symmetry] = &kind[..] else { panic!("{kind:?}") };
-    let symmetric = match symmetry {
-        "symmetric" => true,
-        "general" => false,
-        _ => panic!("{symmetry}"),
-    };
-    let lines = text.lines().filter(|line| !line.starts_with('%') && !line.trim().is_empty());
+    let text = text(path);
+    let (header, body) = text.split_once('\n').unwrap();
+    assert_eq!(header, "%%MatrixMarket matrix coordinate real symmetric");
+    let lines = body.lines().filter(|line| !line.starts_with('%'));
     let mut rows =
         lines.map(|line| line.split_whitespace().map(|word| word.parse::<f64>().unwrap()).collect::<Vec<_>>());
     let size = rows.next().unwrap();
     let mut matrix = DMatrix::zeros(size[0] as usize, size[1] as usize);
-    let mut set = |i: usize, j: usize, value: f64| {
-        matrix[(i, j)] = value;
-        if symmetric {
-            matrix[(j, i)] = value;
-        }
-    };
-    match format {
-        "coordinate" => {
-            let entries: Vec<_> = rows.collect();
-            assert_eq!(entries.len(), size[2] as usize);
-            entries.iter().for_each(|entry| set(entry[0] as usize - 1, entry[1] as usize - 1, entry[2]));
-        }
-        "array" => {
-            let mut values = rows.map(|row| row[0]);
-            for j in 0..size[1] as usize {
-                for i in if symmetric { j } else { 0 }..size[0] as usize {
-                    set(i, j, values.next().unwrap());
-                }
-            }
-            assert_eq!(values.next(), None);
-        }
-        _ => panic!("{format}"),
+    for row in rows {
+        let (i, j) = (row[0] as usize - 1, row[1] as usize - 1);
+        (matrix[(i, j)], matrix[(j, i)]) = (row[2], row[2]);
     }
     matrix
 }
@@ -143,88 +120,49 @@ fn fourier_row(coefficients: usize, phase: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Contact force from its displacement, coefficients [c0, cos1, sin1, ...] both.
-trait ContactForce {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64>;
-    /// Column-major.
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64>;
+/// Force and Jacobian of a contact from its displacement, coefficients [c0, cos1, sin1, ...].
+type Law<'a> = dyn Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) + 'a;
+
+/// The library's harmonic force with its own Jacobian.
+fn library(contact: &Contact, samples: usize) -> impl Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    move |displacement| {
+        let (force, jacobian, _) = harmonic(contact, Rule::UniformSampling, samples, displacement);
+        (force, DMatrix::from_vec(displacement.len(), displacement.len(), jacobian))
+    }
 }
 
 /// The contact stepped through three periods; derivatives by central differences.
-struct Stepped<'a> {
-    contact: &'a Contact,
-    samples: usize,
-}
-
-impl ContactForce for Stepped<'_> {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
-        let rows: Vec<Vec<f64>> = (0..self.samples)
-            .map(|sample| fourier_row(displacement.len(), 2.0 * PI * sample as f64 / self.samples as f64))
-            .collect();
-        let mut state = vec![0.0; state_length(self.samples + 1)];
-        state_init(&mut state).unwrap();
+fn stepped(contact: &Contact, samples: usize) -> impl Fn(&[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    let force = move |displacement: &[f64]| -> Vec<f64> {
+        let row = |sample: usize| fourier_row(displacement.len(), 2.0 * PI * sample as f64 / samples as f64);
+        let rows: Vec<Vec<f64>> = (0..samples).map(row).collect();
+        let mut state = unloaded(samples + 1);
         let mut sums = vec![0.0; displacement.len()];
-        for period in 0..3 {
-            for row in &rows {
-                let place: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
-                let step = masing::step(self.contact, &state, place);
-                step.write(&mut state);
-                if period == 2 {
-                    sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
-                }
+        for sample in 0..3 * samples {
+            let row = &rows[sample % samples];
+            let displacement: f64 = row.iter().zip(displacement).map(|(value, coefficient)| value * coefficient).sum();
+            let step = step(contact, &state, displacement);
+            step.write(&mut state);
+            if sample >= 2 * samples {
+                sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += step.force() * value);
             }
         }
-        let mean = |(c, sum): (usize, f64)| sum * if c == 0 { 1.0 } else { 2.0 } / self.samples as f64;
+        let mean = |(c, sum): (usize, f64)| sum * if c == 0 { 1.0 } else { 2.0 } / samples as f64;
         sums.into_iter().enumerate().map(mean).collect()
-    }
-
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
-        let n = displacement.len();
+    };
+    move |displacement| {
         // Rounding of 1e-16/1e-5 and truncation of (1e-5)².
         let width = 1e-5 * displacement.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        let mut jacobian = DMatrix::zeros(n, n);
-        for j in 0..n {
-            let mut at = |sign: f64| {
+        let column = |j: usize| {
+            let moved = |sign: f64| {
                 let mut moved = displacement.to_vec();
                 moved[j] += sign * width;
-                self.force(&moved)
+                DVector::from_vec(force(&moved))
             };
-            for (i, (high, low)) in at(1.0).iter().zip(at(-1.0)).enumerate() {
-                jacobian[(i, j)] = (high - low) / (2.0 * width);
-            }
-        }
-        jacobian
-    }
-}
-
-/// The library's harmonic force with its own Jacobian.
-struct Library<'a> {
-    contact: &'a Contact,
-    memory: Vec<f64>,
-}
-
-impl Library<'_> {
-    fn new(contact: &Contact, harmonics: usize, samples: usize) -> Library<'_> {
-        let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(harmonics, samples)];
-        Rule::UniformSampling.workspace_init(harmonics, samples, &mut memory).unwrap();
-        Library { contact, memory }
-    }
-}
-
-impl ContactForce for Library<'_> {
-    fn force(&mut self, displacement: &[f64]) -> Vec<f64> {
-        let mut force = vec![0.0; displacement.len()];
-        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
-        harmonic_force(self.contact, &mut Workspace::new(&mut self.memory).unwrap(), displacement, output).unwrap();
-        force
-    }
-
-    fn jacobian(&mut self, displacement: &[f64]) -> DMatrix<f64> {
-        let n = displacement.len();
-        let mut jacobian = DMatrix::zeros(n, n);
-        let output = HarmonicOutput { force: None, jacobian: Some(jacobian.as_mut_slice()), dissipated: None };
-        harmonic_force(self.contact, &mut Workspace::new(&mut self.memory).unwrap(), displacement, output).unwrap();
-        jacobian
+            (moved(1.0) - moved(-1.0)) / (2.0 * width)
+        };
+        let columns: Vec<DVector<f64>> = (0..displacement.len()).map(column).collect();
+        (force(displacement), DMatrix::from_columns(&columns))
     }
 }
 
@@ -275,23 +213,17 @@ impl<'a> Balance<'a> {
         (0..self.coefficients).map(|c| motion[self.at(c, dof)]).collect()
     }
 
-    fn residual(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DVector<f64> {
-        let mut residual = &self.linear * motion - &self.excitation;
-        for (c, force) in law.force(&self.of_dof(motion, self.case.touching)).iter().enumerate() {
-            residual[self.at(c, self.case.touching)] += force;
-        }
-        residual
-    }
-
-    fn jacobian(&self, law: &mut impl ContactForce, motion: &DVector<f64>) -> DMatrix<f64> {
-        let mut jacobian = self.linear.clone();
-        let contact = law.jacobian(&self.of_dof(motion, self.case.touching));
+    fn residual_and_jacobian(&self, law: &Law, motion: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (mut residual, mut jacobian) = (&self.linear * motion - &self.excitation, self.linear.clone());
+        let (force, derivatives) = law(&self.of_dof(motion, self.case.touching));
+        let at = |coefficient: usize| self.at(coefficient, self.case.touching);
         for i in 0..self.coefficients {
+            residual[at(i)] += force[i];
             for j in 0..self.coefficients {
-                jacobian[(self.at(i, self.case.touching), self.at(j, self.case.touching))] += contact[(i, j)];
+                jacobian[(at(i), at(j))] += derivatives[(i, j)];
             }
         }
-        jacobian
+        (residual, jacobian)
     }
 
     /// The motion with a linear spring in place of the contact.
@@ -304,29 +236,30 @@ impl<'a> Balance<'a> {
     }
 
     /// Newton's method with step halving, down to rounding.
-    fn newton(&self, law: &mut impl ContactForce, start: DVector<f64>, share: f64) -> Solution {
+    fn newton(&self, law: &Law, mut motion: DVector<f64>, share: f64) -> Solution {
         let excitation = &self.excitation * share;
-        let residual_at = |law: &mut _, motion: &_| self.residual(law, motion) + &self.excitation - &excitation;
-        let mut motion = start;
-        let mut residual = residual_at(law, &motion);
+        let at = |motion: &DVector<f64>| {
+            let (residual, jacobian) = self.residual_and_jacobian(law, motion);
+            (residual + &self.excitation - &excitation, jacobian)
+        };
+        let (mut residual, mut jacobian) = at(&motion);
         let mut residuals = vec![residual.norm() / excitation.norm()];
         for _ in 0..60 {
             if residuals.last().is_some_and(|left| *left < 1e-14) {
                 break;
             }
-            let step = self.jacobian(law, &motion).lu().solve(&residual).unwrap();
+            let step = jacobian.clone().lu().solve(&residual).unwrap();
             let halved = (0..10).map(|halvings| &motion - &step * 0.5f64.powi(halvings));
-            let better =
-                halved.map(|trial| (residual_at(law, &trial), trial)).find(|(left, _)| left.norm() < residual.norm());
-            let Some((left, next)) = better else { break };
-            (motion, residual) = (next, left);
+            let better = halved.map(|trial| (at(&trial), trial)).find(|((left, _), _)| left.norm() < residual.norm());
+            let Some(((left, slope), next)) = better else { break };
+            (motion, residual, jacobian) = (next, left, slope);
             residuals.push(residual.norm() / excitation.norm());
         }
         Solution { motion, residuals }
     }
 
     /// Continuation in the excitation, with steps refined until Newton's method converges.
-    fn solve(&self, law: &mut impl ContactForce) -> Solution {
+    fn solve(&self, law: &Law) -> Solution {
         for steps in [1, 4, 16, 64] {
             let mut solution = Solution {
                 motion: self.with_spring(self.case.contact.initial_stiffness) / steps as f64,
@@ -343,7 +276,7 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// A steady period found by time integration, uniformly sampled from the phase 0.
+/// A steady-state period by time integration, uniformly sampled from phase 0.
 struct TimeIntegration {
     /// Displacement of each degree of freedom, step by step.
     displacement: Vec<Vec<f64>>,
@@ -362,15 +295,14 @@ impl TimeIntegration {
         let by_force = inverse.column(case.touching) * (0.25 * h * h);
         let (mut x, mut v) = (DVector::zeros(dofs), DVector::zeros(dofs));
         let mut a = case.mass.clone().try_inverse().unwrap() * &case.excitation;
-        let mut state = vec![0.0; state_length(4096)];
-        state_init(&mut state).unwrap();
+        let mut state = unloaded(4096);
         let mut force = 0.0;
         let mut before: Vec<Vec<f64>> = vec![vec![0.0; steps]; dofs];
         for periods in 1..=5000 {
             let mut now = vec![Vec::with_capacity(steps); dofs];
             for step in 1..=steps {
                 let phase = 2.0 * PI * step as f64 / steps as f64;
-                now.iter_mut().zip(x.iter()).for_each(|(kept, x): (&mut Vec<f64>, &f64)| kept.push(*x));
+                now.iter_mut().zip(x.iter()).for_each(|(samples, x): (&mut Vec<f64>, &f64)| samples.push(*x));
                 let (x_free, v_free) = (&x + &v * h + &a * (0.25 * h * h), &v + &a * (0.5 * h));
                 let load = &case.excitation * phase.cos() - &case.damping * &v_free - &case.stiffness * &x_free;
                 let a_free = &inverse * load;
@@ -379,7 +311,7 @@ impl TimeIntegration {
                     (by_force[case.touching], x_free[case.touching] + 0.25 * h * h * a_free[case.touching]);
                 let mut u = u_free - compliance * force;
                 let found = loop {
-                    let found = masing::step(&case.contact, &state, u);
+                    let found = common::step(&case.contact, &state, u);
                     let error = u + compliance * found.force() - u_free;
                     if error.abs() <= 1e-13 * case.contact.slip_displacement {
                         break found;
@@ -435,7 +367,7 @@ fn difference(one: &[f64], two: &[f64]) -> f64 {
     norm(&one.iter().zip(two).map(|(one, two)| one - two).collect::<Vec<_>>())
 }
 
-/// Numbers for the log.
+/// Values for the log.
 fn scientific(values: &[f64]) -> Vec<String> {
     values.iter().map(|value| format!("{value:.1e}")).collect()
 }
@@ -463,7 +395,7 @@ fn compare(case: &Case, table: &str, name: &str) {
     let mut worst: f64 = 0.0;
     for (rows, &frequency) in rows.chunks(dofs).zip(&case.frequencies) {
         let balance = Balance::new(case, frequency, case.harmonics);
-        let solution = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
+        let solution = balance.solve(&stepped(&case.contact, case.samples));
         for (dof, row) in rows.iter().enumerate() {
             assert_eq!(row[..2], [frequency, (dof + 1) as f64], "{name}");
             let here = balance.of_dof(&solution.motion, dof);
@@ -477,11 +409,11 @@ fn compare(case: &Case, table: &str, name: &str) {
 }
 
 #[test]
-fn the_fortran_program_found_the_same_motion() {
+fn the_stored_result_of_the_fortran_program_is_the_same_motion() {
     compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
 }
 
-/// The Fortran program itself, if `MICROSLIP_PREFIX` is set and a compiler is available.
+/// The Fortran program itself, if `MICROSLIP_PREFIX` is set and a compiler is installed.
 #[test]
 fn the_fortran_program_finds_the_same_motion() {
     let compiler = std::env::var("FC").unwrap_or("gfortran".to_string());
@@ -492,19 +424,15 @@ fn the_fortran_program_finds_the_same_motion() {
     // Built in a copy: the examples may be built elsewhere at the same time, with another library.
     let copy = Path::new(env!("CARGO_TARGET_TMPDIR")).join("harmonic_balance");
     let _ = std::fs::remove_dir_all(&copy);
-    for directory in ["src", "cases", "model", "results"] {
-        std::fs::create_dir_all(copy.join(directory)).unwrap();
-        let entries =
-            std::fs::read_dir(examples().join(directory)).into_iter().flatten().filter(|_| directory != "results");
-        for entry in entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {
-            std::fs::copy(&entry, copy.join(directory).join(entry.file_name().unwrap())).unwrap();
-        }
-    }
-    std::fs::copy(examples().join("Makefile"), copy.join("Makefile")).unwrap();
+    std::fs::create_dir_all(copy.join("results")).unwrap();
     let run = |command: &mut Command| {
         let output = command.current_dir(&copy).output().unwrap();
         assert!(output.status.success(), "{command:?}\n{}", String::from_utf8_lossy(&output.stderr));
     };
+    run(Command::new("cp")
+        .arg("-R")
+        .args(["src", "cases", "model", "Makefile"].map(|name| examples().join(name)))
+        .arg("."));
     let prefix = std::fs::canonicalize(&prefix).unwrap();
     let mut make = Command::new("make");
     // Not a child of a make that may have started this.
@@ -520,14 +448,14 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
     let mut regimes = [false; 2];
     for &frequency in &case.frequencies {
         let balance = Balance::new(&case, frequency, case.harmonics);
-        let stepped = balance.solve(&mut Stepped { contact: &case.contact, samples: case.samples });
-        let library = balance.solve(&mut Library::new(&case.contact, case.harmonics, case.samples));
+        let stepped = balance.solve(&stepped(&case.contact, case.samples));
+        let library = balance.solve(&library(&case.contact, case.samples));
         let moved = norm((&stepped.motion - &library.motion).as_slice()) / norm(library.motion.as_slice());
-        // Both are converged to rounding.
+        // Both are converged to rounding error.
         assert!(moved < 1e-12, "{frequency} Hz: {moved:e}");
         println!("{frequency} Hz, moved {moved:.1e}: {:?}", scientific(&library.residuals));
-        // Once near, each residual over the excitation is at most the square of the one before: the force's curvature over
-        // its slope is of order 1 in these units. A Jacobian that is wrong by 1 % only would gain two digits a step.
+        // Near the solution each relative residual is at most the square of the previous one: the curvature of the force over
+        // its slope is of order 1 in these units. With a Jacobian that is wrong by 1 % a step gains two digits only.
         let mut squares = 0;
         for pair in library.residuals.windows(2).filter(|pair| (1e-11..0.1).contains(&pair[0])) {
             let allowed = (pair[0] * pair[0]).max(1e-14);
@@ -549,13 +477,13 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
 /// that of the omitted harmonics.
 fn finely_sampled(case: &Case, frequency: f64, harmonics: usize) -> [Vec<f64>; 2] {
     let balance = Balance::new(case, frequency, harmonics);
-    let solution = balance.solve(&mut Library::new(&case.contact, harmonics, 1024));
+    let solution = balance.solve(&library(&case.contact, 1024));
     [0, 1].map(|dof| balance.of_dof(&solution.motion, dof))
 }
 
 /// Gross slip erases the memory of the start, so the steady motion is unique.
 #[test]
-fn more_harmonics_come_nearer_to_time_integration() {
+fn more_harmonics_converge_to_time_integration() {
     let case = case();
     let mut gross_slip = 0;
     for &frequency in &case.frequencies {
@@ -564,28 +492,28 @@ fn more_harmonics_come_nearer_to_time_integration() {
             continue;
         }
         gross_slip += 1;
-        let march = TimeIntegration::until_steady(&case, frequency, 1024, 1e-7);
-        // What the contact moves beyond the ninth harmonic, and the motion would change by if it did not.
-        let touching = &march.displacement[case.touching];
-        let kept = waveform(&march.harmonics(case.touching, 19), march.steps());
-        let left_out = difference(&kept, touching) / norm(touching);
-        for (dof, steady) in march.displacement.iter().enumerate() {
+        let integrated = TimeIntegration::until_steady(&case, frequency, 1024, 1e-7);
+        // The displacement of the contact beyond the ninth harmonic.
+        let touching = &integrated.displacement[case.touching];
+        let retained = waveform(&integrated.harmonics(case.touching, 19), integrated.steps());
+        let left_out = difference(&retained, touching) / norm(touching);
+        for (dof, steady) in integrated.displacement.iter().enumerate() {
             let off = [0, 1, 2, 3].map(|k| {
-                let balanced = waveform(&balances[k][dof], march.steps());
+                let balanced = waveform(&balances[k][dof], integrated.steps());
                 difference(&balanced, steady) / norm(steady)
             });
             let nine = &balances[3][dof];
-            let first = fundamental(nine) / fundamental(&march.harmonics(dof, 3)) - 1.0;
-            let peak = half_range(&waveform(nine, march.steps())) / half_range(steady) - 1.0;
+            let first = fundamental(nine) / fundamental(&integrated.harmonics(dof, 3)) - 1.0;
+            let peak = half_range(&waveform(nine, integrated.steps())) / half_range(steady) - 1.0;
             let place = format!(
                 "{frequency} Hz, dof {}, {} periods: {:?}, left out {left_out:.1e}, fundamental {first:.1e}, half range {peak:.1e}",
                 dof + 1,
-                march.periods,
+                integrated.periods,
                 scientific(&off)
             );
             println!("{place}");
             assert!(off.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{place}");
-            // The force that the missing harmonics would have had comes back through the contact as a few times that.
+            // The contact amplifies the omitted harmonics a few times.
             let bound = 4.0 * left_out;
             assert!(left_out < 2e-3 && off[3] < bound && first.abs() < bound && peak.abs() < bound, "{place}");
         }
@@ -606,12 +534,12 @@ fn time_integration_has_the_amplitude_of_the_balance_in_microslip() {
         microslip += 1;
         let [coarse, fine] = [512, 1024].map(|steps| TimeIntegration::until_steady(&case, frequency, steps, 1e-8));
         for (dof, balanced) in balance.iter().enumerate() {
-            let [coarse, fine] = [&coarse, &fine].map(|march| fundamental(&march.harmonics(dof, 3)));
+            let [coarse, fine] = [&coarse, &fine].map(|one| fundamental(&one.harmonics(dof, 3)));
             // Newmark's error scales as 1/steps²: Richardson extrapolation.
             let limit = fine + (fine - coarse) / 3.0;
             let (off, newmark) = (fundamental(balanced) / limit - 1.0, (limit - fine) / limit);
-            println!("{frequency} Hz, dof {}: {off:.1e}, taken off {newmark:.1e}", dof + 1);
-            // The transient that is left changes by 1e-8 a period, and the samples of the balance cost as much.
+            println!("{frequency} Hz, dof {}: {off:.1e}, extrapolation {newmark:.1e}", dof + 1);
+            // The remaining transient changes by 1e-8 per period; the sampling error of the balance is as large.
             assert!(off.abs() < 5e-8 && off.abs() < 0.05 * newmark.abs(), "{frequency} Hz, dof {}: {off:.1e}", dof + 1);
         }
     }

@@ -1,8 +1,10 @@
 //! Properties of every contact and every history: Coulomb's bound, dissipation, memory, symmetry, tangents.
 
-use microslip::constant_load::state::{state_init, state_length};
-use microslip::constant_load::{equivalents, masing};
-use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
+mod common;
+
+use common::{advance, harmonic, unloaded};
+use microslip::constant_load::equivalents;
+use microslip::hbm::Rule;
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -61,9 +63,7 @@ struct Stepper<'a> {
 
 impl<'a> Stepper<'a> {
     fn new(contact: &'a Contact) -> Stepper<'a> {
-        let mut state = vec![0.0; state_length(64)];
-        state_init(&mut state).unwrap();
-        Stepper { contact, state }
+        Stepper { contact, state: unloaded(64) }
     }
 
     /// The part of the state that is used: its first double holds the number of reversals in its last 40 bits.
@@ -73,10 +73,7 @@ impl<'a> Stepper<'a> {
 
     /// Force, stiffness and dissipated energy of a step to a displacement over that of gross slip.
     fn step(&mut self, displacement: f64) -> (f64, f64, f64) {
-        let displacement = displacement * self.contact.slip_displacement;
-        let (step, dissipated) = masing::step_with_energy(self.contact, &self.state, displacement);
-        step.write(&mut self.state);
-        (step.force(), step.stiffness(), dissipated)
+        advance(self.contact, &mut self.state, displacement * self.contact.slip_displacement)
     }
 }
 
@@ -98,7 +95,7 @@ proptest! {
         prop_assert!(back.stiffness() <= contact.initial_stiffness * (1.0 + 1e-15) && back.stiffness() >= 0.0);
     }
 
-    /// Neighbouring forces across the change of formula at mu N/2, and anywhere: the displacement never falls.
+    /// The displacement increases with the force, across the change of formula at mu N/2 and anywhere.
     #[test]
     fn the_curve_rises(contact in contact(), part in prop_oneof![Just(0.5), 1e-6..0.999f64]) {
         let at = |part: f64| contact.curve_at_force(part * contact.slip_force).unwrap();
@@ -143,7 +140,7 @@ proptest! {
         }
     }
 
-    /// The work of a closed loop is what was dissipated: the two are computed apart.
+    /// The work of a closed loop is the dissipated energy, which is computed separately.
     #[test]
     fn work_around_a_loop_is_dissipated(contact in contact(), amplitude in 0.05..2.0f64) {
         let mut stepper = Stepper::new(&contact);
@@ -152,8 +149,8 @@ proptest! {
         let steps = 4000;
         for step in 1..=2 * steps {
             // Uniform steps of the phase refine both ends of the branch.
-            let phase = std::f64::consts::PI * step as f64 / steps as f64;
-            let before = std::f64::consts::PI * (step - 1) as f64 / steps as f64;
+            let phase = PI * step as f64 / steps as f64;
+            let before = PI * (step - 1) as f64 / steps as f64;
             let change = amplitude * (phase.cos() - before.cos()) * contact.slip_displacement;
             let (force, _, energy) = stepper.step(amplitude * phase.cos());
             work += 0.5 * (force + last) * change;
@@ -211,7 +208,7 @@ proptest! {
     }
 
     #[test]
-    fn odd_symmetry_and_rest(contact in contact(), path in path(30)) {
+    fn odd_symmetry_and_steps_of_zero(contact in contact(), path in path(30)) {
         let (mut one, mut mirrored) = (Stepper::new(&contact), Stepper::new(&contact));
         for displacement in path {
             let (force, stiffness, energy) = one.step(displacement);
@@ -239,17 +236,10 @@ proptest! {
     #[test]
     fn the_complex_stiffness_is_the_first_harmonic(contact in contact(), amplitude in 0.02..2.5f64) {
         let amplitude = amplitude * contact.slip_displacement;
-        let n = 512;
-        let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(1, n)];
-        Rule::UniformSampling.workspace_init(1, n, &mut memory).unwrap();
-        let mut workspace = Workspace::new(&mut memory).unwrap();
-        let mut force = [0.0; 3];
-        let mut energy = 0.0;
-        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
-        harmonic_force(&contact, &mut workspace, &[0.0, amplitude, 0.0], output).unwrap();
+        let (force, _, energy) = harmonic(&contact, Rule::UniformSampling, 512, &[0.0, amplitude, 0.0]);
         let stiffness = contact.complex_stiffness(amplitude).unwrap();
         let size = contact.initial_stiffness;
-        // The samples' error falls as their number squared.
+        // The sampling error is O(samples⁻²).
         prop_assert!((force[1] / amplitude - stiffness.real()).abs() < 2e-4 * size);
         prop_assert!((-force[2] / amplitude - stiffness.imaginary()).abs() < 2e-4 * size);
         prop_assert!((energy / stiffness.dissipated() - 1.0).abs() < 1e-9);
@@ -261,19 +251,14 @@ proptest! {
         contact in contact(), amplitude in 0.02..2.5f64, phase in 0.0..6.3f64, harmonics in 1..6usize,
     ) {
         let amplitude = amplitude * contact.slip_displacement;
-        let n = 2 * harmonics + 1;
-        let mut memory = vec![0.0; Rule::EventDriven.workspace_length(harmonics, 64)];
-        Rule::EventDriven.workspace_init(harmonics, 64, &mut memory).unwrap();
-        let mut workspace = Workspace::new(&mut memory).unwrap();
-        let (mut force, mut displacement, mut energy) = (vec![0.0; n], vec![0.0; n], 0.0);
         let (sine, cosine) = phase.sin_cos();
+        let mut displacement = vec![0.0; 2 * harmonics + 1];
         (displacement[1], displacement[2]) = (amplitude * cosine, amplitude * sine);
-        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
-        harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
+        let (force, _, energy) = harmonic(&contact, Rule::EventDriven, 64, &displacement);
         let stiffness = contact.complex_stiffness(amplitude).unwrap();
         let real = (cosine * force[1] + sine * force[2]) / amplitude;
         let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
-        // Worst for a reversal just before gross slip, where the integrand is nearly singular.
+        // Largest for a reversal just before gross slip: the integrand is nearly singular.
         let size = contact.initial_stiffness;
         prop_assert!((real - stiffness.real()).abs() < 1e-8 * size, "{} {}", real / size, stiffness.real() / size);
         prop_assert!((imaginary - stiffness.imaginary()).abs() < 1e-8 * size);
@@ -308,12 +293,7 @@ proptest! {
         let displacement: Vec<f64> = (0..9)
             .map(|k| if present(k) { size * shape[k] / 3.0 * contact.slip_displacement } else { 0.0 })
             .collect();
-        let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(4, samples)];
-        Rule::UniformSampling.workspace_init(4, samples, &mut memory).unwrap();
-        let (mut force, mut energy) = ([0.0; 9], 0.0);
-        let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
-        harmonic_force(&contact, &mut Workspace::new(&mut memory).unwrap(), &displacement, output).unwrap();
-
+        let (force, _, energy) = harmonic(&contact, Rule::UniformSampling, samples, &displacement);
         let row = |sample: usize| -> Vec<f64> {
             (0..9usize)
                 .map(|k| {
@@ -327,15 +307,16 @@ proptest! {
         let (mut sums, mut dissipated) = ([0.0; 9], 0.0);
         for sample in 0..2 * samples {
             let row = row(sample);
-            let (now, _, loss) = stepper.step(row.iter().zip(&displacement).map(|(table, c)| table * c).sum::<f64>() / contact.slip_displacement);
+            let displacement: f64 = row.iter().zip(&displacement).map(|(table, c)| table * c).sum();
+            let (now, _, energy_of_step) = stepper.step(displacement / contact.slip_displacement);
             if sample >= samples {
                 sums.iter_mut().zip(&row).for_each(|(sum, table)| *sum += now * table);
-                dissipated += loss;
+                dissipated += energy_of_step;
             }
         }
         for (k, (sum, force)) in sums.iter().zip(force).enumerate() {
             let mean = if k == 0 { 1.0 } else { 2.0 } / samples as f64;
-            // Displacements are summed in another order; near gross slip that is worth more than a unit of the force.
+            // Displacements are summed in another order; near gross slip that changes the force by more than its rounding error.
             prop_assert!((sum * mean - force).abs() < 1e-11 * contact.slip_force, "{k}: {} {force}", sum * mean);
         }
         prop_assert!((dissipated - energy).abs() < 1e-9 * (energy + 1e-3 * contact.slip_energy), "{dissipated} {energy}");
@@ -344,20 +325,10 @@ proptest! {
     /// The Jacobian of a history that nests and slips, against central differences.
     #[test]
     fn the_jacobian_is_exact(contact in contact(), shape in prop::collection::vec(-1.0..1.0f64, 7), size in 0.1..1.5f64) {
-        let n = 48;
         let slip = contact.slip_displacement;
-        let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(3, n)];
-        Rule::UniformSampling.workspace_init(3, n, &mut memory).unwrap();
-        let mut workspace = Workspace::new(&mut memory).unwrap();
         let displacement: Vec<f64> = shape.iter().map(|c| c * size * slip).collect();
-        let mut evaluate = |displacement: &[f64], jacobian: Option<&mut [f64]>| {
-            let mut force = vec![0.0; 7];
-            let output = HarmonicOutput { force: Some(&mut force), jacobian, dissipated: None };
-            harmonic_force(&contact, &mut workspace, displacement, output).unwrap();
-            force
-        };
-        let mut jacobian = vec![0.0; 49];
-        evaluate(&displacement, Some(&mut jacobian));
+        let evaluate = |displacement: &[f64]| harmonic(&contact, Rule::UniformSampling, 48, displacement);
+        let (_, jacobian, _) = evaluate(&displacement);
         let mut off = 0;
         for j in 0..7 {
             let h = 1e-7 * slip;
@@ -366,7 +337,7 @@ proptest! {
                 moved[j] += sign * h;
                 moved
             };
-            let (low, high) = (evaluate(&moved(-1.0), None), evaluate(&moved(1.0), None));
+            let (low, high) = (evaluate(&moved(-1.0)).0, evaluate(&moved(1.0)).0);
             for i in 0..7 {
                 let difference = (high[i] - low[i]) / (2.0 * h);
                 // One sample of 48 at a kink (start or end of gross slip) makes a one-sided derivative of the difference.
@@ -384,9 +355,8 @@ proptest! {
         let part = slider.slip_force / (slider.stiffness * amplitude);
         prop_assert!((0.0..=1.0).contains(&part));
         let theta = 2.0 * part.sqrt().asin();
-        let pi = std::f64::consts::PI;
-        let real = slider.stiffness / pi * (theta - theta.sin() * theta.cos());
-        let imaginary = 4.0 * slider.stiffness / pi * part * (1.0 - part);
+        let real = slider.stiffness / PI * (theta - theta.sin() * theta.cos());
+        let imaginary = 4.0 * slider.stiffness / PI * part * (1.0 - part);
         prop_assert!((real - stiffness.real()).abs() < 1e-12 * slider.stiffness);
         prop_assert!((imaginary - stiffness.imaginary()).abs() < 1e-12 * slider.stiffness);
     }

@@ -271,6 +271,17 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
+    /// Compiled once for all tests: the function itself is inlined into every caller.
+    #[inline(never)]
+    fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+        super::step(contact, state, displacement)
+    }
+
+    #[inline(never)]
+    fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
+        super::step_with_energy(contact, state, displacement)
+    }
+
     fn unloaded(reversals: usize) -> Vec<f64> {
         let mut state = vec![0.0; state_length(reversals)];
         state_init(&mut state).unwrap();

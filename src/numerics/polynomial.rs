@@ -69,3 +69,18 @@ pub(crate) fn rows_for(x: f64, all: usize) -> usize {
     };
     enough.min(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rows_of_a_geometric_series_are_enough_up_to_each_bound() {
+        for x in [1.0 / 16.0, 0.25, 1.0 / 3.0] {
+            let used = rows_for(x, 20);
+            let found = sum([[1.0; 4]; 20].into_iter().take(used), x);
+            assert!((found * (1.0 - x) - 1.0).abs() < 4.0 * f64::EPSILON, "{x} {found}");
+            assert!(rows_for(x, 20) < rows_for(f64::next_up(x), 20) && rows_for(x, 2) == 2);
+        }
+    }
+}

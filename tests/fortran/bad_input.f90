@@ -1,55 +1,439 @@
 program bad_input
-  ! Bad input, one at a time, from Fortran: NaN, quiet and signalling, infinities, and memory with changed bits. Each is
-  ! rejected by its own status and no output is modified; compiled with traps, none raises a signal.
+  ! Every procedure with a contact, by a table: each subset of the optional outputs, arrays of wrong size, invalid values (quiet
+  ! and signalling NaN, infinities), and memory that was never initialised or truncated. Each error has its own status and
+  ! modifies no output; compiled with traps, none raises a signal.
   use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use microslip
   use checks
   implicit none
 
-  integer, parameter :: bad_values = 5, samples = 16, harmonics = 2, m = 2*harmonics + 1, items = 3
+  integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, bad_values = 5
+  integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4
   integer(c_int64_t), parameter :: signalling(2) = [int(z'7FF0000000000001', c_int64_t), int(z'7FF4000000000000', c_int64_t)]
+  integer(mslip_int), parameter :: none = MSLIP_OK, position = MSLIP_BAD_POSITION, force = MSLIP_BAD_FORCE, &
+    amplitude = MSLIP_BAD_AMPLITUDE, force_amplitude = MSLIP_BAD_FORCE_AMPLITUDE, shift = MSLIP_BAD_DISPLACEMENT
 
-  type(mslip_contact) :: flat
-  real(wp) :: bad(bad_values)
+  type :: procedure_info
+    character(len=28) :: name
+    integer(mslip_int) :: scalar, array  ! Status of an invalid scalar, and of an invalid element of the input array.
+    character(len=5) :: outputs          ! Four outputs and the new state: shapes as in `set_up`, upper case if required.
+    character :: memory = ' '            ! s: state, w: workspace.
+    logical :: batch = .false.
+  end type procedure_info
 
-  call initialise()
+  type(procedure_info), parameter :: procedures(23) = [ &
+    procedure_info('tractions', force, position, 'vv'), &
+    procedure_info('slip', force, position, 'vv'), &
+    procedure_info('monotonic_displacement', none, force, 'vvv'), &
+    procedure_info('monotonic_displacement, one', force, none, 'sss'), &
+    procedure_info('monotonic_force', none, shift, 'vvv'), &
+    procedure_info('monotonic_force, one', shift, none, 'sss'), &
+    procedure_info('masing_update', shift, none, 'sss N', 's'), &
+    procedure_info('masing_advance', shift, none, 'sss', 's'), &
+    procedure_info('masing_path', none, shift, 'vvv N', 's'), &
+    procedure_info('masing_path_advance', none, shift, 'vvv', 's'), &
+    procedure_info('masing_tractions', none, position, 'vv', 's'), &
+    procedure_info('hysteresis_loop', amplitude, none, 'VV'), &
+    procedure_info('dissipated_energy', none, force_amplitude, 'V'), &
+    procedure_info('dissipated_energy, one', force_amplitude, none, 'S'), &
+    procedure_info('complex_stiffness', none, amplitude, 'vvvv'), &
+    procedure_info('complex_stiffness, one', amplitude, none, 'ssss'), &
+    procedure_info('harmonic_force', none, shift, 'cjs', 'w'), &
+    procedure_info('jenkins_equivalent', amplitude, none, 'SS'), &
+    procedure_info('iwan_equivalent', none, none, 'VVs'), &
+    procedure_info('batch_complex_stiffness', none, amplitude, 'vvvv', batch=.true.), &
+    procedure_info('batch_masing_update', none, shift, 'vvv B', 's', .true.), &
+    procedure_info('batch_masing_advance', none, shift, 'vvv', 's', .true.), &
+    procedure_info('batch_harmonic_force', none, shift, 'fkv', 'w', .true.)]
+
+  ! One component is allocated; if none is, the argument is absent.
+  type :: output
+    real(wp), allocatable :: s, v(:), m(:, :), t(:, :, :)
+  end type output
+
+  type(mslip_contact), allocatable :: contacts(:)
+  type(output) :: out(5)
+  real(wp), allocatable :: x(:), u(:, :), state(:), states(:, :), workspace(:)
+  integer(mslip_int), allocatable :: index(:), active(:)
+  real(wp) :: scalar, bad(bad_values)
+  integer(mslip_int) :: status
+  integer :: p
+
+  bad(1) = ieee_value(1.0_wp, ieee_quiet_nan)
+  bad(2) = ieee_value(1.0_wp, ieee_positive_inf)
+  bad(3) = ieee_value(1.0_wp, ieee_negative_inf)
+  bad(4:5) = transfer(signalling, bad, 2)
+  do p = 1, size(procedures)
+    call test_subsets()
+    call test_sizes()
+    call test_values()
+    call test_memory()
+    if (procedures(p)%batch) call test_batch()
+  end do
   call test_parameters()
-  call test_elliptic_parameters()
-  call test_values()
-  call test_batches()
-  call test_contact_bits()
-  call test_state_values()
-  call test_restart_file()
-  call test_workspace_values()
+  call test_contact_check()
+  call test_state_check()
+  call test_workspace()
+  call check('every status is returned, but for NULL pointers and misaligned ones', &
+    all([(was_returned(int(p, mslip_int)) .or. mslip_status_text(int(p, mslip_int)) == mslip_status_text(-1_mslip_int) &
+    .or. p == MSLIP_NULL_POINTER .or. p == MSLIP_BAD_ALIGNMENT, p = 1, 127)]))
   call report()
 
 contains
 
-  pure function good_parameters() result(p)
-    type(mslip_parameters) :: p
+  pure function flat_parameters() result(flat)
+    type(mslip_parameters) :: flat
 
-    p = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=800.0_wp, &
+    flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=800.0_wp, &
       friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)])
-  end function good_parameters
+  end function flat_parameters
 
-  subroutine initialise()
-    integer(mslip_int) :: status
+  pure function ellipse_parameters() result(ellipse)
+    type(mslip_elliptic_parameters) :: ellipse
 
-    bad(1) = ieee_value(1.0_wp, ieee_quiet_nan)
-    bad(2) = ieee_value(1.0_wp, ieee_positive_inf)
-    bad(3) = ieee_value(1.0_wp, ieee_negative_inf)
-    bad(4:5) = transfer(signalling, bad, 2)
-    call mslip_contact_init(good_parameters(), flat, status)
-    call check_status('initialise', status, MSLIP_OK)
-  end subroutine initialise
+    ellipse = mslip_elliptic_parameters(1.0e-3_wp, 2.0e-3_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
+  end function ellipse_parameters
 
-  logical function is_untouched(values)
+  subroutine set_up()
+    ! Valid arguments of procedure p, and unset outputs of the required shapes.
+    integer(mslip_int) :: ok
+    integer :: i, items
+
+    items = merge(n, 1, procedures(p)%batch)
+    if (allocated(contacts)) deallocate (contacts)
+    allocate (contacts(items))
+    call mslip_contact_init(flat_parameters(), contacts(1), ok)
+    contacts = contacts(1)
+    scalar = 1.0e-7_wp
+    x = [1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp]
+    u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp], 2, items)
+    if (allocated(index)) deallocate (index)
+    if (allocated(active)) deallocate (active)
+    if (procedures(p)%batch) then
+      index = [(int(i, mslip_int), i = 1, n)]
+      active = spread(1_mslip_int, 1, n)
+    end if
+    state = spread(0.0_wp, 1, int(mslip_state_length(reversals)))
+    call mslip_state_init(state, ok)
+    call mslip_masing_path_advance(contacts(1), state, [2.0e-7_wp, 0.5e-7_wp, 1.5e-7_wp], ok)
+    states = spread(state, 2, n)
+    workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
+    call mslip_harmonic_workspace_init(h, samples, workspace, ok)
+    call check_status('set up', ok, MSLIP_OK)
+    do i = 1, size(out)
+      out(i) = output()
+      select case (procedures(p)%outputs(i:i))
+      case ('s', 'S'); out(i)%s = untouched
+      case ('v', 'V'); out(i)%v = spread(untouched, 1, n)
+      case ('c'); out(i)%v = spread(untouched, 1, m)
+      case ('N'); out(i)%v = spread(untouched, 1, size(state))
+      case ('f'); out(i)%m = reshape([real(wp) ::], [m, n], pad=[untouched])
+      case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
+      case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
+      case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
+      end select
+    end do
+  end subroutine set_up
+
+  subroutine perform()
+    select case (p)
+    case (1); call mslip_tractions(contacts(1), scalar, x, status, out(1)%v, out(2)%v)
+    case (2); call mslip_slip(contacts(1), scalar, x, status, out(1)%v, out(2)%v)
+    case (3); call mslip_monotonic_displacement(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (4); call mslip_monotonic_displacement(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (5); call mslip_monotonic_force(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (6); call mslip_monotonic_force(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (7); call mslip_masing_update(contacts(1), state, scalar, out(5)%v, status, out(1)%s, out(2)%s, out(3)%s)
+    case (8); call mslip_masing_advance(contacts(1), state, scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (9); call mslip_masing_path(contacts(1), state, x, out(5)%v, status, out(1)%v, out(2)%v, out(3)%v)
+    case (10); call mslip_masing_path_advance(contacts(1), state, x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (11); call mslip_masing_tractions(contacts(1), state, x, status, out(1)%v, out(2)%v)
+    case (12); call mslip_hysteresis_loop(contacts(1), scalar, out(1)%v, out(2)%v, status)
+    case (13); call mslip_dissipated_energy(contacts(1), x, out(1)%v, status)
+    case (14); call mslip_dissipated_energy(contacts(1), scalar, out(1)%s, status)
+    case (15); call mslip_complex_stiffness(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
+    case (16); call mslip_complex_stiffness(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
+    case (17); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
+    case (18); call mslip_jenkins_equivalent(contacts(1), scalar, out(1)%s, out(2)%s, status)
+    case (19); call mslip_iwan_equivalent(contacts(1), out(1)%v, out(2)%v, status, out(3)%s)
+    case (20)
+      call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
+    case (21)
+      call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, out(2)%v, out(3)%v)
+    case (22); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, out(3)%v)
+    case (23)
+      call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    end select
+  end subroutine perform
+
+  pure function flat(one) result(values)
+    type(output), intent(in) :: one
+    real(wp), allocatable :: values(:)
+
+    values = [real(wp) ::]
+    if (allocated(one%s)) values = [one%s]
+    if (allocated(one%v)) values = one%v
+    if (allocated(one%m)) values = [one%m]
+    if (allocated(one%t)) values = [one%t]
+  end function flat
+
+  pure logical function is_untouched(values)
     ! Compared as bits: a value written in error may be NaN.
     real(wp), intent(in) :: values(:)
 
     is_untouched = all(transfer(values, [0_c_int64_t]) == transfer(untouched, 0_c_int64_t))
   end function is_untouched
+
+  subroutine rejected(what, expected)
+    ! The call has this status and modifies no output and no state.
+    character(len=*), intent(in) :: what
+    integer(mslip_int), intent(in) :: expected
+
+    real(wp) :: before(size(state) + size(states))
+    integer :: i
+
+    before = [state, states]
+    call perform()
+    call check_status(trim(procedures(p)%name)//': '//what, status, expected)
+    call check(trim(procedures(p)%name)//', '//what//': nothing modified', all([(is_untouched(flat(out(i))), i = 1, size(out))]) &
+      .and. all(transfer([state, states], [0_c_int64_t]) == transfer(before, [0_c_int64_t])))
+  end subroutine rejected
+
+  logical function is_optional(i)
+    integer, intent(in) :: i
+
+    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfk') > 0
+  end function is_optional
+
+  subroutine test_subsets()
+    type(output) :: all_outputs(size(out))
+    integer :: subset, i
+
+    call set_up()
+    call perform()
+    all_outputs = out
+    call check_status(procedures(p)%name, status, MSLIP_OK)
+    call check(trim(procedures(p)%name)//': all outputs are written', &
+      .not. any([(size(flat(out(i))) > 0 .and. is_untouched(flat(out(i))), i = 1, size(out))]))
+    do subset = 0, 15
+      call set_up()
+      do i = 1, 4
+        if (is_optional(i) .and. .not. btest(subset, i - 1)) out(i) = output()
+      end do
+      call perform()
+      call check_status(trim(procedures(p)%name)//': a subset of the outputs', status, MSLIP_OK)
+      do i = 1, size(out)
+        if (size(flat(out(i))) > 0) call check_same(trim(procedures(p)%name)//': a subset of the outputs', flat(out(i)), &
+          flat(all_outputs(i)))
+      end do
+    end do
+  end subroutine test_subsets
+
+  subroutine test_sizes()
+    ! Each array is longer by one, in each of its dimensions.
+    integer :: i, d, extent(3)
+
+    do i = 1, size(out)
+      call set_up()
+      if (allocated(out(i)%v)) then
+        out(i)%v = spread(untouched, 1, size(out(i)%v) + 1)
+        call rejected('size', MSLIP_BAD_ARRAY_SIZE)
+      end if
+      do d = 1, 3
+        call set_up()
+        if (allocated(out(i)%m)) extent(:2) = shape(out(i)%m)
+        if (allocated(out(i)%t)) extent = shape(out(i)%t)
+        extent(d) = extent(d) + 1
+        if (allocated(out(i)%t)) then
+          out(i)%t = reshape([real(wp) ::], extent, pad=[untouched])
+          call rejected('size', MSLIP_BAD_ARRAY_SIZE)
+        else if (allocated(out(i)%m) .and. d < 3) then
+          out(i)%m = reshape([real(wp) ::], extent(:2), pad=[untouched])
+          call rejected('size', MSLIP_BAD_ARRAY_SIZE)
+        end if
+      end do
+    end do
+    call set_up()
+    u = reshape([u], shape(u) + [1, 0], pad=[0.0_wp])
+    if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_ARRAY_SIZE)
+    if (.not. procedures(p)%batch) return
+    call set_up()
+    index = [index, 1_mslip_int]
+    call rejected('size of index', MSLIP_BAD_ARRAY_SIZE)
+    call set_up()
+    active = [active, 1_mslip_int]
+    call rejected('size of active', MSLIP_BAD_ARRAY_SIZE)
+    call set_up()
+    x = [x, 0.0_wp]
+    u = reshape([u], [m, n + 1], pad=[0.0_wp])
+    call rejected('size of the input', MSLIP_BAD_ARRAY_SIZE)
+    call set_up()
+    states = reshape([states], [size(states, 1), n + 1], pad=[0.0_wp])
+    if (procedures(p)%memory == 's') call rejected('number of states', MSLIP_BAD_ARRAY_SIZE)
+  end subroutine test_sizes
+
+  subroutine test_values()
+    integer :: k
+
+    do k = 1, bad_values
+      call set_up()
+      scalar = bad(k)
+      if (procedures(p)%scalar /= none) call rejected('scalar', procedures(p)%scalar)
+      call set_up()
+      x(n) = bad(k)
+      u(m, size(u, 2)) = bad(k)
+      if (procedures(p)%array /= none) call rejected('array', procedures(p)%array)
+    end do
+    do k = -1, 1, 2
+      call set_up()
+      scalar = 1.001_wp*k*contacts(1)%slip_force
+      x(n) = scalar
+      if (any([procedures(p)%scalar, procedures(p)%array] == force)) call rejected('a force beyond mu N', MSLIP_FORCE_EXCEEDS_SLIP)
+      if (any([procedures(p)%scalar, procedures(p)%array] == force_amplitude)) &
+        call rejected('a force amplitude', merge(MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_FORCE_EXCEEDS_SLIP, k < 0))
+      if (k < 0 .and. any([procedures(p)%scalar, procedures(p)%array] == amplitude)) call rejected('amplitude', amplitude)
+    end do
+  end subroutine test_values
+
+  subroutine test_memory()
+    ! Contacts, states and workspaces that were never initialised, hold other values, or are truncated.
+    integer :: k
+
+    call set_up()
+    contacts(size(contacts)) = mslip_contact()
+    call rejected('an uninitialised contact', MSLIP_BAD_CONTACT)
+    if (procedures(p)%name == 'slip') then
+      call set_up()
+      call mslip_contact_init_elliptic(ellipse_parameters(), contacts(1), status)
+      call rejected('an elliptical contact', MSLIP_NOT_AVAILABLE)
+    end if
+    do k = 0, bad_values
+      call set_up()
+      state = spread(0.0_wp, 1, size(state))
+      if (k > 0) state = spread(bad(max(k, 1)), 1, size(state))
+      states(:, n) = state
+      workspace = spread(state(1), 1, size(workspace))
+      if (procedures(p)%memory == 's') call rejected('an uninitialised state', MSLIP_BAD_STATE)
+      if (procedures(p)%memory == 'w') call rejected('an uninitialised workspace', MSLIP_BAD_WORKSPACE)
+    end do
+    call set_up()
+    state = state(:3)
+    states = states(:3, :)
+    workspace = workspace(:size(workspace) - 1)
+    if (procedures(p)%outputs(5:5) == 'N') out(5)%v = out(5)%v(:3)
+    if (procedures(p)%outputs(5:5) == 'B') out(5)%m = out(5)%m(:3, :)
+    if (procedures(p)%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
+    if (procedures(p)%memory == 'w') call rejected('a truncated workspace', MSLIP_WORKSPACE_TOO_SHORT)
+    if (procedures(p)%memory == 'w') then
+      workspace = workspace(:2)
+      call rejected('a workspace of two values', MSLIP_WORKSPACE_TOO_SHORT)
+    end if
+  end subroutine test_memory
+
+  subroutine test_batch()
+    ! Indices count from 1. An item that is not active is neither checked nor modified.
+    integer(mslip_int), parameter :: bad_index(4) = [0_mslip_int, int(n + 1, mslip_int), -huge(1_mslip_int), huge(1_mslip_int)]
+    integer :: i, k
+
+    do k = 1, size(bad_index)
+      call set_up()
+      index(n) = bad_index(k)
+      call rejected('index', MSLIP_BAD_INDEX)
+    end do
+    do k = 1, 3
+      call set_up()
+      if (k == 1) x(n) = bad(4)
+      if (k == 1) u(:, n) = bad(4)
+      if (k == 2) index(n) = 0
+      if (k == 3) contacts(n) = mslip_contact()
+      active(n) = 0
+      call perform()
+      call check_status(trim(procedures(p)%name)//': an invalid item is skipped', status, MSLIP_OK)
+      do i = 1, size(out)
+        associate (values => flat(out(i)))
+          call check(trim(procedures(p)%name)//': all items but the skipped one are written', size(values) == 0 &
+            .or. (is_untouched(values(2*size(values)/n + 1:)) .and. .not. is_untouched(values(:2*size(values)/n))))
+        end associate
+      end do
+    end do
+  end subroutine test_batch
+
+  subroutine test_parameters()
+    ! Every parameter in turn: unset, invalid, negative; and combinations.
+    integer(mslip_int), parameter :: expected(9) = [MSLIP_BAD_FLAT_HALF_WIDTH, MSLIP_BAD_EDGE_RADIUS, MSLIP_BAD_LENGTH, &
+      MSLIP_BAD_NORMAL_FORCE, MSLIP_BAD_FRICTION_COEFFICIENT, MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO, &
+      MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO]
+    integer(mslip_int), parameter :: elliptic(9) = [MSLIP_BAD_SEMI_AXIS_X, MSLIP_BAD_SEMI_AXIS_Y, expected(4:), none]
+    type(mslip_parameters) :: parameters, unset
+    type(mslip_elliptic_parameters) :: ellipse
+    type(mslip_contact) :: contact
+    real(wp) :: values(10), value
+    integer :: i, k
+
+    call mslip_contact_init(unset, contact, status)
+    call check_status('parameters never set', status, MSLIP_BAD_FLAT_HALF_WIDTH)
+    contact%half_width = untouched
+    do i = 1, size(expected)
+      do k = 0, bad_values
+        value = -1
+        if (k > 0) value = bad(max(k, 1))
+        values = transfer(flat_parameters(), values)
+        values(i) = value
+        call mslip_contact_init(transfer(values, parameters), contact, status)
+        call check_status('a parameter', status, expected(i))
+        if (elliptic(i) == none) cycle
+        values(:8) = transfer(ellipse_parameters(), values, 8)
+        values(i) = value
+        call mslip_contact_init_elliptic(transfer(values(:8), ellipse), contact, status)
+        call check_status('a parameter of an ellipse', status, elliptic(i))
+      end do
+      call mslip_parameters_default(unset)
+      values = transfer(unset, values)
+      values(:i - 1) = transfer(flat_parameters(), values, i - 1)
+      call mslip_contact_init(transfer(values, parameters), contact, status)
+      call check_status('an unset parameter', status, expected(i))
+    end do
+    call mslip_elliptic_parameters_default(ellipse)
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('an unset ellipse', status, MSLIP_BAD_SEMI_AXIS_X)
+    parameters = flat_parameters()
+    parameters%displacement_reference = 7
+    call mslip_contact_init(parameters, contact, status)
+    call check_status('displacement reference', status, MSLIP_BAD_DISPLACEMENT_REFERENCE)
+    parameters = flat_parameters()
+    parameters%length = 1.0e-4_wp
+    call mslip_contact_init(parameters, contact, status)
+    call check_status('a short length', status, MSLIP_LENGTH_TOO_SHORT)
+    parameters%edge_radius = 1.0e300_wp
+    call mslip_contact_init(parameters, contact, status)
+    call check_status('a large radius', status, MSLIP_OUT_OF_RANGE)
+    call check('a rejected contact is not modified', is_untouched([contact%half_width]))
+  end subroutine test_parameters
+
+  subroutine test_contact_check()
+    ! Any changed bit of a contact.
+    type(mslip_contact) :: contact
+    real(wp) :: words(storage_size(contact)/64)
+    integer :: i, bit, found
+
+    call mslip_contact_init(flat_parameters(), contact, status)
+    words = transfer(contact, words)
+    call mslip_contact_check(contact, status)
+    call check_status('check of a contact', status, MSLIP_OK)
+    call mslip_contact_check(mslip_contact(), status)
+    call check_status('check of an uninitialised contact', status, MSLIP_BAD_CONTACT)
+    found = 0
+    do i = 1, size(words)
+      do bit = 0, 63
+        words(i) = flipped(words(i), bit)
+        call mslip_contact_check(transfer(words, contact), status)
+        if (status == MSLIP_BAD_CONTACT) found = found + 1
+        words(i) = flipped(words(i), bit)
+      end do
+    end do
+    call check('the check of a contact finds every changed bit', found == 64*size(words))
+  end subroutine test_contact_check
 
   pure function flipped(value, bit)
     real(wp), intent(in) :: value
@@ -59,293 +443,71 @@ contains
     flipped = transfer(ieor(transfer(value, 0_c_int64_t), ishft(1_c_int64_t, bit)), value)
   end function flipped
 
-  subroutine test_parameters()
-    ! Every parameter in turn: NaN, infinite, of the wrong sign.
-    integer(mslip_int), parameter :: expected(9) = [MSLIP_BAD_FLAT_HALF_WIDTH, MSLIP_BAD_EDGE_RADIUS, MSLIP_BAD_LENGTH, &
-      MSLIP_BAD_NORMAL_FORCE, MSLIP_BAD_FRICTION_COEFFICIENT, MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO, &
-      MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO]
-    type(mslip_parameters) :: p
-    type(mslip_contact) :: contact
-    integer(mslip_int) :: status
+  subroutine test_state_check()
+    real(wp) :: changed(mslip_state_length(reversals)), error
     integer :: i, k
 
-    do i = 1, size(expected)
-      do k = 1, bad_values + 1
-        p = good_parameters()
-        select case (i)
-        case (1); p%flat_half_width = bad_or_negative(k)
-        case (2); p%edge_radius = bad_or_negative(k)
-        case (3); p%length = bad_or_negative(k)
-        case (4); p%normal_force = bad_or_negative(k)
-        case (5); p%friction_coefficient = bad_or_negative(k)
-        case (6); p%material(1)%young_modulus = bad_or_negative(k)
-        case (7); p%material(1)%poisson_ratio = bad_or_negative(k)
-        case (8); p%material(2)%young_modulus = bad_or_negative(k)
-        case (9); p%material(2)%poisson_ratio = bad_or_negative(k)
-        end select
-        contact%half_width = untouched
-        call mslip_contact_init(p, contact, status)
-        call check_status('a parameter', status, expected(i))
-        call check('a rejected contact is not modified', is_untouched([contact%half_width]))
-      end do
-    end do
-  end subroutine test_parameters
-
-  function bad_or_negative(k) result(value)
-    integer, intent(in) :: k
-    real(wp) :: value
-
-    value = -1
-    if (k <= bad_values) value = bad(min(k, bad_values))
-  end function bad_or_negative
-
-  subroutine test_elliptic_parameters()
-    integer(mslip_int), parameter :: expected(6) = [MSLIP_BAD_SEMI_AXIS_X, MSLIP_BAD_SEMI_AXIS_Y, MSLIP_BAD_NORMAL_FORCE, &
-      MSLIP_BAD_FRICTION_COEFFICIENT, MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO]
-    type(mslip_elliptic_parameters) :: p
-    type(mslip_contact) :: contact
-    integer(mslip_int) :: status
-    integer :: i, k
-
-    do i = 1, size(expected)
-      do k = 1, bad_values + 1
-        p = mslip_elliptic_parameters(1.0e-3_wp, 2.0e-3_wp, 50.0_wp, 0.5_wp, &
-          [mslip_material(2.0e11_wp, 0.3_wp), mslip_material(2.0e11_wp, 0.3_wp)])
-        select case (i)
-        case (1); p%semi_axis_x = bad_or_negative(k)
-        case (2); p%semi_axis_y = bad_or_negative(k)
-        case (3); p%normal_force = bad_or_negative(k)
-        case (4); p%friction_coefficient = bad_or_negative(k)
-        case (5); p%material(2)%young_modulus = bad_or_negative(k)
-        case (6); p%material(2)%poisson_ratio = bad_or_negative(k)
-        end select
-        contact%half_width = untouched
-        call mslip_contact_init_elliptic(p, contact, status)
-        call check_status('a parameter of an ellipse', status, expected(i))
-        call check('a rejected ellipse is not modified', is_untouched([contact%half_width]))
-      end do
-    end do
-  end subroutine test_elliptic_parameters
-
-  subroutine test_values()
-    ! Each procedure with each bad value.
-    real(wp) :: state(mslip_state_length(4_mslip_size)), next(mslip_state_length(4_mslip_size))
-    real(wp) :: workspace(mslip_harmonic_workspace_length(int(harmonics, mslip_size), int(samples, mslip_size)))
-    real(wp) :: x(3), a(3), b(3), c(3), d(3), displacement(m), force(m), jacobian(m, m), one, two, three
-    integer(mslip_int) :: status
-    integer :: k
-
-    call mslip_state_init(state, status)
-    call mslip_masing_advance(flat, state, 1.0e-7_wp, status)
-    call mslip_harmonic_workspace_init(int(harmonics, mslip_size), int(samples, mslip_size), workspace, status)
-    call check_status('workspace', status, MSLIP_OK)
-    do k = 1, bad_values
-      a = untouched; b = untouched; c = untouched; d = untouched; next = untouched
-      force = untouched; jacobian = untouched; one = untouched; two = untouched; three = untouched
-      x = [1.0e-5_wp, 2.0e-5_wp, bad(k)]
-      call mslip_tractions(flat, 1.0_wp, x, status, a, b)
-      call check_status('tractions: x', status, MSLIP_BAD_POSITION)
-      call mslip_tractions(flat, bad(k), x(:2), status, a(:2), b(:2))
-      call check_status('tractions: force', status, MSLIP_BAD_FORCE)
-      call mslip_slip(flat, 1.0_wp, x, status, a, b)
-      call check_status('slip: x', status, MSLIP_BAD_POSITION)
-      call mslip_slip(flat, bad(k), x(:2), status, a(:2), b(:2))
-      call check_status('slip: force', status, MSLIP_BAD_FORCE)
-      call mslip_monotonic_displacement(flat, x, status, a, b, c)
-      call check_status('monotonic_displacement', status, MSLIP_BAD_FORCE)
-      call mslip_monotonic_displacement(flat, bad(k), status, one, two, three)
-      call check_status('monotonic_displacement, one', status, MSLIP_BAD_FORCE)
-      call mslip_monotonic_force(flat, x, status, a, b, c)
-      call check_status('monotonic_force', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_monotonic_force(flat, bad(k), status, one, two, three)
-      call check_status('monotonic_force, one', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_masing_update(flat, state, bad(k), next, status, one, two, three)
-      call check_status('masing_update', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_masing_advance(flat, state, bad(k), status, one, two, three)
-      call check_status('masing_advance', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_masing_path(flat, state, x, next, status, a, b, c)
-      call check_status('masing_path', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_masing_path_advance(flat, state, x, status, a, b, c)
-      call check_status('masing_path_advance', status, MSLIP_BAD_DISPLACEMENT)
-      call mslip_masing_tractions(flat, state, x, status, a, b)
-      call check_status('masing_tractions', status, MSLIP_BAD_POSITION)
-      call mslip_hysteresis_loop(flat, bad(k), a, b, status)
-      call check_status('hysteresis_loop', status, MSLIP_BAD_AMPLITUDE)
-      call mslip_dissipated_energy(flat, x, a, status)
-      call check_status('dissipated_energy', status, MSLIP_BAD_FORCE_AMPLITUDE)
-      call mslip_dissipated_energy(flat, bad(k), one, status)
-      call check_status('dissipated_energy, one', status, MSLIP_BAD_FORCE_AMPLITUDE)
-      call mslip_complex_stiffness(flat, x, status, a, b, c, d)
-      call check_status('complex_stiffness', status, MSLIP_BAD_AMPLITUDE)
-      call mslip_complex_stiffness(flat, bad(k), status, one, two, three)
-      call check_status('complex_stiffness, one', status, MSLIP_BAD_AMPLITUDE)
-      call mslip_jenkins_equivalent(flat, bad(k), one, two, status)
-      call check_status('jenkins_equivalent', status, MSLIP_BAD_AMPLITUDE)
-      displacement = 1.0e-7_wp
-      displacement(m) = bad(k)
-      call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, one)
-      call check_status('harmonic_force', status, MSLIP_BAD_DISPLACEMENT)
-      call check('nothing written', is_untouched(a) .and. is_untouched(b) .and. is_untouched(c) .and. is_untouched(d) .and. &
-        is_untouched(next) .and. is_untouched(force) .and. is_untouched(reshape(jacobian, [m*m])) .and. &
-        is_untouched([one, two, three]))
-    end do
-    call mslip_masing_advance(flat, state, 1.0e-7_wp, status)
-    call check_status('afterwards', status, MSLIP_OK)
-  end subroutine test_values
-
-  subroutine test_batches()
-    ! One bad item: nothing is written; if it is skipped, it is not checked.
-    type(mslip_contact) :: contacts(items), good
-    real(wp), dimension(items) :: amplitude, displacement, a, b, c, d
-    real(wp), dimension(mslip_state_length(4_mslip_size), items) :: states, next
-    real(wp) :: workspace(mslip_harmonic_workspace_length(int(harmonics, mslip_size), int(samples, mslip_size)))
-    real(wp) :: coefficients(m, items), force(m, items), jacobian(m, m, items)
-    integer(mslip_int) :: status, active(items)
-    integer :: i, k, which
-
-    contacts = flat
-    do i = 1, items
-      call mslip_state_init(states(:, i), status)
-    end do
-    call mslip_harmonic_workspace_init(int(harmonics, mslip_size), int(samples, mslip_size), workspace, status)
-    do which = 1, items
-      do k = 1, bad_values + 1
-        amplitude = 1.0e-7_wp
-        displacement = 1.0e-7_wp
-        coefficients = 1.0e-7_wp
-        good = contacts(which)
-        if (k <= bad_values) then
-          amplitude(which) = bad_or_negative(k)
-          displacement(which) = bad_or_negative(k)
-          coefficients(1, which) = bad_or_negative(k)
-        else
-          contacts(which) = mslip_contact()
-        end if
-        a = untouched; b = untouched; c = untouched; d = untouched; next = untouched; force = untouched; jacobian = untouched
-        call mslip_batch_complex_stiffness(contacts, amplitude, status, k_real=a, k_imag=b, dk_real=c, dk_imag=d)
-        call check_status('batch: stiffness', status, merge(MSLIP_BAD_AMPLITUDE, MSLIP_BAD_CONTACT, k <= bad_values))
-        call mslip_batch_masing_update(contacts, states, displacement, next, status, force=a, stiffness=b, dissipated=c)
-        call check_status('batch: update', status, merge(MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_CONTACT, k <= bad_values))
-        call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, force=force, jacobian=jacobian)
-        call check_status('batch: force', status, merge(MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_CONTACT, k <= bad_values))
-        call check('batch: nothing written', is_untouched(a) .and. is_untouched(b) .and. is_untouched(c) .and. &
-          is_untouched(d) .and. is_untouched(reshape(next, [size(next)])) .and. is_untouched(reshape(force, [size(force)])) &
-          .and. is_untouched(reshape(jacobian, [size(jacobian)])))
-        active = 1
-        active(which) = 0
-        call mslip_batch_complex_stiffness(contacts, amplitude, status, active=active, k_real=a, k_imag=b)
-        call check_status('batch: one is skipped', status, MSLIP_OK)
-        call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, active=active, force=force)
-        call check_status('batch: one is skipped', status, MSLIP_OK)
-        call check('batch: all items but the skipped one are written', is_untouched([a(which), b(which), force(:, which)]) .and. &
-          all([(is_untouched([a(i)]) .eqv. i == which, i = 1, items)]))
-        contacts(which) = good
-      end do
-    end do
-  end subroutine test_batches
-
-  subroutine test_contact_bits()
-    ! A value of a contact changed by hand, and any bit of it.
-    type(mslip_contact) :: contact
-    real(wp) :: words(storage_size(flat)/64)
-    integer(mslip_int) :: status
-    integer :: i, bit, rejections
-
-    contact = flat
-    contact%slip_force = 1.1_wp*contact%slip_force
-    call mslip_contact_check(contact, status)
-    call check_status('a changed slip force', status, MSLIP_BAD_CONTACT)
-    rejections = 0
-    do i = 1, size(words)
-      do bit = 0, 63
-        words = transfer(flat, words)
-        words(i) = flipped(words(i), bit)
-        contact = transfer(words, contact)
-        call mslip_contact_check(contact, status)
-        if (status == MSLIP_BAD_CONTACT) rejections = rejections + 1
-      end do
-    end do
-    call check('the check of a contact finds every changed bit', rejections == 64*size(words))
-  end subroutine test_contact_bits
-
-  subroutine test_restart_file()
-    ! A contact and a state written to a file and read back.
-    type(mslip_contact) :: contact
-    real(wp) :: state(mslip_state_length(4_mslip_size)), read_state(mslip_state_length(4_mslip_size)), force(2)
-    integer(mslip_int) :: status
-    integer :: file
-
-    call mslip_state_init(state, status)
-    call mslip_masing_advance(flat, state, 1.0e-7_wp, status)
-    open (newunit=file, status='scratch', form='unformatted')
-    write (file) flat, state
-    rewind (file)
-    read (file) contact, read_state
-    close (file)
-    call mslip_contact_check(contact, status)
-    call check_status('a contact from a restart file', status, MSLIP_OK)
-    call mslip_state_check(read_state, status)
-    call check_status('a state from a restart file', status, MSLIP_OK)
-    call mslip_masing_advance(flat, state, 0.5e-7_wp, status, force(1))
-    call mslip_masing_advance(contact, read_state, 0.5e-7_wp, status, force(2))
-    call check_status('a step from a restart file', status, MSLIP_OK)
-    call check_same('a step from a restart file', force(2:), force(:1))
-  end subroutine test_restart_file
-
-  subroutine test_state_values()
-    ! A bad value in any place of a state is found by the check; a state of bad values, or a truncated one, by every call.
-    real(wp) :: state(mslip_state_length(4_mslip_size)), changed(mslip_state_length(4_mslip_size)), force
-    integer(mslip_int) :: status
-    integer :: i, k
-
-    call mslip_state_init(state, status)
-    call mslip_masing_path_advance(flat, state, [1.0e-7_wp, 0.5e-7_wp, 0.8e-7_wp], status)
-    force = untouched
+    p = 8
+    call set_up()
+    call mslip_state_check(state, status)
+    call check_status('check of a state', status, MSLIP_OK)
     do k = 1, bad_values
       do i = 1, int(mslip_state_length(2_mslip_size))
         changed = state
         changed(i) = bad(k)
         call mslip_state_check(changed, status)
-        call check_status('check of a state with a bad value', status, MSLIP_BAD_STATE)
+        call check_status('check of a state with an invalid value', status, MSLIP_BAD_STATE)
       end do
-      changed(:) = bad(k)
-      call mslip_masing_advance(flat, changed, 0.4e-7_wp, status, force)
-      call check_status('a state of bad values', status, MSLIP_BAD_STATE)
     end do
-    call mslip_masing_path_advance(flat, state, [0.6e-7_wp, 0.7e-7_wp], status)
-    call mslip_masing_advance(flat, state(:mslip_state_length(2_mslip_size)), 0.65e-7_wp, status, force)
-    call check_status('a state truncated below its reversals', status, MSLIP_BAD_STATE)
-    call mslip_masing_advance(flat, state(:3), 0.4e-7_wp, status, force)
-    call check_status('a truncated state', status, MSLIP_STATE_TOO_SHORT)
-    call check('rejected states: nothing written', is_untouched([force]))
-  end subroutine test_state_values
-
-  subroutine test_workspace_values()
-    ! Workspaces of both rules, overwritten and truncated.
-    real(wp), allocatable :: workspace(:), changed(:)
-    real(wp) :: displacement(m), force(m)
-    integer(mslip_int) :: status, rule
-    integer :: i
-
-    displacement = 1.0e-7_wp
-    do rule = MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN
-      allocate (workspace(mslip_harmonic_workspace_length(int(harmonics, mslip_size), int(samples, mslip_size), rule)))
-      call mslip_harmonic_workspace_init(int(harmonics, mslip_size), int(samples, mslip_size), workspace, status, rule)
-      call check_status('workspace', status, MSLIP_OK)
-      force = untouched
-      do i = 1, bad_values
-        changed = workspace
-        changed(:) = bad(i)
-        call mslip_harmonic_force(flat, changed, displacement, status, force)
-        call check_status('a workspace of bad values', status, MSLIP_BAD_WORKSPACE)
-      end do
-      call mslip_harmonic_force(flat, workspace(:size(workspace) - 1), displacement, status, force)
-      call check_status('a truncated workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
-      call check('rejected workspaces: nothing written', is_untouched(force))
-      call mslip_harmonic_force(flat, workspace, displacement, status, force)
-      call check_status('the workspace itself', status, MSLIP_OK)
-      deallocate (workspace)
+    call mslip_masing_path_advance(contacts(1), state, [0.8e-7_wp, 1.3e-7_wp, 1.0e-7_wp], status)
+    state = state(:mslip_state_length(2_mslip_size))
+    call rejected('a state truncated below its reversals', MSLIP_BAD_STATE)
+    call mslip_state_check(state(:2), status)
+    call check_status('check of a short state', status, MSLIP_STATE_TOO_SHORT)
+    do i = 0, 1
+      call mslip_state_init(state(1:i), status)
+      call check_status('a short state', status, MSLIP_STATE_TOO_SHORT)
     end do
-  end subroutine test_workspace_values
+    error = untouched
+    state = 0
+    call mslip_state_error(state, error, status)
+    call check_status('error of an uninitialised state', status, MSLIP_BAD_STATE)
+    call check('error of an uninitialised state', is_untouched([error]))
+  end subroutine test_state_check
+
+  subroutine test_workspace()
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: rule
+    integer :: last
+
+    workspace = spread(untouched, 1, int(mslip_harmonic_workspace_length(h, samples)))
+    last = size(workspace)
+    call mslip_harmonic_workspace_init(0_mslip_size, samples, workspace, status)
+    call check_status('no harmonics', status, MSLIP_BAD_HARMONICS)
+    call mslip_harmonic_workspace_init(h, 2*h, workspace, status)
+    call check_status('too few samples', status, MSLIP_BAD_SAMPLES)
+    call mslip_harmonic_workspace_init(h, samples, workspace, status, 2_mslip_int)
+    call check_status('unknown rule', status, MSLIP_BAD_RULE)
+    call mslip_harmonic_workspace_init(h, samples, workspace(1:last - 1), status)
+    call check_status('workspace too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_harmonic_workspace_init(h, samples, workspace(1:0), status)
+    call check_status('workspace without elements', status, MSLIP_WORKSPACE_TOO_SHORT)
+    found = -1
+    rule = -1
+    call mslip_harmonic_workspace_size(workspace, found(1), found(2), rule, status)
+    call check_status('size of an uninitialised workspace', status, MSLIP_BAD_WORKSPACE)
+    call check('rejected workspaces: nothing written', is_untouched(workspace))
+    call mslip_harmonic_workspace_init(h, samples, workspace, status)
+    call mslip_harmonic_workspace_size(workspace(1:last - 1), found(1), found(2), rule, status)
+    call check_status('size of a truncated workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call check('rejected workspaces: no size', all(found == -1) .and. rule == -1)
+    call check('no length for invalid sizes', all([mslip_harmonic_workspace_length(h, samples, 2_mslip_int), &
+      mslip_harmonic_workspace_length(0_mslip_size, samples), mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size)] == 0))
+    p = 19
+    call set_up()
+    deallocate (out(1)%v, out(2)%v)
+    allocate (out(1)%v(0), out(2)%v(0))
+    call rejected('no sliders', MSLIP_BAD_COUNT)
+  end subroutine test_workspace
 
 end program bad_input

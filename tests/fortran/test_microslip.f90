@@ -1,7 +1,6 @@
 program test_microslip
-  ! The Fortran module against the model: reference values of 50 digits and more, relations that the model must satisfy,
-  ! and the checks and conversions of the module itself.
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, ieee_value
+  ! The Fortran module: reference values of 50 digits and more, relations of the model, strides, and equal bits of single calls,
+  ! calls in place and batches.
   use microslip
   use checks
   implicit none
@@ -14,26 +13,19 @@ program test_microslip
   call initialise()
   call test_library()
   call test_contacts()
-  call test_rejected_parameters()
   call test_tractions_and_slip()
   call test_monotonic()
   call test_history()
   call test_state()
   call test_bounded_memory()
-  call test_trial_step()
-  call test_checks()
   call test_masing_tractions()
   call test_cycles()
   call test_harmonic_force()
   call test_event_driven()
-  call test_jacobian()
-  call test_workspace()
   call test_batch()
   call test_index()
   call test_equivalents()
   call test_elliptic()
-  call test_open_contact()
-  call test_array_sizes()
   call test_strides()
   call report()
 
@@ -73,20 +65,6 @@ contains
     call check_status('initialise the open contact', status, MSLIP_OK)
   end subroutine initialise
 
-  function quiet_nan() result(nan)
-    real(wp) :: nan
-
-    nan = ieee_value(nan, ieee_quiet_nan)
-  end function quiet_nan
-
-  function is_nan(x) result(nan)
-    ! The intrinsic one is of another kind than the logical of the compiler option -fdefault-integer-8.
-    real(wp), intent(in) :: x
-    logical :: nan
-
-    nan = ieee_is_nan(x)
-  end function is_nan
-
   function initial_state(reversals) result(state)
     integer(mslip_size), intent(in) :: reversals
     real(wp) :: state(mslip_state_length(reversals))
@@ -98,29 +76,13 @@ contains
   end function initial_state
 
   subroutine test_library()
-    integer(mslip_int), parameter :: codes(*) = [MSLIP_OK, MSLIP_NULL_POINTER, MSLIP_BAD_FLAT_HALF_WIDTH, &
-      MSLIP_BAD_EDGE_RADIUS, MSLIP_BAD_LENGTH, MSLIP_BAD_NORMAL_FORCE, MSLIP_BAD_FRICTION_COEFFICIENT, &
-      MSLIP_BAD_YOUNG_MODULUS, MSLIP_BAD_POISSON_RATIO, MSLIP_BAD_DISPLACEMENT_REFERENCE, MSLIP_BAD_SEMI_AXIS_X, &
-      MSLIP_BAD_SEMI_AXIS_Y, MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, MSLIP_BAD_CONTACT, MSLIP_BAD_STATE, &
-      MSLIP_BAD_WORKSPACE, MSLIP_STATE_TOO_SHORT, MSLIP_WORKSPACE_TOO_SHORT, MSLIP_BAD_FORCE, &
-      MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_POSITION, MSLIP_BAD_AMPLITUDE, &
-      MSLIP_BAD_FORCE_AMPLITUDE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_COUNT, MSLIP_BAD_RULE, &
-      MSLIP_NOT_AVAILABLE, MSLIP_BAD_INDEX, MSLIP_BAD_ARRAY_SIZE, MSLIP_BAD_ALIGNMENT]
     character(len=:), allocatable :: version
-    integer :: i, j
-    logical :: distinct
+    integer :: i
 
     call check_status('interface version', mslip_abi_version(), MSLIP_MODULE_ABI_VERSION)
     version = mslip_version()
     call check('the version has three parts: '//version, &
       verify(version, '0123456789.') == 0 .and. count([(version(i:i) == '.', i = 1, len(version))]) == 2)
-    distinct = .true.
-    do i = 2, size(codes)
-      do j = 1, i - 1
-        if (mslip_status_text(codes(i)) == mslip_status_text(codes(j))) distinct = .false.
-      end do
-    end do
-    call check('every status has a message of its own', distinct)
     call check('a message names its parameter', index(mslip_status_text(MSLIP_BAD_EDGE_RADIUS), 'edge_radius') > 0)
     call check('a message for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
     call check('size of a contact: no padding', storage_size(cylinder) == 64*(6 + size(cylinder%reserved)))
@@ -140,13 +102,6 @@ contains
     call check_close('cylinder: slip displacement', cylinder%slip_displacement, 3.164852942650645410867699e-6_wp, tight)
     call check_close('cylinder: initial stiffness', cylinder%initial_stiffness, 4.957981696888936309416248e8_wp, tight)
     call check_close('cylinder: slip energy', cylinder%slip_energy, 6.004399245114452465823618e-4_wp, tight)
-    call check_close('flat: composite modulus', flat%composite_modulus, 8.030074743090437646949911e10_wp, tight)
-    call check_close('flat: half-width', flat%half_width, 5.169941227149987302113704e-4_wp, tight)
-    call check_close('flat: slip force', flat%slip_force, 4.0e2_wp, tight)
-    call check_close('flat: slip displacement', flat%slip_displacement, 7.626000448331319426013713e-7_wp, tight)
-    call check_close('flat: initial stiffness', flat%initial_stiffness, 5.259680847566269756335484e8_wp, tight)
-    call check_close('flat: slip energy', flat%slip_energy, 1.267343110930086121804144e-6_wp, tight)
-
     ! Equal materials, Poisson's ratio 0.3: the corrected compliance is the paper's minus a known constant.
     p = flat_parameters()
     p%material(:) = mslip_material(2.0e11_wp, 0.3_wp)
@@ -161,68 +116,11 @@ contains
       uncorrected%initial_stiffness*ln_term/(ln_term - shift), tight)
   end subroutine test_contacts
 
-  subroutine test_rejected_parameters()
-    type(mslip_parameters) :: p
-    type(mslip_contact) :: contact
-    integer(mslip_int) :: status
-
-    call mslip_contact_init(p, contact, status)
-    call check_status('parameters never set', status, MSLIP_BAD_FLAT_HALF_WIDTH)
-    call mslip_parameters_default(p)
-    call check('default: values unset', is_nan(p%edge_radius) .and. is_nan(p%material(2)%poisson_ratio))
-    call check_status('default: displacement reference', p%displacement_reference, MSLIP_CENTRE_POINT)
-    call mslip_contact_init(p, contact, status)
-    call check_status('parameters not set after default', status, MSLIP_BAD_FLAT_HALF_WIDTH)
-    p = flat_parameters()
-    p%flat_half_width = -1.0e-4_wp
-    call check_rejected('flat half-width', p, MSLIP_BAD_FLAT_HALF_WIDTH)
-    p = flat_parameters()
-    p%edge_radius = 0.0_wp
-    call check_rejected('edge radius', p, MSLIP_BAD_EDGE_RADIUS)
-    p = flat_parameters()
-    p%length = ieee_value(1.0_wp, ieee_positive_inf)
-    call check_rejected('infinite length', p, MSLIP_BAD_LENGTH)
-    p%length = 1.0e-4_wp
-    call check_rejected('short length', p, MSLIP_LENGTH_TOO_SHORT)
-    p = flat_parameters()
-    p%normal_force = -1.0_wp
-    call check_rejected('normal force', p, MSLIP_BAD_NORMAL_FORCE)
-    p = flat_parameters()
-    p%friction_coefficient = quiet_nan()
-    call check_rejected('friction coefficient', p, MSLIP_BAD_FRICTION_COEFFICIENT)
-    p = flat_parameters()
-    p%material(2)%young_modulus = 0.0_wp
-    call check_rejected('Young modulus', p, MSLIP_BAD_YOUNG_MODULUS)
-    p = flat_parameters()
-    p%material(1)%poisson_ratio = 0.6_wp
-    call check_rejected('Poisson ratio', p, MSLIP_BAD_POISSON_RATIO)
-    p = flat_parameters()
-    p%displacement_reference = 7_mslip_int
-    call check_rejected('displacement reference', p, MSLIP_BAD_DISPLACEMENT_REFERENCE)
-  end subroutine test_rejected_parameters
-
-  subroutine check_rejected(name, p, expected)
-    character(len=*), intent(in) :: name
-    type(mslip_parameters), intent(in) :: p
-    integer(mslip_int), intent(in) :: expected
-
-    type(mslip_contact) :: contact
-    integer(mslip_int) :: status
-    real(wp) :: force
-
-    call mslip_contact_init(p, contact, status)
-    call check_status('rejected: '//name, status, expected)
-    force = untouched
-    call mslip_monotonic_force(contact, 1.0e-7_wp, status, force)
-    call check_status('rejected: '//name//': the contact stays uninitialised', status, MSLIP_BAD_CONTACT)
-    call check_same('rejected: '//name//': nothing written', [force, contact%half_width], [untouched, 0.0_wp])
-  end subroutine check_rejected
-
   subroutine test_tractions_and_slip()
     real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp, &
       5.221640639421487595228655e-4_wp]
     real(wp), parameter :: slip_x(*) = [5.104521634622967559899442e-4_wp, -5.15124991499941011288688e-4_wp, 0.0_wp]
-    real(wp) :: pressure(4), shear(4), other(4), slip(3), damage(3)
+    real(wp) :: pressure(4), shear(4), slip(3), damage(3)
     integer(mslip_int) :: status
 
     call mslip_tractions(flat, 240.0_wp, x, status, pressure, shear)
@@ -234,22 +132,8 @@ contains
     call check_close('shear on the edge', shear(2), 4.0548663302965473860377e7_wp, tight)
     call check_close('shear in the slip zone', shear(3), 6.135332025372574580298507e7_wp, 1.0e-10_wp)
     call check_same('no tractions outside', [pressure(4), shear(4)], [0.0_wp, 0.0_wp])
-    call mslip_tractions(flat, 240.0_wp, x, status, shear=other)
-    call check_same('shear alone', other, shear)
-    call mslip_tractions(flat, 240.0_wp, x, status, other)
-    call check_same('pressure alone', other, pressure)
-    call mslip_tractions(flat, 240.0_wp, x, status)
-    call check_status('tractions, nothing requested', status, MSLIP_OK)
     call mslip_tractions(flat, flat%slip_force, x, status, pressure, shear)
     call check_close('gross slip: shear is friction times pressure', shear(2), 0.5_wp*pressure(2), tight)
-    other = untouched
-    call mslip_tractions(flat, 1.001_wp*flat%slip_force, x, status, other)
-    call check_status('tractions beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
-    call mslip_tractions(flat, quiet_nan(), x, status, other)
-    call check_status('tractions of a force that is NaN', status, MSLIP_BAD_FORCE)
-    call mslip_tractions(flat, 1.0_wp, [x(1:3), quiet_nan()], status, other)
-    call check_status('tractions at a position that is NaN', status, MSLIP_BAD_POSITION)
-    call check_same('rejected tractions: nothing written', other, spread(untouched, 1, 4))
 
     call mslip_slip(flat, 280.0_wp, slip_x, status, slip, damage)
     call check_status('slip', status, MSLIP_OK)
@@ -257,10 +141,6 @@ contains
     call check_close('slip near the rim', slip(2), 9.403969409667750594649537e-9_wp, 1.0e-10_wp)
     call check_close('damage near the stick zone', damage(1), 1.524392901733578085021671e-1_wp, 1.0e-10_wp)
     call check_same('no slip in the stick zone', [slip(3), damage(3)], [0.0_wp, 0.0_wp])
-    call mslip_slip(flat, 280.0_wp, slip_x, status, damage=other(1:3))
-    call check_same('damage alone', other(1:3), damage)
-    call mslip_slip(flat, 280.0_wp, slip_x, status, other(1:3))
-    call check_same('slip alone', other(1:3), slip)
   end subroutine test_tractions_and_slip
 
   subroutine test_monotonic()
@@ -275,28 +155,17 @@ contains
     call check_close('cylinder: stick half-width', stick(1), 5.622727906648257149453722e-5_wp, tight)
     call check_same('odd in the force', [displacement(2), compliance(2), stick(2)], [-displacement(1), compliance(1), stick(1)])
     call check_close('no force, no slip', stick(3), cylinder%half_width, tight)
-    call mslip_monotonic_displacement(cylinder, force, status, stick_half_width=back)
-    call check_same('stick half-width alone', back, stick)
     call mslip_monotonic_displacement(flat, 280.0_wp, status, one, two, three)
     call check_status('monotonic displacement, one force', status, MSLIP_OK)
     call check_close('flat: displacement', one, 5.332941007254045813362338e-7_wp, tight)
     call check_close('flat: compliance', two, 1.908487237106152845365004e-9_wp, tight)
     call check_close('flat: stick half-width', three, 5.076484666397101623682588e-4_wp, tight)
-    call mslip_monotonic_displacement(cylinder, cylinder%slip_force, status, one, two)
-    call check_close('displacement at the slip force', one, cylinder%slip_displacement, tight)
-    call check('infinite compliance of a cylinder at the slip force', two > huge(two))
-    one = untouched
-    call mslip_monotonic_displacement(flat, 401.0_wp, status, one)
-    call check_status('displacement beyond the slip force', status, MSLIP_FORCE_EXCEEDS_SLIP)
-    call check_same('rejected displacement: nothing written', [one], [untouched])
-
     call mslip_monotonic_force(cylinder, [1.898911765590387203629847e-6_wp, 4.0e-6_wp, -4.0e-6_wp], status, back, stiffness, stick)
     call check_status('monotonic force', status, MSLIP_OK)
     call check_close('cylinder: force', back(1), 9.155161736711421042837688e2_wp, tight)
     call check_same('force in gross slip', back(2:3), [cylinder%slip_force, -cylinder%slip_force])
     call check_same('stiffness in gross slip', stiffness(2:3), [0.0_wp, 0.0_wp])
-    call mslip_monotonic_displacement(cylinder, back(1), status, one, two, three)
-    call check_close('force and displacement are inverse', one, 1.898911765590387203629847e-6_wp, tight)
+    call mslip_monotonic_displacement(cylinder, back(1), status, compliance=two, stick_half_width=three)
     call check_close('stiffness and compliance are inverse', stiffness(1)*two, 1.0_wp, tight)
     call check_close('the same stick zone', stick(1), three, tight)
     call mslip_monotonic_force(flat, 4.575600268998791383145996e-7_wp, status, one)
@@ -304,8 +173,6 @@ contains
     call mslip_monotonic_force(flat, 0.0_wp, status, stiffness=two, stick_half_width=three)
     call check_close('flat: stiffness at 0', two, flat%initial_stiffness, tight)
     call check_close('flat: stick half-width at 0', three, flat%half_width, tight)
-    call mslip_monotonic_force(flat, quiet_nan(), status, one)
-    call check_status('displacement that is NaN', status, MSLIP_BAD_DISPLACEMENT)
   end subroutine test_monotonic
 
   subroutine test_history()
@@ -355,25 +222,14 @@ contains
     call check_status('path in place', status, MSLIP_OK)
     call check_same('path in place: results', [step_force, step_stiffness, step_dissipated], [force, stiffness, dissipated])
     call check_same('path in place: state', state, last)
-    state = start
-    call mslip_masing_path_advance(cylinder, state, displacement, status, dissipated=step_dissipated)
-    call check_same('path in place: energy alone', step_dissipated, dissipated)
-    state = untouched
-    call mslip_masing_path(cylinder, start, displacement, state, status)
-    call check_status('path, only the state', status, MSLIP_OK)
-    call check_same('path, only the state: state', state, last)
-    call mslip_masing_path(cylinder, start, [displacement(1:7), quiet_nan()], state, status, step_force)
-    call check_status('path to NaN', status, MSLIP_BAD_DISPLACEMENT)
-    call mslip_masing_path_advance(cylinder, state, [displacement(1:7), quiet_nan()], status, step_force)
-    call check_status('path in place to NaN', status, MSLIP_BAD_DISPLACEMENT)
-    call check_same('rejected path: nothing written', [state, step_force], [last, force])
   end subroutine test_history
 
   subroutine test_state()
-    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, before, branched, never
+    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, before, branched
     real(wp) :: force, stiffness, dissipated, other(3), upper, middle, total
+    type(mslip_contact) :: contact
     integer(mslip_int) :: status
-    integer :: i
+    integer :: i, file
 
     state = initial_state(4_mslip_size)
     call mslip_masing_advance(flat, state, 6.0e-7_wp, status, upper)
@@ -390,17 +246,13 @@ contains
     call mslip_monotonic_force(flat, 7.0e-7_wp, status, middle)
     call check_close('return-point memory: back on the initial loading curve', force, middle, tight)
 
-    branched = untouched
     call mslip_masing_update(flat, before, 1.0e-7_wp, branched, status, force, stiffness, dissipated)
-    call check_status('step', status, MSLIP_OK)
     state = before
     call mslip_masing_advance(flat, state, 1.0e-7_wp, status, other(1), other(2), other(3))
     call check_same('step and step in place: results', other, [force, stiffness, dissipated])
     call check_same('step and step in place: state', state, branched)
     call mslip_masing_advance(flat, state, 1.0e-7_wp, status, dissipated=dissipated)
     call check_same('a step of zero dissipates nothing', [dissipated], [0.0_wp])
-    call mslip_masing_advance(flat, state, 3.0e-7_wp, status)
-    call check_status('step, nothing requested', status, MSLIP_OK)
 
     ! The steps of one cycle dissipate the energy per cycle.
     state = initial_state(4_mslip_size)
@@ -413,115 +265,46 @@ contains
     call mslip_dissipated_energy(flat, upper, middle, status)
     call check_close('energy of a cycle', total, middle, 1.0e-10_wp)
 
-    before = state
-    force = untouched
-    call mslip_masing_advance(flat, state, quiet_nan(), status, force)
-    call check_status('step to NaN', status, MSLIP_BAD_DISPLACEMENT)
-    never = 0
-    call mslip_masing_advance(flat, never, 3.0e-7_wp, status, force)
-    call check_status('state never initialised', status, MSLIP_BAD_STATE)
-    call check_same('rejected steps: nothing written', [force, state, never], &
-      [untouched, before, spread(0.0_wp, 1, size(never))])
-    call mslip_state_init(never(1:1), status)
-    call check_status('state of one value', status, MSLIP_STATE_TOO_SHORT)
-    call mslip_state_init(never(1:0), status)
-    call check_status('state without elements', status, MSLIP_STATE_TOO_SHORT)
+    ! A contact and a state from a restart file continue with the same bits.
+    open (newunit=file, status='scratch', form='unformatted')
+    write (file) flat, state
+    rewind (file)
+    read (file) contact, before
+    close (file)
+    call mslip_contact_check(contact, status)
+    call check_status('a contact from a restart file', status, MSLIP_OK)
+    call mslip_state_check(before, status)
+    call check_status('a state from a restart file', status, MSLIP_OK)
+    call mslip_masing_advance(flat, state, 0.5e-7_wp, status, other(1))
+    call mslip_masing_advance(contact, before, 0.5e-7_wp, status, other(2))
+    call check_same('a step from a restart file', [state, other(1)], [before, other(2)])
     call check('fewer than 2 reversals count as 2', mslip_state_length(0_mslip_size) == mslip_state_length(2_mslip_size))
   end subroutine test_state
 
   subroutine test_bounded_memory()
-    ! A slowly decaying vibration nests hundreds of reversals. The shortest state never returns an error, and its force
-    ! differs from that of a state without merged reversals by no more than the reported error.
-    integer, parameter :: steps = 400
+    ! A decaying vibration in the shortest state: its force differs from that with all reversals by at most the reported error.
+    integer, parameter :: steps = 40
     real(wp) :: short(mslip_state_length(2_mslip_size)), long(mslip_state_length(int(steps, mslip_size)))
-    real(wp) :: displacement(steps), short_force(steps), long_force(steps), short_error, long_error
+    real(wp) :: force(2), error(2)
     integer(mslip_int) :: status
     integer :: i
 
     short = initial_state(2_mslip_size)
     long = initial_state(int(steps, mslip_size))
-    call mslip_state_error(short, short_error, status)
-    call check_status('error of the initial state', status, MSLIP_OK)
-    call check_same('the initial state has no error', [short_error], [0.0_wp])
     do i = 1, steps
-      displacement(i) = 6.0e-7_wp*(-0.99_wp)**(i - 1)
-      call mslip_masing_advance(flat, short, displacement(i), status, short_force(i))
-      call check_status('decaying vibration, short state', status, MSLIP_OK)
-      call mslip_masing_advance(flat, long, displacement(i), status, long_force(i))
-      call check_status('decaying vibration, long state', status, MSLIP_OK)
-      call mslip_state_error(short, short_error, status)
-      call check('the error is a bound', abs(short_force(i) - long_force(i)) <= short_error + tight*flat%slip_force)
+      call mslip_masing_advance(flat, short, 6.0e-7_wp*(-0.95_wp)**(i - 1), status, force(1))
+      call check_status('decaying vibration', status, MSLIP_OK)
+      call mslip_masing_advance(flat, long, 6.0e-7_wp*(-0.95_wp)**(i - 1), status, force(2))
+      call mslip_state_error(short, error(1), status)
+      call mslip_state_error(long, error(2), status)
+      call check('the error is a bound', abs(force(1) - force(2)) <= error(1) + tight*flat%slip_force .and. error(2) <= 0)
     end do
-    call mslip_state_error(long, long_error, status)
-    call check('merged reversals have an error', short_error > 0.0_wp)
-    call check_same('no merged reversals, no error', [long_error], [0.0_wp])
-
-    short = initial_state(2_mslip_size)
-    call mslip_masing_path_advance(flat, short, displacement, status, long_force)
-    call check_status('decaying vibration, path', status, MSLIP_OK)
-    call check_same('decaying vibration: steps and path', long_force, short_force)
-    call mslip_masing_advance(flat, short, 4.0_wp*flat%slip_displacement, status)
-    call mslip_state_error(short, short_error, status)
-    call check_same('gross slip resets the error', [short_error], [0.0_wp])
-    short = 0
-    short_error = untouched
-    call mslip_state_error(short, short_error, status)
-    call check_status('error of a state never initialised', status, MSLIP_BAD_STATE)
-    call check_same('rejected state: nothing written', [short_error], [untouched])
+    call check('merged reversals have an error', error(1) > 0)
   end subroutine test_bounded_memory
-
-  subroutine test_trial_step()
-    ! Trial steps do not change the accepted state.
-    real(wp) :: accepted(mslip_state_length(2_mslip_size)), copy(mslip_state_length(2_mslip_size)), first, again
-    integer(mslip_int) :: status
-
-    accepted = initial_state(2_mslip_size)
-    call mslip_masing_path_advance(flat, accepted, [6.0e-7_wp, 1.0e-7_wp], status)
-    copy = accepted
-    call trial_step(accepted, 3.0e-7_wp, first)
-    call trial_step(accepted, -9.0e-7_wp, again)
-    call trial_step(accepted, 3.0e-7_wp, again)
-    call check_same('trial steps do not change the accepted state', [accepted, again], [copy, first])
-  end subroutine test_trial_step
-
-  subroutine trial_step(state, displacement, force)
-    real(wp), intent(in) :: state(:), displacement
-    real(wp), intent(out) :: force
-
-    real(wp) :: trial(size(state))
-    integer(mslip_int) :: status
-
-    force = untouched
-    call mslip_masing_update(flat, state, displacement, trial, status, force)
-    call check_status('trial step', status, MSLIP_OK)
-  end subroutine trial_step
-
-  subroutine test_checks()
-    type(mslip_contact) :: contact
-    real(wp) :: state(mslip_state_length(2_mslip_size))
-    integer(mslip_int) :: status
-
-    call mslip_contact_check(flat, status)
-    call check_status('check of a contact', status, MSLIP_OK)
-    call mslip_contact_check(open_contact, status)
-    call check_status('check of an open contact', status, MSLIP_OK)
-    call mslip_contact_check(contact, status)
-    call check_status('check of a contact never initialised', status, MSLIP_BAD_CONTACT)
-
-    state = initial_state(2_mslip_size)
-    call mslip_masing_path_advance(flat, state, [6.0e-7_wp, 1.0e-7_wp], status)
-    call mslip_state_check(state, status)
-    call check_status('check of a state', status, MSLIP_OK)
-    call mslip_state_check(state(:2), status)
-    call check_status('check of a state too short', status, MSLIP_STATE_TOO_SHORT)
-    state = 0
-    call mslip_state_check(state, status)
-    call check_status('check of a state never initialised', status, MSLIP_BAD_STATE)
-  end subroutine test_checks
 
   subroutine test_masing_tractions()
     real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp]
-    real(wp) :: state(mslip_state_length(4_mslip_size)), copy(mslip_state_length(4_mslip_size))
+    real(wp) :: state(mslip_state_length(4_mslip_size))
     real(wp), dimension(3) :: pressure, shear, loading, reversed
     real(wp) :: upper, force
     integer(mslip_int) :: status
@@ -537,21 +320,17 @@ contains
     call check_close('shear of initial loading', shear(3), reversed(3), 1.0e-10_wp)
     loading = reversed
     call mslip_masing_advance(flat, state, -1.0e-7_wp, status, force)
-    copy = state
     call mslip_masing_tractions(flat, state, x, status, pressure, shear)
     call mslip_tractions(flat, (upper - force)/2.0_wp, x, status, shear=reversed)
     call check_close('shear after a reversal, centre', shear(1), loading(1) - 2.0_wp*reversed(1), 1.0e-10_wp)
     call check_close('shear after a reversal, edge', shear(2), loading(2) - 2.0_wp*reversed(2), 1.0e-10_wp)
-    call check_same('tractions do not change the state', state, copy)
-    call mslip_masing_tractions(flat, state, x, status)
-    call check_status('tractions of a state, nothing requested', status, MSLIP_OK)
   end subroutine test_masing_tractions
 
   subroutine test_cycles()
     real(wp), parameter :: amplitude(*) = [2.215397059855451631689037e-6_wp, 0.0_wp, 4.0e-6_wp]
     integer, parameter :: points = 64
     real(wp) :: displacement(points), force(points), energy(2), one, two, three, four
-    real(wp), dimension(3) :: k_real, k_imag, dk_real, dk_imag, again
+    real(wp), dimension(3) :: k_real, k_imag, dk_real, dk_imag
     integer(mslip_int) :: status
     integer :: i
 
@@ -567,8 +346,6 @@ contains
       all(abs(force(1:points/2) + force(1 + points/2:points)) <= tight*flat%slip_force))
     call mslip_monotonic_force(flat, (6.0e-7_wp - displacement(10))/2.0_wp, status, two)
     call check_close('loop: Masing rule', force(10), one - 2.0_wp*two, tight)
-    call mslip_hysteresis_loop(flat, -6.0e-7_wp, displacement, force, status)
-    call check_status('loop of negative amplitude', status, MSLIP_BAD_AMPLITUDE)
 
     call mslip_dissipated_energy(cylinder, [7.338565149999999448482413e2_wp, 0.0_wp], energy, status)
     call check_status('energy', status, MSLIP_OK)
@@ -578,10 +355,6 @@ contains
     call check_close('flat: energy', one, 3.739442453289347648327259e-7_wp, tight)
     call mslip_dissipated_energy(flat, flat%slip_force, one, status)
     call check_close('flat: energy at incipient gross slip', one, flat%slip_energy, tight)
-    one = untouched
-    call mslip_dissipated_energy(flat, -1.0_wp, one, status)
-    call check_status('energy of a negative amplitude', status, MSLIP_BAD_FORCE_AMPLITUDE)
-    call check_same('rejected energy: nothing written', [one], [untouched])
 
     call mslip_complex_stiffness(cylinder, amplitude, status, k_real, k_imag, dk_real, dk_imag)
     call check_status('complex stiffness', status, MSLIP_OK)
@@ -593,8 +366,6 @@ contains
     call check_same('K imaginary at amplitude 0', k_imag(2:2), [0.0_wp])
     call check_close('K imaginary in gross slip', k_imag(3), (cylinder%slip_energy + 4.0_wp*cylinder%slip_force* &
       (4.0e-6_wp - cylinder%slip_displacement))/(pi*4.0e-6_wp**2), tight)
-    call mslip_complex_stiffness(cylinder, amplitude, status, dk_imag=again)
-    call check_same('derivative alone', again, dk_imag)
     call mslip_complex_stiffness(flat, 1.14390006724969779284694e-6_wp, status, one, two, three, four)
     call check_close('flat: K real', one, 3.713375827392842405803951e8_wp, tight)
     call check_close('flat: K imaginary', two, 1.487174776364493773899325e8_wp, tight)
@@ -604,8 +375,6 @@ contains
     call mslip_monotonic_force(flat, 6.0e-7_wp, status, three)
     call mslip_dissipated_energy(flat, three, four, status)
     call check_close('K imaginary is the energy of a cycle', two, four/(pi*6.0e-7_wp**2), 1.0e-10_wp)
-    call mslip_complex_stiffness(flat, -1.0_wp, status, k_imag=two)
-    call check_status('complex stiffness at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
   end subroutine test_cycles
 
   subroutine test_harmonic_force()
@@ -616,43 +385,34 @@ contains
     real(wp), parameter :: expected(*) = [1.242778811039784882321255e2_wp, 3.127197957636783986432537e2_wp, &
       -2.337981528009959481468708e2_wp, -9.353392540431687732443905e1_wp, 1.214800760707371553515095e2_wp, &
       6.722106958983998626542111e1_wp, -4.333697401361703158366392e1_wp]
-    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7), lost, power
+    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7)
+    real(wp) :: dissipated, power
     real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     integer(mslip_int) :: status
     integer :: i, k
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
     call check_status('workspace', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, lost)
+    call mslip_harmonic_force(flat, workspace, displacement, status, force, jacobian, dissipated)
     call check_status('harmonic force', status, MSLIP_OK)
     do i = 1, 7
       call check_close('coefficient of the force', force(i), expected(i), 1.0e-11_wp)
     end do
-    call mslip_harmonic_force(flat, workspace, displacement, status, again)
-    call check_same('coefficients alone', again, force)
-    call mslip_harmonic_force(flat, workspace, displacement, status, dissipated=power)
-    call check_same('energy alone', [power], [lost])
-    call mslip_harmonic_force(flat, workspace, displacement, status)
-    call check_status('harmonic force, nothing requested', status, MSLIP_OK)
 
     ! The energy of the samples and the power of the harmonics agree as far as three harmonics and the sampling allow.
     power = 0
     do k = 1, 3
       power = power + pi*real(k, wp)*(force(2*k)*displacement(2*k + 1) - force(2*k + 1)*displacement(2*k))
     end do
-    call check_close('energy of a period', lost, power, 2.0e-2_wp)
+    call check_close('energy of a period', dissipated, power, 2.0e-2_wp)
 
     ! Under one cosine the first harmonic is the complex stiffness, as far as the sampling allows.
-    call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=lost)
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=dissipated)
     call mslip_complex_stiffness(flat, 6.0e-7_wp, status, again(1), again(2))
     call check_close('first cosine', force(2), again(1)*6.0e-7_wp, 1.0e-3_wp)
     call check_close('first sine', -force(3), again(2)*6.0e-7_wp, 5.0e-3_wp)
-    call check_close('energy of a cycle', lost, pi*again(2)*6.0e-7_wp**2, tight)
+    call check_close('energy of a cycle', dissipated, pi*again(2)*6.0e-7_wp**2, tight)
     call check('no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
-    force = untouched
-    call mslip_harmonic_force(flat, workspace, [displacement(1:6), quiet_nan()], status, force)
-    call check_status('harmonic force of NaN', status, MSLIP_BAD_DISPLACEMENT)
-    call check_same('rejected harmonic force: nothing written', force, spread(untouched, 1, 7))
   end subroutine test_harmonic_force
 
   subroutine test_event_driven()
@@ -660,105 +420,30 @@ contains
     integer(mslip_int), parameter :: rule = MSLIP_EVENT_DRIVEN
     real(wp), parameter :: amplitude = 6.0e-7_wp, cosine(*) = [0.0_wp, amplitude, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples, rule)), force(7), jacobian(7, 7)
-    real(wp) :: lost, k_real, k_imag
-    integer(mslip_int) :: status
+    real(wp) :: dissipated, k_real, k_imag
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: status, found_rule
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, rule)
     call check_status('event-driven workspace', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, lost)
+    call mslip_harmonic_force(flat, workspace, cosine, status, force, jacobian, dissipated)
     call check_status('event-driven harmonic force', status, MSLIP_OK)
     ! Under one cosine the first harmonic is the complex stiffness, to rounding.
     call mslip_complex_stiffness(flat, amplitude, status, k_real, k_imag)
     call check_close('event-driven: first cosine', force(2), k_real*amplitude, tight)
     call check_close('event-driven: first sine', -force(3), k_imag*amplitude, tight)
-    call check_close('event-driven: energy of a cycle', lost, pi*k_imag*amplitude**2, tight)
+    call check_close('event-driven: energy of a cycle', dissipated, pi*k_imag*amplitude**2, tight)
     call check('event-driven: no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
     ! A change of phase rotates the force.
     call check_close('event-driven: change of phase, real', jacobian(3, 3), k_real, tight)
     call check_close('event-driven: change of phase, imaginary', jacobian(2, 3), k_imag, tight)
 
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status, 2_mslip_int)
-    call check_status('unknown rule', status, MSLIP_BAD_RULE)
-    call check('no length for an unknown rule', mslip_harmonic_workspace_length(harmonics, samples, 2_mslip_int) == 0)
-    call check('the default is uniform sampling', mslip_harmonic_workspace_length(harmonics, samples) &
-      == mslip_harmonic_workspace_length(harmonics, samples, MSLIP_UNIFORM_SAMPLING))
+    call mslip_harmonic_workspace_size(workspace, found(1), found(2), found_rule, status)
+    call check('size of an event-driven workspace', all(found == [harmonics, samples]) .and. found_rule == rule)
+    call mslip_harmonic_workspace_init(1_mslip_size, 8_mslip_size, workspace, status)
+    call mslip_harmonic_workspace_size(workspace, found(1), found(2), found_rule, status)
+    call check('the default is uniform sampling', all(found == [1, 8]) .and. found_rule == MSLIP_UNIFORM_SAMPLING)
   end subroutine test_event_driven
-
-  subroutine test_jacobian()
-    integer(mslip_size), parameter :: harmonics = 2, samples = 64
-    real(wp), parameter :: displacement(*) = [1.0e-7_wp, 5.0e-7_wp, 1.0e-7_wp, 8.0e-8_wp, -6.0e-8_wp], step = 1.0e-12_wp
-    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), jacobian(5, 5)
-    real(wp), dimension(5) :: shifted, above, below
-    integer(mslip_int) :: status
-    integer :: j
-
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
-    call mslip_harmonic_force(flat, workspace, displacement, status, jacobian=jacobian)
-    call check_status('Jacobian', status, MSLIP_OK)
-    do j = 1, 5
-      shifted = displacement
-      shifted(j) = displacement(j) + step
-      call mslip_harmonic_force(flat, workspace, shifted, status, above)
-      shifted(j) = displacement(j) - step
-      call mslip_harmonic_force(flat, workspace, shifted, status, below)
-      above = (above - below)/(2.0_wp*step)
-      call check_close('column of the Jacobian against differences', &
-        maxval(abs(jacobian(:, j) - above))/flat%initial_stiffness, 0.0_wp, 1.0e-5_wp)
-    end do
-  end subroutine test_jacobian
-
-  subroutine test_workspace()
-    integer(mslip_size), parameter :: harmonics = 2, samples = 64
-    real(wp), parameter :: displacement(5) = 1.0e-7_wp
-    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(5), expected(5)
-    real(wp) :: longer(mslip_harmonic_workspace_length(harmonics, samples) + 9)
-    real(wp) :: event_driven(mslip_harmonic_workspace_length(harmonics, samples, MSLIP_EVENT_DRIVEN))
-    integer(mslip_size) :: found(2)
-    integer(mslip_int) :: status, rule
-    integer :: n
-
-    n = size(workspace)
-    workspace = untouched
-    force = untouched
-    found = -1
-    rule = -1
-    call mslip_harmonic_force(flat, workspace, displacement, status, force)
-    call check_status('workspace never initialised', status, MSLIP_BAD_WORKSPACE)
-    call mslip_harmonic_force(flat, workspace(1:2), displacement, status, force)
-    call check_status('workspace of two values', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_harmonic_workspace_size(workspace, found(1), found(2), rule, status)
-    call check_status('size of a workspace never initialised', status, MSLIP_BAD_WORKSPACE)
-    call mslip_harmonic_workspace_init(0_mslip_size, samples, workspace, status)
-    call check_status('no harmonics', status, MSLIP_BAD_HARMONICS)
-    call mslip_harmonic_workspace_init(harmonics, 4_mslip_size, workspace, status)
-    call check_status('too few samples', status, MSLIP_BAD_SAMPLES)
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:n - 1), status)
-    call check_status('workspace too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:2), status)
-    call check_status('workspace too short by far', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace(1:0), status)
-    call check_status('workspace without elements', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call check_same('rejected workspace: nothing written', [workspace, force], spread(untouched, 1, n + 5))
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
-    call mslip_harmonic_force(flat, workspace(1:n - 1), displacement, status, force)
-    call check_status('part of a workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_harmonic_workspace_size(workspace(1:n - 1), found(1), found(2), rule, status)
-    call check_status('size of a part of a workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call check('rejected workspace: no size', all(found == -1) .and. rule == -1)
-    call mslip_harmonic_workspace_size(workspace, found(1), found(2), rule, status)
-    call check_status('size of a workspace', status, MSLIP_OK)
-    call check('size of a workspace', all(found == [harmonics, samples]) .and. rule == MSLIP_UNIFORM_SAMPLING)
-    call mslip_harmonic_workspace_init(harmonics, samples, event_driven, status, MSLIP_EVENT_DRIVEN)
-    call mslip_harmonic_workspace_size(event_driven, found(1), found(2), rule, status)
-    call check('size of an event-driven workspace', all(found == [harmonics, samples]) .and. rule == MSLIP_EVENT_DRIVEN)
-    call mslip_harmonic_force(flat, workspace, displacement, status, expected)
-    call mslip_harmonic_workspace_init(harmonics, samples, longer, status)
-    call check_status('workspace longer than needed', status, MSLIP_OK)
-    call mslip_harmonic_force(flat, longer, displacement, status, force)
-    call check_same('workspace longer than needed: force', force, expected)
-    call check('no length without harmonics', mslip_harmonic_workspace_length(0_mslip_size, samples) == 0)
-    call check('no length beyond the address space', mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size) == 0)
-  end subroutine test_workspace
 
   subroutine test_batch()
     ! A batch of three contacts gives, bit for bit, the results of each alone; the second is skipped if there are flags.
@@ -828,12 +513,6 @@ contains
     flagged = untouched
     call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, active=active, force=flagged)
     call check_same('batch: harmonic force, one skipped', [flagged], [force(:, 1), spread(untouched, 1, 3), force(:, 3)])
-
-    contacts(3) = mslip_contact()
-    states = start
-    call mslip_batch_masing_advance(contacts, states, amplitude, status)
-    call check_status('batch: one contact was never initialised', status, MSLIP_BAD_CONTACT)
-    call check_same('batch: rejected, no state changed', [states], [start])
   end subroutine test_batch
 
   subroutine test_index()
@@ -841,15 +520,13 @@ contains
     integer(mslip_size), parameter :: harmonics = 1, samples = 64
     integer, parameter :: items = 5
     integer(mslip_int), parameter :: index(items) = [2_mslip_int, 1_mslip_int, 1_mslip_int, 2_mslip_int, 1_mslip_int]
-    integer(mslip_int), parameter :: bad(4) = [0_mslip_int, 3_mslip_int, -huge(1_mslip_int), huge(1_mslip_int)]
     real(wp), parameter :: amplitude(items) = [6.0e-7_wp, 2.0e-6_wp, 9.0e-7_wp, 3.0e-7_wp, 1.0e-7_wp]
     type(mslip_contact) :: contacts(2), each(items)
     real(wp), dimension(items) :: a, b
     real(wp), dimension(mslip_state_length(2_mslip_size), items) :: start, states, expected
     real(wp), dimension(3, items) :: coefficients, force, expected_force
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples))
-    integer(mslip_int) :: status, wrong(items), active(items)
-    integer :: i
+    integer(mslip_int) :: status, active(items)
 
     contacts = [flat, cylinder]
     each = contacts(index)
@@ -878,23 +555,7 @@ contains
     call mslip_complex_stiffness(each(5), amplitude(1), status, a(3))
     call check_same('index: more contacts than items', a(1:1), a(3:3))
 
-    do i = 1, size(bad)
-      wrong = index
-      wrong(4) = bad(i)
-      a = untouched
-      states = untouched
-      force = untouched
-      call mslip_batch_complex_stiffness(contacts, amplitude, status, wrong, k_real=a)
-      call check_status('bad index: complex stiffness', status, MSLIP_BAD_INDEX)
-      call mslip_batch_masing_update(contacts, start, amplitude, states, status, wrong, force=a)
-      call check_status('bad index: step', status, MSLIP_BAD_INDEX)
-      call mslip_batch_masing_advance(contacts, states, amplitude, status, wrong, force=a)
-      call check_status('bad index: step in place', status, MSLIP_BAD_INDEX)
-      call mslip_batch_harmonic_force(contacts, workspace, coefficients, status, wrong, force=force)
-      call check_status('bad index: harmonic force', status, MSLIP_BAD_INDEX)
-      call check_same('bad index: nothing written', [a, [states], [force]], &
-        spread(untouched, 1, size(a) + size(states) + size(force)))
-    end do
+    a = untouched
     active = 1
     active(4) = 0
     call mslip_batch_complex_stiffness(contacts, amplitude, status, index, active, a)
@@ -922,10 +583,6 @@ contains
     call mslip_jenkins_equivalent(flat, 0.0_wp, k, s, status)
     call check_close('Jenkins element at amplitude 0: stiffness', k, flat%initial_stiffness, tight)
     call check_close('Jenkins element at amplitude 0: slip force', s, flat%slip_force, tight)
-    k = untouched
-    call mslip_jenkins_equivalent(flat, -1.0_wp, k, s, status)
-    call check_status('Jenkins element at a negative amplitude', status, MSLIP_BAD_AMPLITUDE)
-    call check_same('rejected Jenkins element: nothing written', [k], [untouched])
     call mslip_jenkins_equivalent(open_contact, 1.0e-6_wp, k, s, status)
     call check_status('Jenkins element of an open contact', status, MSLIP_OK)
     call check_same('Jenkins element of an open contact: no force, no stiffness', [k, s], [0.0_wp, 0.0_wp])
@@ -947,8 +604,6 @@ contains
     call check('Iwan model: fewer sliders, larger error', largest > error)
     call mslip_iwan_equivalent(open_contact, stiffness(1:3), slip_force(1:3), status, error)
     call check_same('Iwan model of an open contact', [stiffness(1:3), slip_force(1:3), error], spread(0.0_wp, 1, 7))
-    call mslip_iwan_equivalent(cylinder, stiffness(1:0), slip_force(1:0), status)
-    call check_status('Iwan model without sliders', status, MSLIP_BAD_COUNT)
   end subroutine test_equivalents
 
   subroutine test_elliptic()
@@ -960,7 +615,6 @@ contains
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('elliptic parameters never set', status, MSLIP_BAD_SEMI_AXIS_X)
     call mslip_elliptic_parameters_default(p)
-    call check('elliptic default: values unset', is_nan(p%semi_axis_x) .and. is_nan(p%material(2)%poisson_ratio))
     p%semi_axis_x = 1.186981199180470441384427e-5_wp
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('second axis not set', status, MSLIP_BAD_SEMI_AXIS_Y)
@@ -986,181 +640,7 @@ contains
     call check_close('sphere: shear at the centre', shear(1), p%friction_coefficient*peak* &
       (1.0_wp - 0.5_wp**(1.0_wp/3.0_wp)), tight)
     call check_same('sphere: no tractions outside', [pressure(2), shear(2)], [0.0_wp, 0.0_wp])
-    call mslip_slip(sphere, 1.0_wp, [0.0_wp, 1.0e-5_wp], status, shear)
-    call check_status('sphere: no slip distribution', status, MSLIP_NOT_AVAILABLE)
   end subroutine test_elliptic
-
-  subroutine test_open_contact()
-    integer(mslip_size), parameter :: harmonics = 1, samples = 16
-    real(wp) :: state(mslip_state_length(1_mslip_size)), workspace(mslip_harmonic_workspace_length(harmonics, samples))
-    real(wp) :: a(3), b(3), jacobian(3, 3), dissipated
-    integer(mslip_int) :: status
-
-    call mslip_monotonic_force(open_contact, 1.0e-6_wp, status, a(1), a(2), a(3))
-    call check_status('open contact: monotonic force', status, MSLIP_OK)
-    call check_same('open contact: no force, stiffness or width', a, [0.0_wp, 0.0_wp, 0.0_wp])
-    state = initial_state(1_mslip_size)
-    call mslip_masing_path_advance(open_contact, state, [1.0e-6_wp, 0.0_wp, 1.0e-6_wp], status, a, b)
-    call check_status('open contact: path', status, MSLIP_OK)
-    call check_same('open contact: no force on a path', [a, b], spread(0.0_wp, 1, 6))
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
-    call mslip_harmonic_force(open_contact, workspace, [0.0_wp, 1.0e-6_wp, 0.0_wp], status, a, jacobian, dissipated)
-    call check_status('open contact: harmonic force', status, MSLIP_OK)
-    call check_same('open contact: no harmonic force', [a, [jacobian], dissipated], spread(0.0_wp, 1, 13))
-  end subroutine test_open_contact
-
-  subroutine test_array_sizes()
-    ! Each array in turn has another size; nothing may be written.
-    integer(mslip_size), parameter :: harmonics = 1, samples = 16
-    real(wp), parameter :: zeros(3) = 0, zeros_32(3, 2) = 0
-    integer(mslip_int), parameter :: ones(3) = 1
-    type(mslip_contact) :: pair(2)
-    real(wp) :: state(mslip_state_length(2_mslip_size))
-    real(wp), dimension(mslip_state_length(2_mslip_size), 3) :: states, news
-    real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples))
-    real(wp) :: three(3), two(2), m32(3, 2), m33(3, 3), m332(3, 3, 2)
-    integer(mslip_int) :: status
-
-    pair = [flat, cylinder]
-    state = initial_state(2_mslip_size)
-    states = spread(state, 2, 3)
-    news = untouched
-    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
-    three = untouched
-    two = untouched
-    m32 = untouched
-    m33 = untouched
-    m332 = untouched
-    call mslip_tractions(flat, 1.0_wp, zeros, status, pressure=two)
-    call wrong_size('tractions, pressure', status)
-    call mslip_tractions(flat, 1.0_wp, zeros, status, shear=two)
-    call wrong_size('tractions, shear', status)
-    call mslip_slip(flat, 1.0_wp, zeros, status, slip=two)
-    call wrong_size('slip, slip', status)
-    call mslip_slip(flat, 1.0_wp, zeros, status, damage=two)
-    call wrong_size('slip, damage', status)
-    call mslip_monotonic_displacement(flat, zeros, status, displacement=two)
-    call wrong_size('monotonic displacement, displacement', status)
-    call mslip_monotonic_displacement(flat, zeros, status, compliance=two)
-    call wrong_size('monotonic displacement, compliance', status)
-    call mslip_monotonic_displacement(flat, zeros, status, stick_half_width=two)
-    call wrong_size('monotonic displacement, stick half-width', status)
-    call mslip_monotonic_force(flat, zeros, status, force=two)
-    call wrong_size('monotonic force, force', status)
-    call mslip_monotonic_force(flat, zeros, status, stiffness=two)
-    call wrong_size('monotonic force, stiffness', status)
-    call mslip_monotonic_force(flat, zeros, status, stick_half_width=two)
-    call wrong_size('monotonic force, stick half-width', status)
-    call mslip_masing_update(flat, state, 1.0e-7_wp, two, status)
-    call wrong_size('step, new state', status)
-    call mslip_masing_path(flat, state, zeros, two, status)
-    call wrong_size('path, new state', status)
-    call mslip_masing_path(flat, state, zeros, news(:, 1), status, force=two)
-    call wrong_size('path, force', status)
-    call mslip_masing_path(flat, state, zeros, news(:, 1), status, stiffness=two)
-    call wrong_size('path, stiffness', status)
-    call mslip_masing_path(flat, state, zeros, news(:, 1), status, dissipated=two)
-    call wrong_size('path, dissipated', status)
-    call mslip_masing_path_advance(flat, state, zeros, status, force=two)
-    call wrong_size('path in place, force', status)
-    call mslip_masing_path_advance(flat, state, zeros, status, stiffness=two)
-    call wrong_size('path in place, stiffness', status)
-    call mslip_masing_path_advance(flat, state, zeros, status, dissipated=two)
-    call wrong_size('path in place, dissipated', status)
-    call mslip_masing_tractions(flat, state, zeros, status, pressure=two)
-    call wrong_size('tractions of a state, pressure', status)
-    call mslip_masing_tractions(flat, state, zeros, status, shear=two)
-    call wrong_size('tractions of a state, shear', status)
-    call mslip_hysteresis_loop(flat, 1.0e-7_wp, three, two, status)
-    call wrong_size('loop', status)
-    call mslip_dissipated_energy(flat, zeros, two, status)
-    call wrong_size('energy', status)
-    call mslip_complex_stiffness(flat, zeros, status, k_real=two)
-    call wrong_size('complex stiffness, k real', status)
-    call mslip_complex_stiffness(flat, zeros, status, k_imag=two)
-    call wrong_size('complex stiffness, k imag', status)
-    call mslip_complex_stiffness(flat, zeros, status, dk_real=two)
-    call wrong_size('complex stiffness, dk real', status)
-    call mslip_complex_stiffness(flat, zeros, status, dk_imag=two)
-    call wrong_size('complex stiffness, dk imag', status)
-    call mslip_harmonic_force(flat, workspace, zeros(1:2), status, three)
-    call wrong_size('harmonic force, displacement', status)
-    call mslip_harmonic_force(flat, workspace, zeros, status, two)
-    call wrong_size('harmonic force, force', status)
-    call mslip_harmonic_force(flat, workspace, zeros, status, jacobian=m32)
-    call wrong_size('harmonic force, Jacobian', status)
-    call mslip_batch_complex_stiffness(pair, zeros, status)
-    call wrong_size('batch, amplitude', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, ones)
-    call wrong_size('batch, index of the stiffness', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, active=ones)
-    call wrong_size('batch, flags of the stiffness', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, k_real=three)
-    call wrong_size('batch, k real', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, k_imag=three)
-    call wrong_size('batch, k imag', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, dk_real=three)
-    call wrong_size('batch, dk real', status)
-    call mslip_batch_complex_stiffness(pair, zeros(1:2), status, dk_imag=three)
-    call wrong_size('batch, dk imag', status)
-    call mslip_batch_masing_advance(pair, states, zeros(1:2), status)
-    call wrong_size('batch in place, states', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros, status)
-    call wrong_size('batch in place, displacement', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, ones)
-    call wrong_size('batch in place, index', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, active=ones)
-    call wrong_size('batch in place, flags', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, force=three)
-    call wrong_size('batch in place, force', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, stiffness=three)
-    call wrong_size('batch in place, stiffness', status)
-    call mslip_batch_masing_advance(pair, states(:, 1:2), zeros(1:2), status, dissipated=three)
-    call wrong_size('batch in place, dissipated', status)
-    call mslip_batch_masing_update(pair, states, zeros(1:2), news, status)
-    call wrong_size('batch, states', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news, status)
-    call wrong_size('batch, new states', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(1:2, 1:2), status)
-    call wrong_size('batch, length of the new states', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros, news(:, 1:2), status)
-    call wrong_size('batch, displacement', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, ones)
-    call wrong_size('batch, index', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, active=ones)
-    call wrong_size('batch, flags', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, force=three)
-    call wrong_size('batch, force', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, stiffness=three)
-    call wrong_size('batch, stiffness', status)
-    call mslip_batch_masing_update(pair, states(:, 1:2), zeros(1:2), news(:, 1:2), status, dissipated=three)
-    call wrong_size('batch, dissipated', status)
-    call mslip_batch_harmonic_force(pair, workspace, m33, status)
-    call wrong_size('batch, coefficients of the displacements', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32(1:2, :), status)
-    call wrong_size('batch, too few coefficients of the displacements', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, ones)
-    call wrong_size('batch, index of the harmonic force', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, active=ones)
-    call wrong_size('batch, flags of the harmonic force', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, force=m33)
-    call wrong_size('batch, coefficients of the forces', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, jacobian=m332(:, 1:2, :))
-    call wrong_size('batch, Jacobians', status)
-    call mslip_batch_harmonic_force(pair, workspace, zeros_32, status, dissipated=three)
-    call wrong_size('batch, energies', status)
-    call mslip_iwan_equivalent(flat, three, two, status)
-    call wrong_size('Iwan model', status)
-    call check_same('wrong sizes: nothing written', [three, two, [m33], [m332], [news]], spread(untouched, 1, 32 + size(news)))
-    call check_same('wrong sizes: no state changed', [states], [state, state, state])
-  end subroutine test_array_sizes
-
-  subroutine wrong_size(name, status)
-    character(len=*), intent(in) :: name
-    integer(mslip_int), intent(in) :: status
-
-    call check_status('array size: '//name, status, MSLIP_BAD_ARRAY_SIZE)
-  end subroutine wrong_size
 
   subroutine test_strides()
     ! Sections that are not contiguous, as arguments of every kind, and arrays without elements.

@@ -1,0 +1,450 @@
+/* calls.h: contacts, memory that ends at a protected page, and a table of every function that takes a contact with a valid call of
+   each, of which the drivers invalidate one argument at a time. */
+#ifndef CALLS_H
+#define CALLS_H
+
+#include "check.h"
+
+#include <float.h>
+#include <microslip.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#ifdef __unix__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
+
+#define LENGTH(array) (sizeof(array) / sizeof *(array))
+
+/* Rounded flat: contact 3 of the reference tables. */
+static inline mslip_parameters flat_parameters(void)
+{
+    mslip_parameters p;
+    mslip_parameters_default(&p);
+    p.flat_half_width = 3e-4;
+    p.edge_radius = 2e-3;
+    p.length = 1.97e-2;
+    p.normal_force = 178.24;
+    p.friction_coefficient = 0.417;
+    p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
+    p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.29;
+    return p;
+}
+
+/* Ellipse: case 1 of the table of elliptical contacts. */
+static inline mslip_elliptic_parameters elliptic_parameters(void)
+{
+    mslip_elliptic_parameters p;
+    mslip_elliptic_parameters_default(&p);
+    p.semi_axis_x = 8.469711632573419636885181e-4;
+    p.semi_axis_y = 1.556904140680311380770529e-3;
+    p.normal_force = 46.68443584875135599077112;
+    p.friction_coefficient = 0.8978145269586224053171009;
+    p.material[0].young_modulus = p.material[1].young_modulus = 2.1e11;
+    p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.45;
+    return p;
+}
+
+/* The last two have no tangential force: no normal force, or no friction. */
+enum { FLAT, CYLINDER, ELLIPSE, OPEN, FRICTIONLESS, KINDS };
+
+static inline mslip_contact init_contact(int kind)
+{
+    mslip_parameters p = flat_parameters();
+    mslip_elliptic_parameters e = elliptic_parameters();
+    mslip_contact contact;
+    p.flat_half_width *= kind != CYLINDER;
+    p.normal_force *= kind != OPEN;
+    p.friction_coefficient *= kind != FRICTIONLESS;
+    CHECK((kind == ELLIPSE ? mslip_contact_init_elliptic(&e, &contact) : mslip_contact_init(&p, &contact)) == MSLIP_OK);
+    return contact;
+}
+
+/* The contact as initialised by the first call. */
+static inline mslip_contact contact_of(int kind)
+{
+    static mslip_contact contacts[KINDS];
+    static int is_initialised[KINDS];
+    if (!is_initialised[kind]) {
+        contacts[kind] = init_contact(kind);
+        is_initialised[kind] = 1;
+    }
+    return contacts[kind];
+}
+
+static inline int same_bits(const double *p, const double *q, size_t n)
+{
+    return memcmp(p, q, n * sizeof *p) == 0;
+}
+
+static inline double from_bits(uint64_t bits)
+{
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* NaN, quiet and signalling, of either sign, and infinities, as bits: an assignment of a double could trap. */
+enum { NON_FINITE = 6 };
+static const uint64_t non_finite[NON_FINITE] = {
+    0x7ff8000000000000, 0xfff8000000000000, 0x7ff0000000000001, 0xfff4000000000000, 0x7ff0000000000000, 0xfff0000000000000,
+};
+
+/* Floating-point exceptions that an application may trap; cleared. */
+static inline int raised(void)
+{
+    int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    feclearexcept(FE_ALL_EXCEPT);
+    return flags;
+}
+
+/* A buffer that ends at a protected page, and a copy of it. */
+enum { REGIONS = 12 };
+typedef struct {
+    unsigned char *start, *before;
+    size_t bytes;
+} region;
+static region regions[REGIONS];
+static int regions_made;
+
+static inline region *make_region(size_t bytes)
+{
+    region *r = &regions[regions_made++];
+#ifdef __unix__
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    r->bytes = (bytes + page - 1) / page * page;
+    r->start = mmap(NULL, r->bytes + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (r->start == MAP_FAILED || mprotect(r->start + r->bytes, page, PROT_NONE) != 0) {
+        perror("mmap");
+        exit(2);
+    }
+#else
+    r->bytes = bytes;
+    r->start = malloc(bytes);
+#endif
+    r->before = malloc(r->bytes);
+    if (regions_made > REGIONS || r->start == NULL || r->before == NULL) {
+        fputs("out of memory\n", stderr);
+        exit(2);
+    }
+    memset(r->start, 0x5a, r->bytes);
+    return r;
+}
+
+/* The last bytes of a region. */
+static inline void *last(const region *r, size_t bytes)
+{
+    return r->start + r->bytes - bytes;
+}
+
+static inline void save_regions(void)
+{
+    for (int i = 0; i < regions_made; ++i) {
+        memcpy(regions[i].before, regions[i].start, regions[i].bytes);
+    }
+}
+
+static inline void restore_regions(void)
+{
+    for (int i = 0; i < regions_made; ++i) {
+        memcpy(regions[i].start, regions[i].before, regions[i].bytes);
+    }
+}
+
+static inline int is_unchanged(const region *r)
+{
+    return memcmp(r->start, r->before, r->bytes) == 0;
+}
+
+/* No bit changed; one region, or NULL, is exempt. */
+static inline int nothing_changed_but(const region *exempt)
+{
+    int unchanged = 1;
+    for (int i = 0; i < regions_made; ++i) {
+        unchanged &= &regions[i] == exempt || is_unchanged(&regions[i]);
+    }
+    return unchanged;
+}
+
+/* Status codes returned so far. */
+static unsigned char seen[128];
+
+/* The call was rejected with this status and modified nothing. */
+static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
+{
+    const int flags = raised(), unmodified = nothing_changed_but(NULL);
+    const int holds = check_that(status == expected && flags == 0 && unmodified, __FILE__, __LINE__, "rejected, nothing modified");
+    if (!holds) {
+        printf("    %s, %s: status %d, not %d; flags %x; memory %smodified\n", function, what, (int)status, (int)expected, flags,
+               unmodified ? "un" : "");
+        restore_regions();
+    }
+    if (status >= 0 && status < (int32_t)sizeof seen) {
+        seen[status] = 1;
+    }
+    return holds;
+}
+
+enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, USED = 3 };
+
+/* Quantities, and the status of one that is not finite. */
+enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE };
+static inline int32_t status_of_non_finite(int kind)
+{
+    static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE };
+    return status[kind];
+}
+
+/* Arguments besides a contact. The n of IS_IWAN is not the length of an input. */
+enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16 };
+enum { OUTPUTS = 5 }; /* the new state first */
+
+typedef struct {
+    const mslip_contact *contacts;
+    const int32_t *index, *active;
+    size_t n, n_contacts, state_length;
+    double scalar;
+    const double *input, *state;
+    double *workspace, *out[OUTPUTS];
+} arguments;
+static arguments call;
+
+#define CALL(name, ...) static int32_t call_##name(void) { return mslip_##name(__VA_ARGS__); }
+#define OUT1 call.out[1]
+#define OUT2 call.out[1], call.out[2]
+#define OUT3 call.out[1], call.out[2], call.out[3]
+#define OUT4 call.out[1], call.out[2], call.out[3], call.out[4]
+#define BATCH call.n, call.n_contacts, call.contacts, call.index, call.active
+CALL(tractions, call.contacts, call.scalar, call.n, call.input, OUT2)
+CALL(slip, call.contacts, call.scalar, call.n, call.input, OUT2)
+CALL(monotonic_displacement, call.contacts, call.n, call.input, OUT3)
+CALL(monotonic_force, call.contacts, call.n, call.input, OUT3)
+CALL(masing_update, call.contacts, call.state_length, call.state, call.scalar, call.out[0], OUT3)
+CALL(masing_path, call.contacts, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
+CALL(masing_tractions, call.contacts, call.state_length, call.state, call.n, call.input, OUT2)
+CALL(hysteresis_loop, call.contacts, call.scalar, call.n, OUT2)
+CALL(dissipated_energy, call.contacts, call.n, call.input, OUT1)
+CALL(complex_stiffness, call.contacts, call.n, call.input, OUT4)
+CALL(harmonic_force, call.contacts, call.workspace, call.input, OUT3)
+CALL(jenkins_equivalent, call.contacts, call.scalar, OUT2)
+CALL(iwan_equivalent, call.contacts, call.n, OUT3)
+CALL(batch_complex_stiffness, BATCH, call.input, OUT4)
+CALL(batch_masing_update, BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
+CALL(batch_harmonic_force, BATCH, call.workspace, call.input, OUT3)
+
+typedef struct {
+    const char *name;
+    int32_t (*call)(void);
+    int takes, rule;
+    int scalar;          /* quantity passed by value */
+    int kind;            /* quantity of the input array */
+    size_t inputs;       /* its length */
+    size_t out[OUTPUTS]; /* lengths of the outputs */
+} function;
+
+#define FUNCTION(name) "mslip_" #name, call_##name
+#define HARMONIC(rule) \
+    { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
+    { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
+      { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
+static const function functions[] = {
+    { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
+    { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
+    { FUNCTION(monotonic_displacement), TAKES_COUNT, 0, NONE, FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(monotonic_force), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(masing_update), TAKES_STATE, 0, DISPLACEMENT, NONE, 0, { STATE, 1, 1, 1 } },
+    { FUNCTION(masing_path), TAKES_STATE | TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { STATE, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(masing_tractions), TAKES_STATE | TAKES_COUNT, 0, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
+    { FUNCTION(hysteresis_loop), TAKES_COUNT, 0, AMPLITUDE, NONE, 0, { 0, ITEMS, ITEMS } },
+    { FUNCTION(dissipated_energy), TAKES_COUNT, 0, NONE, FORCE_AMPLITUDE, ITEMS, { 0, ITEMS } },
+    { FUNCTION(complex_stiffness), TAKES_COUNT, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(jenkins_equivalent), 0, 0, AMPLITUDE, NONE, 0, { 0, 1, 1 } },
+    { FUNCTION(iwan_equivalent), TAKES_COUNT | IS_IWAN, 0, NONE, NONE, 0, { 0, ITEMS, ITEMS, 1 } },
+    { FUNCTION(batch_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(batch_masing_update), TAKES_COUNT | TAKES_STATE | IS_BATCH, 0, NONE, DISPLACEMENT, ITEMS,
+      { ITEMS * STATE, ITEMS, ITEMS, ITEMS } },
+    HARMONIC(MSLIP_UNIFORM_SAMPLING),
+    HARMONIC(MSLIP_EVENT_DRIVEN),
+};
+enum { FUNCTIONS = LENGTH(functions) };
+
+static inline const function *find(const char *name, int rule)
+{
+    for (int i = 0; i < FUNCTIONS; ++i) {
+        if (strcmp(functions[i].name, name) == 0 && functions[i].rule == rule) {
+            return &functions[i];
+        }
+    }
+    fprintf(stderr, "no function %s\n", name);
+    exit(2);
+}
+
+static inline size_t items_of(const function *f)
+{
+    return f->takes & IS_BATCH ? ITEMS : 1;
+}
+
+static region *contact_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
+static region *out_regions[OUTPUTS];
+static size_t workspace_lengths[2];
+
+static inline void make_regions(void)
+{
+    for (int rule = 0; rule < 2; ++rule) {
+        workspace_lengths[rule] = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
+    }
+    contact_region = make_region(ITEMS * sizeof(mslip_contact));
+    index_region = make_region(ITEMS * sizeof(int32_t));
+    active_region = make_region(ITEMS * sizeof(int32_t));
+    input_region = make_region(ITEMS * COEFFICIENTS * sizeof(double));
+    state_region = make_region(ITEMS * STATE * sizeof(double));
+    workspace_region = make_region(workspace_lengths[workspace_lengths[1] > workspace_lengths[0]] * sizeof(double));
+    for (int i = 0; i < OUTPUTS; ++i) {
+        out_regions[i] = make_region(ITEMS * (STATE + SQUARE) * sizeof(double));
+    }
+}
+
+/* The inputs, to be modified by tests. */
+#define CONTACTS ((mslip_contact *)(size_t)call.contacts)
+#define INDICES ((int32_t *)(size_t)call.index)
+#define ACTIVE ((int32_t *)(size_t)call.active)
+#define INPUT ((double *)(size_t)call.input)
+#define STATES ((double *)(size_t)call.state)
+
+/* A decaying vibration: each displacement adds a reversal. */
+static inline double decaying(int reversals)
+{
+    return (reversals % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * reversals);
+}
+
+/* Initialises the states and advances each to USED nested reversals. */
+static inline void fill_states(const function *f)
+{
+    for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
+        double *state = STATES + i * STATE;
+        CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
+        for (int k = 0; k <= USED; ++k) {
+            CHECK(mslip_masing_update(&call.contacts[i], STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
+        }
+    }
+}
+
+static inline void fill_outputs(void)
+{
+    for (int i = 0; i < OUTPUTS; ++i) {
+        memset(out_regions[i]->start, 0xff, out_regions[i]->bytes); /* NaN */
+    }
+}
+
+static inline double valid_value(int kind, size_t i, double slip_force)
+{
+    switch (kind) {
+        case POSITION: return 1e-4 * ((double)i - 2.0);
+        case FORCE: return slip_force * (0.2 * (double)i - 0.35);
+        case FORCE_AMPLITUDE: return 0.2 * slip_force * (double)i;
+        case DISPLACEMENT: return 1e-8 * (1.3 * (double)(i % 4) - 2.0);
+        case AMPLITUDE: return 4e-8 * (double)(i + 1);
+        default: return 0.0;
+    }
+}
+
+/* Valid arguments, each just before its protected page. Item i of a batch has contact i. */
+static inline void set_up(const function *f)
+{
+    mslip_contact *c = last(contact_region, items_of(f) * sizeof *c);
+    int32_t *index = last(index_region, ITEMS * sizeof *index), *flags = last(active_region, ITEMS * sizeof *flags);
+    double *values = last(input_region, f->inputs * sizeof *values);
+
+    memset(&call, 0, sizeof call);
+    call.n = call.n_contacts = ITEMS;
+    call.state_length = STATE;
+    call.contacts = c;
+    for (size_t i = 0; i < items_of(f); ++i) {
+        c[i] = contact_of((int)i % 3);
+    }
+    for (size_t i = 0; i < ITEMS; ++i) {
+        index[i] = (int32_t)i;
+        flags[i] = 1;
+    }
+    call.index = f->takes & IS_BATCH ? index : NULL;
+    call.active = f->takes & IS_BATCH ? flags : NULL;
+    for (size_t i = 0; i < f->inputs; ++i) {
+        values[i] = valid_value(f->kind, i, c->slip_force);
+    }
+    call.input = f->inputs > 0 ? values : NULL;
+    call.scalar = valid_value(f->scalar, 3, c->slip_force);
+    if (f->takes & TAKES_STATE) {
+        call.state = last(state_region, items_of(f) * STATE * sizeof(double));
+        fill_states(f);
+    }
+    if (f->takes & TAKES_WORKSPACE) {
+        const size_t length = workspace_lengths[f->rule];
+        call.workspace = last(workspace_region, length * sizeof(double));
+        CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
+    }
+    for (int i = 0; i < OUTPUTS; ++i) {
+        call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
+    }
+}
+
+static inline void rejected(const function *f, int32_t status, const char *what)
+{
+    save_regions();
+    feclearexcept(FE_ALL_EXCEPT);
+    check_rejected(f->call(), status, f->name, what);
+}
+
+/* An output is finite for all items but one, which is unchanged, and so is the memory before the output. */
+static inline int is_written(const region *r, size_t length, size_t skipped)
+{
+    const size_t bytes = length * sizeof(double), share = length / ITEMS;
+    const double *values = last(r, bytes), *before = (const double *)(const void *)(r->before + r->bytes - bytes);
+    int holds = memcmp(r->start, r->before, r->bytes - bytes) == 0;
+    for (size_t i = 0; i < length; ++i) {
+        holds &= skipped < ITEMS && i / share == skipped ? same_bits(&values[i], &before[i], 1) : !!isfinite(values[i]);
+    }
+    return holds;
+}
+
+/* The call succeeds and writes its outputs only, for all items but the skipped one. */
+static inline void accepted_except(const function *f, size_t skipped, const char *what)
+{
+    const region *const inputs[] = { contact_region, index_region, active_region, input_region, state_region };
+    int32_t status;
+    int flags, holds;
+    fill_outputs();
+    save_regions();
+    feclearexcept(FE_ALL_EXCEPT);
+    status = f->call();
+    flags = raised();
+    holds = status == MSLIP_OK && flags == 0;
+    for (size_t i = 0; i < LENGTH(inputs); ++i) {
+        holds &= is_unchanged(inputs[i]);
+    }
+    for (int i = 0; i < OUTPUTS; ++i) {
+        holds &= is_written(out_regions[i], f->out[i], skipped);
+    }
+    if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {
+        printf("    %s, %s: status %d, flags %x\n", f->name, what, (int)status, flags);
+    }
+}
+
+static inline void accepted(const function *f, const char *what)
+{
+    accepted_except(f, ITEMS, what);
+}
+
+/* Rejected, or accepted without the item if it is not active. */
+static inline void rejected_unless_skipped(const function *f, int skipped, size_t item, int32_t status, const char *what)
+{
+    if (skipped) {
+        accepted_except(f, item, what);
+    } else {
+        rejected(f, status, what);
+    }
+}
+
+#endif

@@ -1,0 +1,40 @@
+//! Calls of the library, each compiled once for all tests of a crate: the functions themselves are inlined into every caller.
+#![allow(dead_code, reason = "not every crate uses all of them")]
+
+use microslip::Contact;
+use microslip::constant_load::masing;
+use microslip::constant_load::state::{state_init, state_length};
+use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
+
+/// Harmonic force and its Jacobian, column-major, and dissipated energy.
+#[inline(never)]
+pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+    let n = displacement.len();
+    let mut memory = vec![0.0; rule.workspace_length(n / 2, samples)];
+    rule.workspace_init(n / 2, samples, &mut memory).unwrap();
+    let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], 0.0);
+    let output =
+        HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut dissipated) };
+    harmonic_force(contact, &mut Workspace::new(&mut memory).unwrap(), displacement, output).unwrap();
+    (force, jacobian, dissipated)
+}
+
+pub fn unloaded(reversals: usize) -> Vec<f64> {
+    let mut state = vec![0.0; state_length(reversals)];
+    state_init(&mut state).unwrap();
+    state
+}
+
+/// Force and stiffness at a displacement, with the new state.
+#[inline(never)]
+pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> masing::Step {
+    masing::step(contact, state, displacement)
+}
+
+/// Advances a state; force, stiffness and dissipated energy.
+#[inline(never)]
+pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> (f64, f64, f64) {
+    let (step, dissipated) = masing::step_with_energy(contact, state, displacement);
+    step.write(state);
+    (step.force(), step.stiffness(), dissipated)
+}
