@@ -6,18 +6,6 @@ cd "$(dirname "$0")/.."
 
 step 'packages' tools/dependencies.sh check
 
-fortran_module() {
-    # shellcheck disable=SC2086
-    mkdir -p "$work/module" && $FC $1 -c "$prefix/include/microslip.f90" -J "$work/module" -o "$work/module/microslip.o"
-}
-
-# fortran_program PROGRAM FLAGS
-fortran_program() {
-    rm -rf "$work/fortran" && mkdir "$work/fortran" &&
-        build "$FC $2 -J $work/fortran $prefix/include/microslip.f90 tests/fortran/checks.f90" "tests/fortran/$1.f90" "$work/fortran/test" &&
-        "$work/fortran/test"
-}
-
 calculix_results() {
     mkdir -p "$work/calculix" &&
         build "$FC -J $work/calculix $prefix/include/microslip.f90" examples/calculix/compare.f90 "$work/calculix/compare" -llapack -lblas &&
@@ -48,15 +36,6 @@ rust() {
 
 installed() {
     step 'archive in calling applications' verification/embedding/embedding.sh "$prefix"
-    wide='-fdefault-real-8 -fdefault-integer-8'
-    for kinds in '' "$wide" -fno-automatic; do
-        for standard in f2008 f2018; do
-            step "Fortran module: $standard $kinds" fortran_module "-std=$standard -Wall -Wextra -pedantic -Werror $kinds"
-        done
-        for program in test_microslip bad_input; do
-            step "Fortran: $program $kinds" fortran_program "$program" "$kinds"
-        done
-    done
     step 'fuzzing, bounded' tools/fuzz.sh --check
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"

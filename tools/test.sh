@@ -4,32 +4,8 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-strict='-Wall -Wextra -Wpedantic -Werror -O1'
-step 'packages' tools/dependencies.sh test
-
 verification="--quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification"
-
-# shellcheck disable=SC2086  # flags are a list
-rust() {
-    step 'Rust: tests' "$CARGO" test --release --workspace --locked --no-fail-fast
-    step 'multi-precision reference against the tables' "$CARGO" test $verification --workspace
-    step 'accuracy: short' "$CARGO" run $verification --package accuracy -- --check
-    step 'stress: short' "$CARGO" run $verification --package stress -- --scale 0.003
-    step 'paper: figures and claims' "$CARGO" run $verification --package paper -- --check
-}
-
-c_driver() {
-    build "$CC -std=c99 $strict" "c_tests/$1.c" "$work/$1" && "$work/$1"
-}
-
-cxx_driver() {
-    build "$CXX -std=c++11 -pthread $strict" "c_tests/$1.cpp" "$work/$1" && "$work/$1"
-}
-
-fortran_program() {
-    mkdir -p "$work/$1" && build "$FC -ffpe-trap=invalid,zero,overflow -J $work/$1 $prefix/include/microslip.f90 tests/fortran/checks.f90" \
-        "tests/fortran/$1.f90" "$work/$1/test" && "$work/$1/test"
-}
+strict='-Wall -Wextra -Wpedantic -Werror -O1'
 
 snippet() {
     case $1 in
@@ -38,20 +14,11 @@ snippet() {
     esac && (cd "$work" && ./snippet)
 }
 
-installed() {
+library() {
+    step 'library: tests in Rust, C, C++ and Fortran' env MICROSLIP_PREFIX="$prefix" "$CARGO" test --release --locked --no-fail-fast
     step 'archive: symbols and sections' tools/symbols.sh "$prefix"
-    for source in c_tests/*.c; do
-        driver=$(basename "$source" .c)
-        step "C: $driver" c_driver "$driver"
-        step "C: $driver, floating-point traps" "$work/$driver" --trap
-    done
-    for source in c_tests/*.cpp; do
-        step "C++: $(basename "$source" .cpp)" cxx_driver "$(basename "$source" .cpp)"
-    done
-    for program in test_microslip bad_input; do
-        step "Fortran: $program, floating-point traps" fortran_program "$program"
-    done
     step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
+    step 'documents: links' tools/links.sh
     for document in README.md docs/*.md; do
         name=$(basename "$document" .md)
         tools/snippets.sh "$document" "$work/snippets/$name"
@@ -61,7 +28,17 @@ installed() {
     done
 }
 
+# shellcheck disable=SC2086  # flags are a list
+others() {
+    step 'reference against the tables' "$CARGO" test $verification --workspace
+    step 'accuracy: short' "$CARGO" run $verification --package accuracy -- --check
+    step 'stress: short' "$CARGO" run $verification --package stress -- --scale 0.003
+    step 'paper: figures and claims' "$CARGO" run $verification --package paper -- --check
+    step 'command line' env CARGO_PROFILE_DEV_DEBUG=0 "$CARGO" test --locked --package microslip-cli
+    step 'C header and Fortran module: generated from the source' "$CARGO" run --quiet --locked --package xtask -- header --check
+}
+
+step 'packages' tools/dependencies.sh test
 step 'library: build, install, move' install_and_move
-together rust installed
-step 'Fortran examples against the balance in Rust' env MICROSLIP_PREFIX="$prefix" "$CARGO" test --release --locked --test harmonic_balance
+together library others
 summary
