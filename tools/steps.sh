@@ -37,20 +37,17 @@ step() {
     if [ "$bad" -eq 0 ]; then
         printf '%-72s %s passed, %s s\n' "$step" "$good" "$seconds"
     else
-        printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"
-        sed 's/^/    /' "$log"
+        { printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"; sed 's/^/    /' "$log"; } > "$log.report"
+        cat "$log.report"
     fi
 }
 
-# together FUNCTION...: at the same time; what each prints stays together.
+# together FUNCTION...: at the same time.
 together() {
     for function in "$@"; do
-        "$function" > "$work/$function.out" 2>&1 &
+        "$function" &
     done
     wait
-    for function in "$@"; do
-        cat "$work/$function.out"
-    done
 }
 
 summary() {

@@ -49,21 +49,26 @@ pub fn table(name: &str) -> Vec<Row> {
     lines.filter(|line| !line.trim().is_empty()).map(row).collect()
 }
 
+/// The flat with rounded edges of a row, without load and material.
+pub fn geometry(row: &Row) -> Parameters {
+    let [flat_half_width, edge_radius, length] = ["a", "R", "L"].map(|name| row[name]);
+    Parameters { flat_half_width, edge_radius, length, ..Parameters::default() }
+}
+
 /// The contact of a row of `contacts`.
+#[allow(dead_code)]
 pub fn flat(row: &Row) -> Parameters {
     let body = |e: &str, nu: &str| Material { young_modulus: row[e], poisson_ratio: row[nu] };
     Parameters {
-        flat_half_width: row["a"],
-        edge_radius: row["R"],
-        length: row["L"],
         normal_force: row["N"],
         friction_coefficient: row["mu"],
         material: [body("E1", "nu1"), body("E2", "nu2")],
-        ..Parameters::default()
+        ..geometry(row)
     }
 }
 
 /// The contact of a row of `elliptic`.
+#[allow(dead_code)]
 pub fn ellipse(row: &Row) -> EllipticParameters {
     EllipticParameters {
         semi_axis_x: row["semi_axis_x"],
