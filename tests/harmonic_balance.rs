@@ -2,7 +2,7 @@
 //!
 //! They condense the structure to the contact, work with complex amplitudes and take force and Jacobian from the library.
 //! Here all harmonics of all degrees of freedom are real unknowns, the force comes from a time history of three periods, and the
-//! Jacobian from central differences. Both must give the same motion, and both that of time integration.
+//! Jacobian from central differences. Both must give the same motion.
 
 mod common;
 
@@ -276,89 +276,6 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// A steady-state period by time integration, uniformly sampled from phase 0.
-struct TimeIntegration {
-    /// Displacement of each degree of freedom, step by step.
-    displacement: Vec<Vec<f64>>,
-    periods: usize,
-}
-
-impl TimeIntegration {
-    /// Newmark's method with constant average acceleration, from rest, until a period differs from the one before by less
-    /// than `change` of its size.
-    fn until_steady(case: &Case, frequency: f64, steps: usize, change: f64) -> TimeIntegration {
-        let omega = 2.0 * PI * frequency;
-        let h = 2.0 * PI / omega / steps as f64;
-        let dofs = case.mass.nrows();
-        let inverse =
-            (&case.mass + &case.damping * (0.5 * h) + &case.stiffness * (0.25 * h * h)).try_inverse().unwrap();
-        let by_force = inverse.column(case.touching) * (0.25 * h * h);
-        let (mut x, mut v) = (DVector::zeros(dofs), DVector::zeros(dofs));
-        let mut a = case.mass.clone().try_inverse().unwrap() * &case.excitation;
-        let mut state = unloaded(4096);
-        let mut force = 0.0;
-        let mut before: Vec<Vec<f64>> = vec![vec![0.0; steps]; dofs];
-        for periods in 1..=5000 {
-            let mut now = vec![Vec::with_capacity(steps); dofs];
-            for step in 1..=steps {
-                let phase = 2.0 * PI * step as f64 / steps as f64;
-                now.iter_mut().zip(x.iter()).for_each(|(samples, x): (&mut Vec<f64>, &f64)| samples.push(*x));
-                let (x_free, v_free) = (&x + &v * h + &a * (0.25 * h * h), &v + &a * (0.5 * h));
-                let load = &case.excitation * phase.cos() - &case.damping * &v_free - &case.stiffness * &x_free;
-                let a_free = &inverse * load;
-                // u + compliance f(u) = u_free by Newton's method: f rises.
-                let (compliance, u_free) =
-                    (by_force[case.touching], x_free[case.touching] + 0.25 * h * h * a_free[case.touching]);
-                let mut u = u_free - compliance * force;
-                let found = loop {
-                    let found = common::step(&case.contact, &state, u);
-                    let error = u + compliance * found.force() - u_free;
-                    if error.abs() <= 1e-13 * case.contact.slip_displacement {
-                        break found;
-                    }
-                    u -= error / (1.0 + compliance * found.stiffness());
-                };
-                found.write(&mut state);
-                force = found.force();
-                a = a_free - inverse.column(case.touching) * force;
-                x = x_free + &a * (0.25 * h * h);
-                v = v_free + &a * (0.5 * h);
-            }
-            let pairs = || now.iter().flatten().zip(before.iter().flatten());
-            let moved = pairs().map(|(now, before)| (now - before).powi(2)).sum::<f64>();
-            let size = pairs().map(|(now, _)| now * now).sum::<f64>();
-            before = now;
-            if moved <= change * change * size {
-                return TimeIntegration { displacement: before, periods };
-            }
-        }
-        panic!("not steady");
-    }
-}
-
-impl TimeIntegration {
-    fn steps(&self) -> usize {
-        self.displacement[0].len()
-    }
-
-    /// Coefficients of a degree of freedom.
-    fn harmonics(&self, dof: usize, coefficients: usize) -> Vec<f64> {
-        let mut sums = vec![0.0; coefficients];
-        for (step, x) in self.displacement[dof].iter().enumerate() {
-            let row = fourier_row(coefficients, 2.0 * PI * step as f64 / self.steps() as f64);
-            sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += x * value * 2.0 / self.steps() as f64);
-        }
-        sums[0] *= 0.5;
-        sums
-    }
-}
-
-/// A periodic displacement from its coefficients, at the given number of instants from the phase 0.
-fn waveform(coefficients: &[f64], instants: usize) -> Vec<f64> {
-    let value = |row: Vec<f64>| row.iter().zip(coefficients).map(|(value, coefficient)| value * coefficient).sum();
-    (0..instants).map(|k| value(fourier_row(coefficients.len(), 2.0 * PI * k as f64 / instants as f64))).collect()
-}
-
 fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
@@ -375,11 +292,6 @@ fn scientific(values: &[f64]) -> Vec<String> {
 /// Amplitude of the first harmonic.
 fn fundamental(coefficients: &[f64]) -> f64 {
     coefficients[1].hypot(coefficients[2])
-}
-
-/// Half the range.
-fn half_range(waveform: &[f64]) -> f64 {
-    0.5 * (waveform.iter().fold(f64::MIN, |top, x| top.max(*x)) - waveform.iter().fold(f64::MAX, |low, x| low.min(*x)))
 }
 
 /// Rows of a table `frequency_hz, dof, c0, cos1, sin1, ...` of the Fortran program against the balance here.
@@ -471,77 +383,4 @@ fn newton_with_the_exact_jacobian_converges_quadratically_to_the_same_motion() {
     }
     // Microslip and gross slip are both among the frequencies.
     assert_eq!(regimes, [true; 2]);
-}
-
-/// The balance with the given number of harmonics. The sampling error scales as 1/samples²: with 1024 samples it is far below
-/// that of the omitted harmonics.
-fn finely_sampled(case: &Case, frequency: f64, harmonics: usize) -> [Vec<f64>; 2] {
-    let balance = Balance::new(case, frequency, harmonics);
-    let solution = balance.solve(&library(&case.contact, 1024));
-    [0, 1].map(|dof| balance.of_dof(&solution.motion, dof))
-}
-
-/// Gross slip erases the memory of the start, so the steady motion is unique.
-#[test]
-fn more_harmonics_converge_to_time_integration() {
-    let case = case();
-    let mut gross_slip = 0;
-    for &frequency in &case.frequencies {
-        let balances = [1, 3, 5, 9].map(|harmonics| finely_sampled(&case, frequency, harmonics));
-        if fundamental(&balances[3][case.touching]) < 1.2 * case.contact.slip_displacement {
-            continue;
-        }
-        gross_slip += 1;
-        let integrated = TimeIntegration::until_steady(&case, frequency, 1024, 1e-7);
-        // The displacement of the contact beyond the ninth harmonic.
-        let touching = &integrated.displacement[case.touching];
-        let retained = waveform(&integrated.harmonics(case.touching, 19), integrated.steps());
-        let left_out = difference(&retained, touching) / norm(touching);
-        for (dof, steady) in integrated.displacement.iter().enumerate() {
-            let off = [0, 1, 2, 3].map(|k| {
-                let balanced = waveform(&balances[k][dof], integrated.steps());
-                difference(&balanced, steady) / norm(steady)
-            });
-            let nine = &balances[3][dof];
-            let first = fundamental(nine) / fundamental(&integrated.harmonics(dof, 3)) - 1.0;
-            let peak = half_range(&waveform(nine, integrated.steps())) / half_range(steady) - 1.0;
-            let place = format!(
-                "{frequency} Hz, dof {}, {} periods: {:?}, left out {left_out:.1e}, fundamental {first:.1e}, half range {peak:.1e}",
-                dof + 1,
-                integrated.periods,
-                scientific(&off)
-            );
-            println!("{place}");
-            assert!(off.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{place}");
-            // The contact amplifies the omitted harmonics a few times.
-            let bound = 4.0 * left_out;
-            assert!(left_out < 2e-3 && off[3] < bound && first.abs() < bound && peak.abs() < bound, "{place}");
-        }
-    }
-    assert!(gross_slip >= 3);
-}
-
-/// In microslip the mean displacement depends on how the motion began, by Masing's rule its amplitude does not.
-#[test]
-fn time_integration_has_the_amplitude_of_the_balance_in_microslip() {
-    let case = case();
-    let mut microslip = 0;
-    for &frequency in &case.frequencies {
-        let balance = finely_sampled(&case, frequency, 9);
-        if fundamental(&balance[case.touching]) > 0.5 * case.contact.slip_displacement {
-            continue;
-        }
-        microslip += 1;
-        let [coarse, fine] = [512, 1024].map(|steps| TimeIntegration::until_steady(&case, frequency, steps, 1e-8));
-        for (dof, balanced) in balance.iter().enumerate() {
-            let [coarse, fine] = [&coarse, &fine].map(|one| fundamental(&one.harmonics(dof, 3)));
-            // Newmark's error scales as 1/steps²: Richardson extrapolation.
-            let limit = fine + (fine - coarse) / 3.0;
-            let (off, newmark) = (fundamental(balanced) / limit - 1.0, (limit - fine) / limit);
-            println!("{frequency} Hz, dof {}: {off:.1e}, extrapolation {newmark:.1e}", dof + 1);
-            // The remaining transient changes by 1e-8 per period; the sampling error of the balance is as large.
-            assert!(off.abs() < 5e-8 && off.abs() < 0.05 * newmark.abs(), "{frequency} Hz, dof {}: {off:.1e}", dof + 1);
-        }
-    }
-    assert!(microslip >= 2);
 }
