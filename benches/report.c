@@ -24,7 +24,7 @@ void check_errors(void)
 {
     static const struct { const char *task, *method; double parameter, bound; } checks[] = {
         { "force", "microslip", -1.0, 1e-13 }, { "stiffness", "microslip", -1.0, 1e-12 },
-        { "time step", "microslip", -1.0, 1e-13 }, { "preparation", "microslip", -1.0, 1e-14 },
+        { "time step", "microslip", -1.0, 1e-13 }, { "initialisation", "microslip", -1.0, 1e-14 },
         { "force", "quadrature", 32.0, 1e-10 }, { "stiffness", "quadrature", 32.0, 1e-6 },
         { "force", "sliders", 1024.0, 1e-5 }, { "stiffness", "sliders", 1024.0, 1e-3 },
         { "time step", "sliders", 1024.0, 1e-5 }, { "harmonic", "sliders", 1024.0, 1e-5 },
@@ -173,8 +173,8 @@ void write_readme_table(FILE *file)
     s = summary_of("microslip", "time step", 0, 0, 0);
     fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
             cell(&s->own), cell(&s->coarse), cell(&s->one));
-    s = summary_of("microslip", "preparation", 0, 0, 0);
-    fprintf(file, "| preparation of a contact | %s | – |\n", cell(&s->own));
+    s = summary_of("microslip", "initialisation", 0, 0, 0);
+    fprintf(file, "| initialisation of a contact | %s | – |\n", cell(&s->own));
 }
 
 void write_tables(FILE *file, const char *machine)
@@ -195,7 +195,7 @@ void write_tables(FILE *file, const char *machine)
         }
     }
     row(file, "step of a time integration", "microslip", "time step", 0, 0, 0);
-    row(file, "preparation of a contact", "microslip", "preparation", 0, 0, 0);
+    row(file, "initialisation of a contact", "microslip", "initialisation", 0, 0, 0);
 
     fputs("\nComplex stiffness with derivatives at 200 single amplitudes, uniformly spaced up to twice the displacement of "
           "gross slip:\n\n"

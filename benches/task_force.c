@@ -1,4 +1,4 @@
-/* task_force.c: force and stiffness at a displacement, 1,000 points per call; and the preparation of a contact. */
+/* task_force.c: force and stiffness at a displacement, 1,000 points per call; and the initialisation of a contact. */
 #include "cases.h"
 
 #include <math.h>
@@ -82,7 +82,7 @@ void task_force(const test_case *c, const extent *x)
     const size_t first = entry_count;
     double value[5];
     truth(&c->parameters, "contact", 0, NULL, 5, value);
-    entry *e = entry_add("preparation", "microslip", prepare, (void *)&c->parameters, 1);
+    entry *e = entry_add("initialisation", "microslip", prepare, (void *)&c->parameters, 1);
     e->error = fabs(c->contact.slip_displacement / value[2] - 1.0);
     measure(first, c->shape, -1.0, memory_mark());
 }
