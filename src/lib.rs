@@ -22,6 +22,8 @@ pub mod shape;
 
 pub mod constant_load;
 
+pub mod varying_load;
+
 pub mod hbm;
 
 pub mod ffi;

@@ -53,4 +53,43 @@ pub trait Shape {
 
     /// The size w at a tangential shift \[m\].
     fn at_shift(&self, shift: f64) -> f64;
+
+    /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ for the argument
+    /// `x (1 + ρ)`.
+    fn series(&self, w: f64, relation: Relation) -> Series;
+}
+
+/// Number of Taylor coefficients in a [`Series`].
+pub(crate) const ORDER: usize = 16;
+
+/// Taylor coefficients.
+pub type Series = [f64; ORDER];
+
+/// A relation between two quantities of a family of sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relation {
+    /// N as a function of U.
+    LoadOfApproach,
+    /// N as a function of S.
+    LoadOfShift,
+    /// S as a function of N.
+    ShiftOfLoad,
+}
+
+/// Term k of the product of two power series.
+pub(crate) fn product_term(one: &Series, two: &Series, k: usize) -> f64 {
+    one.iter().zip(two.iter().take(k + 1).rev()).map(|(a, b)| a * b).sum()
+}
+
+/// Term k of a quotient from the terms before it, given term k of the numerator.
+pub(crate) fn quotient_term(numerator: f64, denominator: &Series, quotient: &Series, k: usize) -> f64 {
+    let known: f64 = denominator.iter().skip(1).zip(quotient.iter().take(k).rev()).map(|(a, b)| a * b).sum();
+    (numerator - known) / denominator[0]
+}
+
+/// Sets coefficient k + 1 of a series whose derivative has the coefficient k.
+pub(crate) fn integrate_term(series: &mut Series, k: usize, derivative: f64) {
+    if let Some(term) = series.get_mut(k + 1) {
+        *term = derivative / (k + 1) as f64;
+    }
 }

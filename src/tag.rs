@@ -11,6 +11,7 @@ pub(crate) const LAYOUT: u64 = 3;
 #[repr(u16)]
 pub(crate) enum Kind {
     State = 0x4d53,
+    ElementState = 0x4d45,
     UniformSampling = 0x4d55,
     EventDriven = 0x4d3a,
     Samples = 0x4d4e,
@@ -42,7 +43,7 @@ impl Kind {
 mod tests {
     use super::*;
 
-    const KINDS: [Kind; 4] = [Kind::State, Kind::UniformSampling, Kind::EventDriven, Kind::Samples];
+    const KINDS: [Kind; 5] = [Kind::State, Kind::ElementState, Kind::UniformSampling, Kind::EventDriven, Kind::Samples];
 
     #[test]
     fn a_tag_preserves_its_count_and_is_preserved_as_text() {

@@ -251,7 +251,7 @@ const EMPTY: Contact = Contact {
     checksum: 0,
 };
 
-fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
+pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
     material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
 }
 

@@ -20,7 +20,7 @@
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Pair};
 use crate::range::in_range;
-use crate::shape::Shape;
+use crate::shape::{ORDER, Relation, Series, Shape};
 use crate::shape::rounded_punch::TINY;
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -35,6 +35,15 @@ pub struct HertzEllipse {
 }
 
 impl HertzEllipse {
+    /// No shape, for memory of another kind.
+    pub(crate) const EMPTY: HertzEllipse =
+        HertzEllipse { semi_axis_x: 0.0, normal_force: 0.0, normal: 0.0, tangential: 0.0 };
+
+    /// S/U = C_t/C_n, the same for all sizes.
+    pub(crate) fn tangential_ratio(&self) -> f64 {
+        self.tangential / self.normal
+    }
+
     /// The shape of parameters that were checked, N > 0.
     ///
     /// # Errors
@@ -111,6 +120,21 @@ impl Shape for HertzEllipse {
 
     fn at_shift(&self, shift: f64) -> f64 {
         self.semi_axis_x * (shift / (1.5 * self.tangential * self.normal_force)).sqrt()
+    }
+
+    /// Binomial series: N scales as the powers 3/2 of U and of S.
+    fn series(&self, w: f64, relation: Relation) -> Series {
+        let (value, exponent) = match relation {
+            Relation::LoadOfApproach | Relation::LoadOfShift => (self.load(w), 1.5),
+            Relation::ShiftOfLoad => (self.shift(w), 2.0 / 3.0),
+        };
+        let mut series = [value; ORDER];
+        let mut term = value;
+        for (k, coefficient) in series.iter_mut().enumerate() {
+            *coefficient = term;
+            term *= (exponent - k as f64) / (k + 1) as f64;
+        }
+        series
     }
 }
 

@@ -16,7 +16,7 @@
 use crate::error::Error;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
-use crate::shape::Shape;
+use crate::shape::{ORDER, Relation, Series, Shape, integrate_term, product_term, quotient_term};
 use crate::shape::rounded_punch::RoundedPunch;
 use core::f64::consts::{LN_2, PI};
 
@@ -37,6 +37,22 @@ pub struct RoundedFlat {
 }
 
 impl RoundedFlat {
+    /// No shape, for memory of another kind.
+    pub(crate) const EMPTY: RoundedFlat = RoundedFlat {
+        flat: 0.0,
+        length: 0.0,
+        load_scale: 0.0,
+        compliance_scale: 0.0,
+        normal_constant: 0.0,
+        tangential_constant: 0.0,
+        reference: (0.0, RoundedPunch { flat: 0.0, w: 0.0, half_width: 0.0, psi: 0.0 }),
+    };
+
+    /// (S - U)/N = K_t - K_n, the same for all sizes \[m/N\].
+    pub(crate) fn shift_less_approach(&self) -> f64 {
+        self.compliance_scale * (self.tangential_constant - self.normal_constant)
+    }
+
     /// The shape of parameters that were checked, N > 0.
     ///
     /// # Errors
@@ -162,6 +178,46 @@ impl Shape for RoundedFlat {
 
     fn at_shift(&self, shift: f64) -> f64 {
         self.size_at(shift / (self.load_scale * self.compliance_scale), self.tangential_constant)
+    }
+
+    /// From the differential equations, with ' the derivative with respect to ρ and `dN = 4 w ψ dw` times the load scale:
+    ///
+    /// ```text
+    /// K N' = x   or   N' = x, S' = K N';     w ψ w' = N'/4;     s² ψ' = a w';     s² K' = -w w' times the compliance scale
+    /// ```
+    fn series(&self, w: f64, relation: Relation) -> Series {
+        let punch = self.punch_at(w);
+        let (flat, constant) = (self.flat, [self.tangential_constant, self.normal_constant]);
+        let constant = constant[usize::from(relation == Relation::LoadOfApproach)];
+        let mut compliance = [0.0; ORDER];
+        compliance[0] = self.compliance_scale * self.log_compliance(&punch, constant);
+        let (mut size, mut angle, mut load, mut shift) = ([0.0; ORDER], [0.0; ORDER], [0.0; ORDER], [0.0; ORDER]);
+        (size[0], angle[0], load[0]) = (w, punch.psi, self.load_scale * punch.load());
+        shift[0] = self.load_scale * self.compliance_scale * self.integrated_compliance(&punch, constant);
+        let (mut size_angle, mut half_width_2) = ([0.0; ORDER], [0.0; ORDER]);
+        let (mut load_1, mut size_1, mut angle_1, mut compliance_1) =
+            ([0.0; ORDER], [0.0; ORDER], [0.0; ORDER], [0.0; ORDER]);
+        for k in 0..ORDER {
+            size_angle[k] = product_term(&size, &angle, k);
+            half_width_2[k] = product_term(&size, &size, k) + if k == 0 { flat * flat } else { 0.0 };
+            load_1[k] = if relation == Relation::ShiftOfLoad {
+                if k == 0 { load[0] } else { 0.0 }
+            } else {
+                quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, &load_1, k)
+            };
+            size_1[k] = quotient_term(load_1[k] / (4.0 * self.load_scale), &size_angle, &size_1, k);
+            angle_1[k] = quotient_term(flat * size_1[k], &half_width_2, &angle_1, k);
+            let growth = -self.compliance_scale * product_term(&size, &size_1, k);
+            compliance_1[k] = quotient_term(growth, &half_width_2, &compliance_1, k);
+            if relation == Relation::ShiftOfLoad {
+                integrate_term(&mut shift, k, product_term(&compliance, &load_1, k));
+            }
+            integrate_term(&mut load, k, load_1[k]);
+            integrate_term(&mut size, k, size_1[k]);
+            integrate_term(&mut angle, k, angle_1[k]);
+            integrate_term(&mut compliance, k, compliance_1[k]);
+        }
+        if relation == Relation::ShiftOfLoad { shift } else { load }
     }
 }
 

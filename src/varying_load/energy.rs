@@ -1,0 +1,172 @@
+//! Energy dissipated in a step.
+//!
+//! Along the straight path from (S0, u0) to (S1, u1), with λ from 0 to 1, the boundary of the slip zone moves inwards at the rate
+//! `dS_c/dλ = (Δu - σ mu ΔS)/(D - σ mu)` through a piece D of the old diagram; a falling contact size may overtake it. While it moves from S_c0 to S_c1,
+//!
+//! ```text
+//! E = mu |mu - σD| ∫ H |dN_c| = mu |mu - σD| ∫∫ (S_b - S) N''(S) dS |dS_c|,      S from S_c to S_b,
+//! ```
+//!
+//! because H, the integral of K_t(c) - K_t(s), is K_t(c) times the remainder of N about S_c after its linear term. Exchanging the order leaves one integral of N'' > 0 with a
+//! weight that is quadratic in S between the ends of both boundaries: free of cancellation, never negative.
+
+use crate::numerics::quadrature::gauss_nodes;
+use crate::varying_load::diagram::Knot;
+use crate::varying_load::element::Element;
+
+/// The path of a step, straight in (S, u).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Path {
+    pub shift: [f64; 2],
+    /// Displacement covered.
+    pub displacement: f64,
+}
+
+/// A stretch of a path: boundaries of the slip zone and of the contact at both of its ends.
+#[derive(Debug, Clone, Copy)]
+struct Slip {
+    inner: [f64; 2],
+    outer: [f64; 2],
+}
+
+/// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
+pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
+    let mu = element.friction_coefficient;
+    let [start, end] = path.shift;
+    let contact_rate = end - start;
+    let mut energy = 0.0;
+    // Fraction of the path, size of the contact, boundary of the slip zone, and its direction once there is slip.
+    let (mut fraction, mut outer, mut inner) = (0.0, start, start);
+    let mut direction = None;
+    let mut last = knots.len().saturating_sub(1);
+    // Each round ends a piece, the slip, or the step.
+    for _ in 0..3 * knots.len() + 4 {
+        let Some(&[below, above]) = last.checked_sub(1).and_then(|first| knots.get(first..)?.first_chunk()) else {
+            return energy + gross_slip(element, path, direction, fraction, outer);
+        };
+        let (below, above) = (Knot::from(below), Knot::from(above));
+        let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
+        let sign = match direction {
+            Some(sign) => sign,
+            None => {
+                let excess = if contact_rate > 0.0 {
+                    if path.displacement.abs() <= mu * contact_rate {
+                        return energy;
+                    }
+                    path.displacement
+                } else {
+                    path.displacement - slope * contact_rate
+                };
+                if excess == 0.0 {
+                    // The contact recedes through the piece without slip.
+                    if end >= lowest {
+                        return energy;
+                    }
+                    fraction = (lowest - start) / contact_rate;
+                    (outer, inner) = (lowest, lowest);
+                    last -= 1;
+                    continue;
+                }
+                let sign = mu.copysign(excess);
+                direction = Some(sign);
+                sign
+            }
+        };
+        if slope == sign {
+            // In slip in this direction already: the boundary jumps to the end of the piece.
+            inner = inner.min(lowest);
+            last -= 1;
+            continue;
+        }
+        let rate = ((path.displacement - sign * contact_rate) / (slope - sign)).min(0.0);
+        let to = |distance: f64, rate: f64| if rate < 0.0 { (distance / rate).max(0.0) } else { f64::INFINITY };
+        let to_piece_end = to(lowest - inner, rate);
+        let to_overtaking = to(inner - outer, contact_rate - rate);
+        let step = to_piece_end.min(to_overtaking).min(1.0 - fraction);
+        let next_inner = if step == to_piece_end { lowest } else { (inner + rate * step).max(lowest) };
+        let next_outer = if step == 1.0 - fraction { end } else { outer + contact_rate * step };
+        let slip = Slip { inner: [inner, next_inner], outer: [outer, next_outer.max(next_inner)] };
+        energy += mu * (mu - slope * sign.signum()) * slip.integral(element);
+        fraction += step;
+        (inner, outer) = (next_inner, next_outer);
+        if fraction >= 1.0 {
+            return energy;
+        }
+        if step == to_overtaking {
+            direction = None;
+            outer = inner;
+        }
+        if step == to_piece_end {
+            last -= 1;
+        }
+    }
+    energy
+}
+
+/// Gross slip, from a fraction of the path and a size of the contact to the end of the path.
+fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: f64, outer: f64) -> f64 {
+    let mu = element.friction_coefficient;
+    let contact_rate = path.shift[1] - path.shift[0];
+    let sign = direction.unwrap_or(mu.copysign(path.displacement));
+    let slip = (path.displacement - sign * contact_rate) * sign.signum();
+    // Mean of N along the rest of the path.
+    let at = |s: f64| element.potential_at_shift(s.max(0.0));
+    let width = path.shift[1] - outer;
+    let mean: f64 = if width.abs() < 0.25 * outer.max(path.shift[1]) {
+        gauss_nodes(2).map(|(node, weight)| weight * at(outer + node * width)[0]).sum()
+    } else {
+        (at(path.shift[1])[3] - at(outer)[3]) / width
+    };
+    mu * slip.max(0.0) * (1.0 - fraction) * mean
+}
+
+impl Slip {
+    /// `∫∫ (S_b - S) N''(S) dS |dS_c|`.
+    fn integral(&self, element: &Element) -> f64 {
+        let [inner_start, inner_end] = self.inner;
+        let [outer_start, outer_end] = self.outer;
+        let swept = inner_start - inner_end;
+        if swept <= 0.0 {
+            return 0.0;
+        }
+        let growth = outer_end - outer_start;
+        let weight = |s: f64| {
+            let mut from = ((inner_start - s) / swept).max(0.0);
+            let mut to: f64 = 1.0;
+            if growth < 0.0 && s > outer_end {
+                to = (s - outer_start) / growth;
+            } else if growth > 0.0 && s > outer_start {
+                from = from.max((s - outer_start) / growth);
+            }
+            let middle = outer_start + growth * 0.5 * (from + to);
+            swept * (to - from).max(0.0) * (middle - s).max(0.0)
+        };
+        let mut ends = [inner_end, inner_start, outer_start, outer_end];
+        ends.sort_by(f64::total_cmp);
+        ends.windows(2).map(|pair| if let &[low, high] = pair { integral_between(element, low, high, weight) } else { 0.0 }).sum()
+    }
+}
+
+/// `∫ W N'' dS` for a quadratic W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the positive integrand.
+fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64) -> f64) -> f64 {
+    let width = high - low;
+    if width <= 0.0 {
+        return 0.0;
+    }
+    if width < 0.25 * high {
+        return gauss_nodes(2)
+            .map(|(node, part)| {
+                let s = low + node * width;
+                part * width * weight(s) * element.potential_at_shift(s)[2]
+            })
+            .sum();
+    }
+    let (first, middle, last) = (weight(low), weight(low + 0.5 * width), weight(high));
+    let second = 4.0 * (first - 2.0 * middle + last) / (width * width);
+    let slope = (last - first) / width;
+    let at = |s: f64, value: f64, slope: f64| {
+        let [load, load_slope, _, potential] = element.potential_at_shift(s);
+        load_slope * value - load * slope + potential * second
+    };
+    (at(high, last, slope + 0.5 * second * width) - at(low, first, slope - 0.5 * second * width)).max(0.0)
+}

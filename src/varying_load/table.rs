@@ -1,0 +1,192 @@
+//! A smooth, monotone function on (0, ∞) as polynomials on quarters of an octave, found by the exponent and two leading bits of the mantissa of the
+//! argument: neither a root nor a logarithm is evaluated.
+//!
+//! `y(x) = x Q(t)` with one polynomial Q for each quarter and t in [-1, 1) the position in it. The functions of a contact are singular at x = 0
+//! only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the middle has 16 terms, of which Chebyshev
+//! economization leaves 12.
+
+use crate::shape::{ORDER, Series};
+
+/// Coefficients of a quarter.
+const TERMS: usize = 12;
+/// Octaves below the largest argument.
+const OCTAVES: usize = 21;
+/// Bits of the mantissa that choose the quarter.
+const BITS: u32 = 2;
+const QUARTERS: usize = 1 << BITS;
+const SHIFT: u32 = 52 - BITS;
+pub(super) const PIECES: usize = OCTAVES * QUARTERS + 1;
+
+const EXPONENT_OF_1: u64 = 0x3ff << 52;
+/// Half-lengths in the unit of the mantissa: t = 8 (m - 1) - 1 for the part m of the mantissa below the leading bits.
+const POSITION: f64 = 8.0;
+
+/// A tabulated function.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Table {
+    /// Exponent and leading bits of the mantissa of the first quarter.
+    base: u64,
+    quarters: [[f64; TERMS]; PIECES],
+}
+
+/// Position of an argument in a table.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Position {
+    index: usize,
+    t: f64,
+    /// x over the half-length of the quarter.
+    scaled: f64,
+}
+
+impl Table {
+    pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
+
+    /// The table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of each quarter in powers of ρ, for the
+    /// argument x (1 + ρ).
+    pub fn new(largest: f64, mut series_about: impl FnMut(f64) -> Series) -> Table {
+        let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
+        let mut table = Table { base, ..Table::EMPTY };
+        for (number, quarter) in (base..).zip(&mut table.quarters) {
+            let [middle, half_length] = middle_and_half_length(number);
+            *quarter = economized(&series_about(middle), middle, half_length);
+        }
+        table
+    }
+
+    /// Position of an argument; `None` outside the table.
+    #[inline(always)]
+    pub fn position(&self, x: f64) -> Option<Position> {
+        let bits = x.to_bits();
+        let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
+        let mantissa = |bits: u64, kept: u32| f64::from_bits((bits & ((1 << kept) - 1)) | EXPONENT_OF_1);
+        let t = POSITION * (mantissa(bits, SHIFT) - 1.0) - 1.0;
+        (index < PIECES).then_some(Position { index, t, scaled: POSITION * mantissa(bits, 52) })
+    }
+
+    #[inline(always)]
+    fn coefficients(&self, at: Position) -> &[f64; TERMS] {
+        self.quarters.get(at.index).unwrap_or(&[0.0; TERMS])
+    }
+
+    /// y and dy/dx.
+    #[inline(always)]
+    pub fn value_and_slope(&self, x: f64, at: Position) -> (f64, f64) {
+        let c = self.coefficients(at);
+        let (q, dq) = (polynomial(c, at.t), derivative(c, at.t));
+        (x * q, q + at.scaled * dq)
+    }
+
+    /// y' and x y''.
+    pub fn slope_and_curvature(&self, at: Position) -> (f64, f64) {
+        let c = self.coefficients(at);
+        let (mut q, mut dq, mut ddq) = (0.0, 0.0, 0.0);
+        for coefficient in c.iter().rev() {
+            ddq = ddq * at.t + 2.0 * dq;
+            dq = dq * at.t + q;
+            q = q * at.t + coefficient;
+        }
+        (q + at.scaled * dq, at.scaled * (2.0 * dq + at.scaled * ddq))
+    }
+
+    /// The integral of y from the middle of the quarter to x.
+    pub fn integral_from_middle(&self, x: f64, at: Position) -> f64 {
+        let c = self.coefficients(at);
+        let (half_length, t) = (x / at.scaled, at.t);
+        let middle = half_length * (at.scaled - t);
+        let (mut zeroth, mut first) = (0.0, 0.0);
+        for (k, coefficient) in c.iter().enumerate().rev() {
+            zeroth = zeroth * t + coefficient / (k + 1) as f64;
+            first = first * t + coefficient / (k + 2) as f64;
+        }
+        half_length * t * (middle * zeroth + half_length * t * first)
+    }
+
+    /// The middles of all quarters.
+    pub fn middles(&self) -> impl Iterator<Item = f64> {
+        (self.base..).take(PIECES).map(middle_and_half_length).map(|[middle, _]| middle)
+    }
+}
+
+impl Position {
+    /// Number of the quarter.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+}
+
+/// Middle and half-length of the quarter with this exponent and leading bits.
+fn middle_and_half_length(number: u64) -> [f64; 2] {
+    let lower = f64::from_bits(number << SHIFT);
+    let half_length = 0.5 * (f64::from_bits((number + 1) << SHIFT) - lower);
+    [lower + half_length, half_length]
+}
+
+#[inline(always)]
+fn polynomial(c: &[f64; TERMS], t: f64) -> f64 {
+    let &[c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
+    let (t2, t4) = (t * t, t * t * (t * t));
+    let low = (c0 + c1 * t) + t2 * (c2 + c3 * t);
+    let middle = (c4 + c5 * t) + t2 * (c6 + c7 * t);
+    let high = (c8 + c9 * t) + t2 * (c10 + c11 * t);
+    low + t4 * (middle + t4 * high)
+}
+
+#[inline(always)]
+fn derivative(c: &[f64; TERMS], t: f64) -> f64 {
+    let &[_, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
+    let (t2, t4) = (t * t, t * t * (t * t));
+    let low = (c1 + 2.0 * c2 * t) + t2 * (3.0 * c3 + 4.0 * c4 * t);
+    let middle = (5.0 * c5 + 6.0 * c6 * t) + t2 * (7.0 * c7 + 8.0 * c8 * t);
+    let high = (9.0 * c9 + 10.0 * c10 * t) + t2 * (11.0 * c11);
+    low + t4 * (middle + t4 * high)
+}
+
+/// Coefficients of Q in powers of t.
+fn economized(series: &Series, middle: f64, half_length: f64) -> [f64; TERMS] {
+    let ratio = half_length / middle;
+    // y/x = Σ y_k (ratio t)^k / (middle (1 + ratio t)).
+    let mut q = *series;
+    let (mut power, mut before) = (1.0 / middle, 0.0);
+    for coefficient in &mut q {
+        *coefficient = *coefficient * power - ratio * before;
+        before = *coefficient;
+        power *= ratio;
+    }
+    // t^k less T_k/2^(k-1) is a polynomial of lower degree, from the highest down.
+    for degree in (TERMS..ORDER).rev() {
+        let highest = q[degree];
+        for (coefficient, lower) in q.iter_mut().zip(&MONIC_CHEBYSHEV[degree - TERMS]) {
+            *coefficient -= highest * lower;
+        }
+    }
+    let mut economized = [0.0; TERMS];
+    economized.iter_mut().zip(&q).for_each(|(kept, coefficient)| *kept = *coefficient);
+    economized
+}
+
+/// Coefficients of T_k/2^(k-1) for k from `TERMS` on.
+static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = {
+    let (mut before, mut now) = ([0.0; ORDER], [0.0; ORDER]);
+    before[0] = 1.0;
+    now[1] = 1.0;
+    let mut table = [[0.0; ORDER]; ORDER - TERMS];
+    let mut degree = 1;
+    while degree < ORDER {
+        if degree >= TERMS {
+            table[degree - TERMS] = now;
+        }
+        // Monic: T_{k+1} = t T_k - T_{k-1}/4, and T_2 = t T_1 - T_0/2.
+        let factor = if degree == 1 { 0.5 } else { 0.25 };
+        let mut next = [0.0; ORDER];
+        let mut j = 0;
+        while j < ORDER {
+            next[j] = (if j > 0 { now[j - 1] } else { 0.0 }) - factor * before[j];
+            j += 1;
+        }
+        before = now;
+        now = next;
+        degree += 1;
+    }
+    table
+};
