@@ -20,8 +20,8 @@
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Pair};
 use crate::range::in_range;
-use crate::shape::{ORDER, Relation, Series, Shape};
 use crate::shape::rounded_punch::TINY;
+use crate::shape::{ORDER, Relation, Series, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// An elliptical Hertz contact.

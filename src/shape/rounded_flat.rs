@@ -16,8 +16,8 @@
 use crate::error::Error;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
+use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::{ORDER, Relation, Series, Shape, integrate_term, product_term, quotient_term};
-use crate::shape::rounded_punch::RoundedPunch;
 use core::f64::consts::{LN_2, PI};
 
 /// A flat with rounded edges pressed on a flat.
@@ -103,7 +103,7 @@ impl RoundedFlat {
 
     /// `ln(2L/s) + constant`.
     fn log_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
-        (2.0 * self.length / punch.half_width).ln() + constant
+        (2.0 * self.length / punch.half_width.max(TINY)).ln() + constant
     }
 
     /// `g (K + β)`.

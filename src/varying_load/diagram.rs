@@ -126,11 +126,8 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
     let slope = outer.slope_from(&inner, mu);
     let cut_force = inner.force + slope * (cut_load - inner.load);
     let force = cut_force + sign * (load - cut_load);
-    let response = Response {
-        force,
-        by_displacement: cut_stiffness,
-        by_input: sign * (stiffness - cut_stiffness) * shift_slope,
-    };
+    let response =
+        Response { force, by_displacement: cut_stiffness, by_input: sign * (stiffness - cut_stiffness) * shift_slope };
     Change {
         kept,
         cut: Some(Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force: cut_force }),

@@ -162,6 +162,19 @@ impl Element {
         })
     }
 
+    /// The tangential shift S \[m\] under a normal force \[N\].
+    #[must_use]
+    pub fn shift_under(&self, load: f64) -> f64 {
+        let shape = self.shape();
+        shape.shift(shape.at_load(load))
+    }
+
+    /// The normal force \[N\] at a tangential shift \[m\].
+    #[must_use]
+    pub fn load_under(&self, shift: f64) -> f64 {
+        self.load_at_shift(shift).0
+    }
+
     /// Whether this memory was initialised by a library of this version.
     pub(crate) fn is_initialised(&self) -> bool {
         self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG

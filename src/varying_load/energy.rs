@@ -143,7 +143,9 @@ impl Slip {
         };
         let mut ends = [inner_end, inner_start, outer_start, outer_end];
         ends.sort_by(f64::total_cmp);
-        ends.windows(2).map(|pair| if let &[low, high] = pair { integral_between(element, low, high, weight) } else { 0.0 }).sum()
+        ends.windows(2)
+            .map(|pair| if let &[low, high] = pair { integral_between(element, low, high, weight) } else { 0.0 })
+            .sum()
     }
 }
 

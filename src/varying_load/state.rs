@@ -71,7 +71,8 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
 }
 
 /// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
-pub(crate) fn force_error(state: &[f64]) -> f64 {
+#[must_use]
+pub fn force_error(state: &[f64]) -> f64 {
     state.get(ERROR).copied().unwrap_or(0.0)
 }
 
@@ -108,6 +109,7 @@ pub(crate) struct Update {
     kept: usize,
     new: [Knot; 3],
     count: usize,
+    friction_coefficient: f64,
 }
 
 /// Computes a step from a state whose header was checked.
@@ -135,7 +137,8 @@ pub(crate) fn update(
         let Normal { load, shift, load_slope, shift_slope } = normal;
         [displacement, input, load, shift, load_slope, shift_slope, error]
     };
-    let without_friction = element.friction_coefficient == 0.0;
+    let friction_coefficient = element.friction_coefficient;
+    let without_friction = friction_coefficient == 0.0;
     let crossing = |start: f64| {
         // The straight path passes N = 0 at this displacement.
         let fraction = if element.by_approach() { old.input / (old.input - input) } else { start };
@@ -154,7 +157,7 @@ pub(crate) fn update(
             dissipated,
         };
         let new = [Knot::centre(displacement); 3];
-        return Ok(Update { step, header: header(0.0), kept: 0, new, count: 1 });
+        return Ok(Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient });
     }
     let closing = old.normal.load <= 0.0;
     let touch: [f64; PER_KNOT];
@@ -177,16 +180,16 @@ pub(crate) fn update(
         by_displacement *= input / distance;
     }
     let dissipated = if with_energy {
-        let path = Path { shift: [if closing { 0.0 } else { old.normal.shift }, normal.shift], displacement: displacement - start };
+        let path = Path {
+            shift: [if closing { 0.0 } else { old.normal.shift }, normal.shift],
+            displacement: displacement - start,
+        };
         energy::dissipated(element, knots, &path)
     } else {
         0.0
     };
-    let step = Step {
-        force: [force, normal.load],
-        tangent: [by_displacement, 0.0, by_input, normal.load_slope],
-        dissipated,
-    };
+    let step =
+        Step { force: [force, normal.load], tangent: [by_displacement, 0.0, by_input, normal.load_slope], dissipated };
     let first = change.centre.or((closing).then_some(Knot::centre(start)));
     let kept = if first.is_some() { 0 } else { change.kept };
     let mut new = [change.end; 3];
@@ -197,15 +200,12 @@ pub(crate) fn update(
             count += 1;
         }
     }
-    Ok(Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count })
+    Ok(Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count, friction_coefficient })
 }
 
 impl Update {
-    /// Writes the new state; `old` is the state that the step started from, or `None` if it is in `new` already.
-    ///
-    /// # Errors
-    /// `StateTooShort` if the knots that stay do not fit, because the old state is longer.
-    pub fn write(&self, old: Option<&[f64]>, new: &mut [f64]) {
+    /// Writes the new state; `old` is the state that the step started from, of the same length, or `None` if it is in `new` already.
+    pub fn write(mut self, old: Option<&[f64]>, new: &mut [f64]) {
         if let Some(old) = old {
             let used = HEADER + PER_KNOT * self.kept;
             if let (Some(new), Some(old)) = (new.get_mut(HEADER..used), old.get(HEADER..used)) {
@@ -217,8 +217,9 @@ impl Update {
         let mut kept = self.kept;
         let mut error = 0.0;
         while kept + self.count > knots.len() {
-            let Some(change) = merge(knots, &mut kept, self.new[0]) else { return };
-            error += change;
+            let Some(change) = merge(self.friction_coefficient, knots, &mut kept, self.new[0]) else { return };
+            self.new.iter_mut().for_each(|knot| knot.force += change);
+            error += change.abs();
         }
         for (place, knot) in knots.iter_mut().skip(kept).zip(self.new.iter().take(self.count)) {
             *place = (*knot).into();
@@ -230,10 +231,29 @@ impl Update {
     }
 }
 
-/// Removes the knot among the first `kept` whose removal changes later forces least, and returns a bound on that change.
+/// Removes the knot among the first `kept`, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
+///
+/// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram. Tangential forces
+/// beyond change by the integral of the change of D over N. This also bounds the change of all later forces: every size s is a slider of limit
+/// `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight d(1/K_t), two such sliders under one motion never move apart, and
+/// between A and C these displacements have changed in one direction.
 #[cold]
-fn merge(_knots: &mut [[f64; PER_KNOT]], _kept: &mut usize, _next: Knot) -> Option<f64> {
-    None
+fn merge(friction_coefficient: f64, knots: &mut [[f64; PER_KNOT]], kept: &mut usize, next: Knot) -> Option<f64> {
+    let knot = |index: usize| knots.get(index).filter(|_| index < *kept).copied().map_or(next, Knot::from);
+    let change_without = |index: usize| {
+        let (inner, outer) = (knot(index - 1), knot(index + 1));
+        let slope = outer.slope_from(&inner, friction_coefficient);
+        inner.force + slope * (outer.load - inner.load) - outer.force
+    };
+    let (index, change) = (1..*kept)
+        .map(|index| (index, change_without(index)))
+        .min_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
+    knots.copy_within(index + 1..*kept, index);
+    *kept -= 1;
+    for [.., force] in knots.iter_mut().take(*kept).skip(index) {
+        *force += change;
+    }
+    Some(change)
 }
 
 /// A step in place.
@@ -243,6 +263,7 @@ fn merge(_knots: &mut [[f64; PER_KNOT]], _kept: &mut usize, _next: Knot) -> Opti
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
     check_header(state)?;
     let update = update(element, state, displacement, with_energy)?;
+    let step = update.step;
     update.write(None, state);
-    Ok(update.step)
+    Ok(step)
 }
