@@ -1,8 +1,8 @@
 //! Shapes: the nested family of sizes that a contact runs through under a growing normal load.
 //!
-//! A shape is defined by geometry and material, independently of the load. Each size s of the contact has a normal force N(s), and as the load grows,
-//! every increment dN is carried like a flat punch of that size. It brings the bodies closer by `dU = K_n dN` and makes a fully
-//! stuck contact more compliant by `dS = K_t dN`:
+//! A shape is defined by geometry and material, independently of the load. Each size s of the contact has a normal force N(s),
+//! and as the load grows, every increment dN is carried like a flat punch of that size. It brings the bodies closer by `dU = K_n
+//! dN` and makes a fully stuck contact more compliant by `dS = K_t dN`:
 //!
 //! ```text
 //! N(s)  normal force                      K_n(s)  normal compliance of a punch of size s
@@ -54,8 +54,8 @@ pub trait Shape {
     /// The size w at a tangential shift \[m\].
     fn at_shift(&self, shift: f64) -> f64;
 
-    /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ for the argument
-    /// `x (1 + ρ)`.
+    /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ
+    /// for the argument `x (1 + ρ)`.
     fn series(&self, w: f64, relation: Relation) -> Series;
 }
 

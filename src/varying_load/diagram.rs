@@ -1,8 +1,9 @@
 //! The memory diagram in characteristic coordinates, and the step of Coulomb's law in it.
 //!
-//! With `P(S) = o + ∫ D dS` from the centre of the contact to S, the coordinates `ξ = P - mu S` and `η = P + mu S` turn the diagram into a curve from
-//! (o, o) to the point of the whole contact, (u - mu S_b, u + mu S_b), on which ξ does not rise and η does not fall because |D| <= mu. It
-//! is a polygon: its knots are stored from the centre outwards. A step to the point (ξ1, η1) removes all knots outside the quadrant ξ > ξ1, η < η1:
+//! With `P(S) = o + ∫ D dS` from the centre of the contact to S, the coordinates `ξ = P - mu S` and `η = P + mu S` turn the
+//! diagram into a curve from (o, o) to the point of the whole contact, (u - mu S_b, u + mu S_b), on which ξ does not rise and η
+//! does not fall because |D| <= mu. It is a polygon: its knots are stored from the centre outwards. A step to the point (ξ1, η1)
+//! removes all knots outside the quadrant ξ > ξ1, η < η1:
 //!
 //! - none removed: the straight piece to the new point is appended, everything sticks;
 //! - all removed: gross slip, the new diagram is one straight piece of slope ±mu, parallel to an axis;
@@ -66,10 +67,6 @@ pub(crate) struct Response {
     pub force: f64,
     pub by_displacement: f64,
     pub by_input: f64,
-}
-
-impl Response {
-    pub const OPEN: Response = Response { force: 0.0, by_displacement: 0.0, by_input: 0.0 };
 }
 
 /// What replaces the outer part of a diagram: the knots that stay, and up to two new ones.

@@ -1,4 +1,5 @@
-//! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all contact points of a geometry.
+//! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all
+//! contact points of a geometry.
 
 use crate::constant_load::contact::check_moduli;
 use crate::error::Error;
@@ -173,11 +174,6 @@ impl Element {
     #[must_use]
     pub fn load_under(&self, shift: f64) -> f64 {
         self.load_at_shift(shift).0
-    }
-
-    /// Whether this memory was initialised by a library of this version.
-    pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG
     }
 
     /// Whether the normal component of a displacement is the approach.

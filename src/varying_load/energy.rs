@@ -1,14 +1,16 @@
 //! Energy dissipated in a step.
 //!
 //! Along the straight path from (S0, u0) to (S1, u1), with λ from 0 to 1, the boundary of the slip zone moves inwards at the rate
-//! `dS_c/dλ = (Δu - σ mu ΔS)/(D - σ mu)` through a piece D of the old diagram; a falling contact size may overtake it. While it moves from S_c0 to S_c1,
+//! `dS_c/dλ = (Δu - σ mu ΔS)/(D - σ mu)` through a piece D of the old diagram; a falling contact size may overtake it. While it
+//! moves from S_c0 to S_c1,
 //!
 //! ```text
 //! E = mu |mu - σD| ∫ H |dN_c| = mu |mu - σD| ∫∫ (S_b - S) N''(S) dS |dS_c|,      S from S_c to S_b,
 //! ```
 //!
-//! because H, the integral of K_t(c) - K_t(s), is K_t(c) times the remainder of N about S_c after its linear term. Exchanging the order leaves one integral of N'' > 0 with a
-//! weight that is quadratic in S between the ends of both boundaries: free of cancellation, never negative.
+//! because H, the integral of K_t(c) - K_t(s), is K_t(c) times the remainder of N about S_c after its linear term. Exchanging the
+//! order leaves one integral of N'' > 0 with a weight that is quadratic in S between the ends of both boundaries: free of
+//! cancellation, never negative.
 
 use crate::numerics::quadrature::gauss_nodes;
 use crate::varying_load::diagram::Knot;
@@ -149,7 +151,8 @@ impl Slip {
     }
 }
 
-/// `∫ W N'' dS` for a quadratic W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the positive integrand.
+/// `∫ W N'' dS` for a quadratic W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the
+/// positive integrand.
 fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let width = high - low;
     if width <= 0.0 {

@@ -204,7 +204,8 @@ pub(crate) fn update(
 }
 
 impl Update {
-    /// Writes the new state; `old` is the state that the step started from, of the same length, or `None` if it is in `new` already.
+    /// Writes the new state; `old` is the state that the step started from, of the same length, or `None` if it is in `new`
+    /// already.
     pub fn write(mut self, old: Option<&[f64]>, new: &mut [f64]) {
         if let Some(old) = old {
             let used = HEADER + PER_KNOT * self.kept;
@@ -231,12 +232,14 @@ impl Update {
     }
 }
 
-/// Removes the knot among the first `kept`, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
+/// Removes the knot among the first `kept`, the centre excepted, whose removal changes later forces least, and returns the change
+/// of the force beyond it.
 ///
-/// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram. Tangential forces
-/// beyond change by the integral of the change of D over N. This also bounds the change of all later forces: every size s is a slider of limit
-/// `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight d(1/K_t), two such sliders under one motion never move apart, and
-/// between A and C these displacements have changed in one direction.
+/// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram.
+/// Tangential forces beyond change by the integral of the change of D over N. This also bounds the change of all later forces:
+/// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
+/// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
+/// direction.
 #[cold]
 fn merge(friction_coefficient: f64, knots: &mut [[f64; PER_KNOT]], kept: &mut usize, next: Knot) -> Option<f64> {
     let knot = |index: usize| knots.get(index).filter(|_| index < *kept).copied().map_or(next, Knot::from);

@@ -1,9 +1,9 @@
-//! A smooth, monotone function on (0, ∞) as polynomials on quarters of an octave, found by the exponent and two leading bits of the mantissa of the
-//! argument: neither a root nor a logarithm is evaluated.
+//! A smooth, monotone function on (0, ∞) as polynomials on quarters of an octave, found by the exponent and two leading bits of
+//! the mantissa of the argument: neither a root nor a logarithm is evaluated.
 //!
-//! `y(x) = x Q(t)` with one polynomial Q for each quarter and t in [-1, 1) the position in it. The functions of a contact are singular at x = 0
-//! only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the middle has 16 terms, of which Chebyshev
-//! economization leaves 12.
+//! `y(x) = x Q(t)` with one polynomial Q for each quarter and t in [-1, 1) the position in it. The functions of a contact are
+//! singular at x = 0 only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the
+//! middle has 16 terms, of which Chebyshev economization leaves 12.
 
 use crate::shape::{ORDER, Series};
 
@@ -42,8 +42,8 @@ pub(crate) struct Position {
 impl Table {
     pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
 
-    /// The table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of each quarter in powers of ρ, for the
-    /// argument x (1 + ρ).
+    /// The table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of each
+    /// quarter in powers of ρ, for the argument x (1 + ρ).
     pub fn new(largest: f64, mut series_about: impl FnMut(f64) -> Series) -> Table {
         let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
         let mut table = Table { base, ..Table::EMPTY };
@@ -190,3 +190,51 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = {
     }
     table
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{FLATS, parameters};
+    use crate::shape::{Relation, RoundedFlat, Shape};
+
+    #[test]
+    fn tables_are_the_laws_of_the_shape_to_rounding() {
+        for flat in FLATS {
+            let shape = RoundedFlat::new(&parameters(flat)).unwrap();
+            let largest = shape.shift(shape.at_load(150.0));
+            let table = Table::new(largest, |x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
+            assert!(table.position(largest).is_some() && table.position(2.0 * largest).is_none());
+            assert!(table.position(largest * 0.25_f64.powi(11)).is_none() && table.position(0.0).is_none());
+            let mut x = largest;
+            while let Some(at) = table.position(x) {
+                let w = shape.at_shift(x);
+                let (load, slope) = table.value_and_slope(x, at);
+                let [exact, first, second, ..] = shape.series(w, Relation::LoadOfShift);
+                // The shape's own laws and their inverse have relative errors of up to 4e-15.
+                assert!((load / exact - 1.0).abs() < 1e-14, "{flat} {x}");
+                // Derivatives of polynomials with errors of a few units in each coefficient, 9 and 81 half-lengths per x.
+                assert!((slope * x / first - 1.0).abs() < 1e-13, "{flat} {x}");
+                let (_, curvature) = table.slope_and_curvature(at);
+                assert!((curvature * x / (2.0 * second) - 1.0).abs() < 1e-10, "{flat} {x}");
+                x *= 0.97;
+            }
+        }
+    }
+
+    #[test]
+    fn the_integral_starts_at_the_middle() {
+        // y = x³/8, a polynomial of low degree.
+        let cube = |x: f64| {
+            let y = x * x * x / 8.0;
+            let mut series = [0.0; ORDER];
+            series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
+            series
+        };
+        let table = Table::new(1.9, cube);
+        for x in [1.75, 1.8, 1.875, 1.99] {
+            let integral = table.integral_from_middle(x, table.position(x).unwrap());
+            let exact = (x.powi(4) - 1.875_f64.powi(4)) / 32.0;
+            assert!((integral - exact).abs() < 1e-15, "{x}");
+        }
+    }
+}
