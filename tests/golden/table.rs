@@ -4,7 +4,7 @@ use microslip::{EllipticParameters, Material, Parameters};
 use std::collections::HashMap;
 use std::ops::Index;
 
-/// A row by the names of its columns: as numbers (NaN if a cell is none) and as text.
+/// A row by the names of its columns: as numbers (NaN for a cell of text) and as text.
 #[derive(Debug)]
 pub struct Row {
     text: HashMap<&'static str, &'static str>,
