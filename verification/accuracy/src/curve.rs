@@ -137,16 +137,14 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
     let soft = 1.0 / reference.law(0).full_stick.f64();
     let intervals = (0..6).map(|j| 1.0 - 0.6 * 0.25f64.powi(j));
-    let places: Vec<f64> =
-        [0.4, 0.8, 0.97, 0.999, 1.0, 1.05, half, sampler.unit()].into_iter().chain(intervals).collect();
+    let places: Vec<f64> = [0.4, 0.8, 0.97, 0.999, 1.0, half, sampler.unit()].into_iter().chain(intervals).collect();
     for place in places {
         let start = place * contact.slip_displacement;
         let start = f64::from_bits(start.to_bits() - 64);
-        let mut last: Option<[(&str, f64); 6]> = None;
+        let mut last: Option<[(&str, f64); 5]> = None;
         for step in 0..129 {
             let displacement = f64::from_bits(start.to_bits() + step);
             let [force, stiffness, stick] = call::force(contact, displacement);
-            let [real, ..] = call::complex_stiffness(contact, displacement);
             let share = place.min(1.0) * contact.slip_force;
             let load = f64::from_bits(share.to_bits() - 64 + step).min(contact.slip_force);
             let [displaced, _, _] = call::displacement(contact, load);
@@ -154,7 +152,6 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
                 ("force_steps_back", force),
                 ("stiffness_steps_back", -stiffness),
                 ("stick_half_width_steps_back", -stick),
-                ("k_real_steps_back", -real),
                 ("displacement_steps_back", displaced),
                 ("energy_steps_back", call::energy(contact, load)),
             ];
