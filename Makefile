@@ -125,7 +125,7 @@ host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
 
-## stress: long and adversarial histories, for about ten minutes; ARGUMENTS="--only cycles --seed 2 --scale 0.1"
+## stress: long and adversarial histories, for some minutes; ARGUMENTS="--only bank --seed 2 --scale 0.1"
 stress:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)

@@ -117,8 +117,6 @@ pub const BOUNDS: &[Bound] = &[
         "as above", "largest increase of a decreasing quantity"),
     bound("stiffness_steps_back", 8.0, "value", "1/Λ",
         "as above", "largest increase of a decreasing quantity"),
-    bound("k_real_steps_back", 128.0, "value", "1/Λ",
-        "as above", "twice the error of K': the formulas on both sides of a switch are independent"),
 ];
 
 pub fn find(output: &str) -> &'static Bound {

@@ -5,9 +5,9 @@ use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
 use reference::{Law, Point, Real};
 
-/// One contact: its fields.
-pub fn fields(sampler: &mut Sampler, kind: &'static str, tally: &mut Tally) {
-    let Case { contact, reference, .. } = sampler.case(kind, &mut tally.rejected);
+/// The fields of a contact.
+pub fn fields(case: &Case, _: &mut Sampler, tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
     let law = reference.law(0);
     let place = || text(&reference.input);
     let mut check = |name, got, exact: Real, condition: f64| {
@@ -36,15 +36,14 @@ fn size(law: &Law, point: &Point) -> Real {
 }
 
 /// At given forces: displacement, compliance, stick half-width, energy.
-pub fn at_forces(case: &Case, sampler: &mut Sampler, count: usize, tally: &mut Tally) -> i64 {
-    for _ in 0..count {
+pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
+    for _ in 0..50 {
         let (share, range) = sampler.share_of_force();
         at_force(case, share * case.contact.slip_force, range, tally);
     }
-    count as i64
 }
 
-pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
+fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let (law, point) = reference.at_force(force);
     let place = || format!("{} T {force:e}", text(&reference.input));
@@ -93,16 +92,15 @@ pub fn half_share(case: &Case) -> f64 {
 }
 
 /// At given displacements: force, stiffness, stick half-width.
-pub fn at_displacements(case: &Case, sampler: &mut Sampler, count: usize, tally: &mut Tally) -> i64 {
+pub fn at_displacements(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
-    for _ in 0..count {
+    for _ in 0..50 {
         let (share, range) = share_of_slip(sampler, half);
         at_displacement(case, share * case.contact.slip_displacement, range, tally);
     }
-    count as i64
 }
 
-pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
+fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let place = || format!("{} u {displacement:e}", text(&reference.input));
     let [force, stiffness, stick] = call::force(contact, displacement);
@@ -137,16 +135,14 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
     let soft = 1.0 / reference.law(0).full_stick.f64();
     let intervals = (0..6).map(|j| 1.0 - 0.6 * 0.25f64.powi(j));
-    let places: Vec<f64> =
-        [0.4, 0.8, 0.97, 0.999, 1.0, 1.05, half, sampler.unit()].into_iter().chain(intervals).collect();
+    let places: Vec<f64> = [0.4, 0.8, 0.97, 0.999, 1.0, half, sampler.unit()].into_iter().chain(intervals).collect();
     for place in places {
         let start = place * contact.slip_displacement;
         let start = f64::from_bits(start.to_bits() - 64);
-        let mut last: Option<[(&str, f64); 6]> = None;
+        let mut last: Option<[(&str, f64); 5]> = None;
         for step in 0..129 {
             let displacement = f64::from_bits(start.to_bits() + step);
             let [force, stiffness, stick] = call::force(contact, displacement);
-            let [real, ..] = call::complex_stiffness(contact, displacement);
             let share = place.min(1.0) * contact.slip_force;
             let load = f64::from_bits(share.to_bits() - 64 + step).min(contact.slip_force);
             let [displaced, _, _] = call::displacement(contact, load);
@@ -154,7 +150,6 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
                 ("force_steps_back", force),
                 ("stiffness_steps_back", -stiffness),
                 ("stick_half_width_steps_back", -stick),
-                ("k_real_steps_back", -real),
                 ("displacement_steps_back", displaced),
                 ("energy_steps_back", call::energy(contact, load)),
             ];
@@ -174,7 +169,7 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 pub fn sliders(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let n = 1 + sampler.below(12);
-    let (stiffness, force, reported) = call::iwan(contact, n);
+    let ([stiffness, force], reported) = call::iwan(contact, n);
     let law = reference.law(0);
     let mut corners: Vec<(Real, Real)> = stiffness
         .iter()

@@ -32,10 +32,9 @@ pub fn uniform_sampling(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
         (7, 16, "H = 7, 16"),
         (3, 64, "H = 3, 64"),
     ][sampler.below(5)];
-    let mut workspace = call::workspace(harmonics, samples, MSLIP_UNIFORM_SAMPLING);
     let displacement: Vec<f64> =
         coefficients(sampler, harmonics).iter().map(|share| share * contact.slip_displacement).collect();
-    let (force, jacobian, dissipated) = call::harmonic(contact, &mut workspace, &displacement);
+    let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_UNIFORM_SAMPLING, &displacement);
     let u: Vec<_> = displacement.iter().map(|u| law.x(*u)).collect();
     let total: f64 = u.iter().map(|u| u.abs().f64()).sum();
     let (mut condition, mut jumps) = (0.0f64, false);

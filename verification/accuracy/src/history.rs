@@ -41,14 +41,14 @@ fn path(sampler: &mut Sampler, steps: usize) -> Vec<f64> {
 }
 
 /// Updates along a path, and tractions at its end.
-pub fn along_a_path(case: &Case, sampler: &mut Sampler, steps: usize, tally: &mut Tally) -> i64 {
+pub fn along_a_path(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(50);
     let mut state = call::state(64);
     let mut history = History::new(law.clone());
     let soft = 1.0 / law.full_stick.f64();
     let energy_unit = law.energy_unit();
-    let path: Vec<f64> = path(sampler, steps).iter().map(|share| share * contact.slip_displacement).collect();
+    let path: Vec<f64> = path(sampler, 48).iter().map(|share| share * contact.slip_displacement).collect();
     let farthest = path.iter().fold(0.0, |far: f64, u| far.max(u.abs())) / contact.slip_displacement;
     for (i, &u) in path.iter().enumerate() {
         let got = call::update(contact, &mut state, u);
@@ -75,7 +75,6 @@ pub fn along_a_path(case: &Case, sampler: &mut Sampler, steps: usize, tally: &mu
         tally.check_scaled(("masing_dissipated", kind, range), got[2], &exact, &scale, 3.0 * soft, place);
     }
     shear(case, &history, &state, sampler, tally);
-    steps as i64
 }
 
 fn shear(case: &Case, history: &History, state: &[f64], sampler: &mut Sampler, tally: &mut Tally) {
@@ -103,7 +102,7 @@ fn shear(case: &Case, history: &History, state: &[f64], sampler: &mut Sampler, t
 }
 
 /// The closed loop of an amplitude.
-pub fn closed_loop(case: &Case, sampler: &mut Sampler, tally: &mut Tally) -> i64 {
+pub fn closed_loop(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(50);
     let n = [7, 16, 64, 100][sampler.below(4)];
@@ -131,5 +130,4 @@ pub fn closed_loop(case: &Case, sampler: &mut Sampler, tally: &mut Tally) -> i64
         let [exact, scale] = history.force().map(|force| &law.slip_force * force);
         tally.check_scaled(("loop_force", kind, range), t[i], &exact, &scale, soft, place);
     }
-    n as i64
 }

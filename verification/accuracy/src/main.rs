@@ -1,9 +1,8 @@
 //! Measures the error of every output of the library against the multi-precision reference.
 //!
-//!     accuracy [--check] [--points N] [--minutes N] [--seed N] [--only NAMES] [--regions FILE] [--document FILE]
+//!     accuracy [--check] [--points N] [--seed N] [--regions FILE] [--document FILE]
 //!
-//! `--check` is short, with a new seed each time; after `--minutes` no further job starts. Regions are written to a CSV, also
-//! from time to time during a run; tables to a document, with `--points 0` those of the CSV without a run.
+//! `--check` is short, with a new seed each time. Regions are written to a CSV, tables to a document.
 
 mod bounds;
 mod call;
@@ -16,17 +15,33 @@ mod stiffness;
 mod tally;
 mod tractions;
 
-use sampler::{KINDS, Sampler};
+use sampler::{Case, KINDS, Sampler};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 use tally::Tally;
 
-/// What is measured, on which kind of contact, how often.
-#[derive(Clone, Copy)]
+/// Compares some outputs at random arguments of one contact.
+type Measurement = fn(&Case, &mut Sampler, &mut Tally);
+
+/// Measurements, about how many points each counts as, and how many are one job.
+const MEASUREMENTS: [(Measurement, f64, usize); 11] = [
+    (curve::fields, 1.0, 4000),
+    (curve::at_forces, 50.0, 200),
+    (curve::at_displacements, 50.0, 200),
+    (tractions::at_forces, 48.0, 80),
+    (history::along_a_path, 48.0, 80),
+    (history::closed_loop, 48.0, 120),
+    (harmonic::uniform_sampling, 200.0, 100),
+    (curve::neighbours, 2e4, 10),
+    (curve::sliders, 1e5, 10),
+    (stiffness::at_amplitudes, 500.0, 10),
+    (stiffness::event_driven, 200.0, 25),
+];
+
+/// Measurements of one kind of contact.
 struct Job {
-    what: &'static str,
+    measurement: Measurement,
     kind: &'static str,
     count: usize,
 }
@@ -34,115 +49,46 @@ struct Job {
 /// Jobs for about the given number of points of every output.
 fn jobs(points: f64) -> Vec<Job> {
     let mut jobs = Vec::new();
-    // Points of one count, and counts of one job.
-    for (what, per_count, piece) in [
-        ("fields", 1.0, 4000),
-        ("forces", 1.0, 10000),
-        ("displacements", 1.0, 10000),
-        ("tractions", 1.0, 4000),
-        ("histories", 1.0, 4000),
-        ("loops", 1.0, 6000),
-        ("harmonic", 200.0, 100),
-        ("neighbours", 2e4, 10),
-        ("sliders", 1e5, 10),
-        ("amplitudes", 100.0, 50),
-        ("event_driven", 200.0, 25),
-    ] {
-        let pieces = (points / per_count / piece as f64).ceil().max(KINDS.len() as f64) as usize;
-        let count = (points / per_count / pieces as f64).ceil() as usize;
-        let place = |i: usize| (i as f64 + 0.5) / pieces as f64;
-        jobs.extend((0..pieces).map(|i| (place(i), Job { what, kind: KINDS[i % KINDS.len()], count })));
+    for (measurement, weight, piece) in MEASUREMENTS {
+        let pieces = (points / weight / piece as f64).ceil().max(KINDS.len() as f64) as usize;
+        let count = (points / weight / pieces as f64).ceil() as usize;
+        jobs.extend((0..pieces).map(|i| Job { measurement, kind: KINDS[i % KINDS.len()], count }));
     }
-    // Interleaved, so that a run that is cut short has some of each.
-    jobs.sort_by(|one, two| one.0.total_cmp(&two.0));
-    jobs.into_iter().map(|(_, job)| job).collect()
-}
-
-fn run(job: &Job, sampler: &mut Sampler, tally: &mut Tally) {
-    let Job { what, kind, count } = *job;
-    if what == "fields" {
-        (0..count).for_each(|_| curve::fields(sampler, kind, tally));
-        return;
-    }
-    let mut left = count as i64;
-    while left > 0 {
-        let case = sampler.case(kind, &mut tally.rejected);
-        let mut done = 1;
-        match what {
-            "forces" => done = curve::at_forces(&case, sampler, 50, tally),
-            "displacements" => done = curve::at_displacements(&case, sampler, 50, tally),
-            "tractions" => done = tractions::at_forces(&case, sampler, 48, tally),
-            "histories" => done = history::along_a_path(&case, sampler, 48, tally),
-            "loops" => done = history::closed_loop(&case, sampler, tally),
-            "harmonic" => harmonic::uniform_sampling(&case, sampler, tally),
-            "neighbours" => curve::neighbours(&case, sampler, tally),
-            "sliders" => curve::sliders(&case, sampler, tally),
-            "amplitudes" => done = stiffness::at_amplitudes(&case, sampler, 5, tally),
-            "event_driven" => stiffness::event_driven(&case, sampler, tally),
-            other => panic!("no job {other}"),
-        }
-        left -= done;
-    }
+    jobs
 }
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let (mut check, mut points, mut minutes) = (false, 1e7, f64::MAX);
-    let (mut seed, mut only, mut regions, mut document) = (None, None, None, None);
+    let now = std::time::UNIX_EPOCH.elapsed().map_or(0, |now| now.as_secs());
+    let (mut points, mut seed, mut regions, mut document) = (1e7, 1u64, None, None);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
-            "--check" => (check, points) = (true, 1e4),
+            "--check" => (points, seed) = (1e4, now),
             "--points" => points = value().parse().expect("a number of points"),
-            "--minutes" => minutes = value().parse().expect("a number of minutes"),
-            "--seed" => seed = Some(value().parse().expect("a seed")),
-            "--only" => only = Some(value()),
+            "--seed" => seed = value().parse().expect("a seed"),
             "--regions" => regions = Some(PathBuf::from(value())),
             "--document" => document = Some(PathBuf::from(value())),
             other => panic!("unknown argument {other}"),
         }
     }
-    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |now| now.as_secs());
-    let seed: u64 = seed.unwrap_or(if check { now } else { 1 });
     println!("seed {seed}");
-    let jobs: Vec<Job> = jobs(points)
-        .into_iter()
-        .filter(|job| only.as_ref().is_none_or(|only: &String| only.split(',').any(|only| job.what == only)))
-        .collect();
-    if points == 0.0 {
-        let (regions, document) = (regions.expect("--regions"), document.expect("--document"));
-        report::write_tables(&report::read_regions(&regions), &document);
-        return;
-    }
-    let (next, all) = (AtomicUsize::new(0), Mutex::new(Tally::default()));
-    let start = Instant::now();
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let (jobs, next, all) = (jobs(points), AtomicUsize::new(0), Mutex::new(Tally::default()));
+    let work = || {
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(Job { measurement, kind, count }) = jobs.get(i) else { break };
+            let mut tally = Tally::default();
+            let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
+            for _ in 0..*count {
+                measurement(&sampler.case(kind), &mut sampler, &mut tally);
+            }
+            all.lock().unwrap().add(tally);
+        }
+    };
     std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let i = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(job) = jobs.get(i) else { break };
-                    if start.elapsed().as_secs_f64() > 60.0 * minutes {
-                        break;
-                    }
-                    let mut tally = Tally::default();
-                    let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
-                    run(job, &mut sampler, &mut tally);
-                    let mut all = all.lock().unwrap();
-                    all.add(tally);
-                    if let Some(path) = &regions
-                        && i % 100 == 99
-                    {
-                        report::write_regions(&all, path);
-                    }
-                    drop(all);
-                    if !check && (i < 64 || i % 100 == 0) {
-                        let minutes = start.elapsed().as_secs_f64() / 60.0;
-                        eprintln!("{i} of {} pieces, {minutes:.1} min: {} on {}", jobs.len(), job.what, job.kind);
-                    }
-                }
-            });
+        for _ in 0..std::thread::available_parallelism().map_or(1, |n| n.get()) {
+            scope.spawn(work);
         }
     });
     let tally = all.into_inner().unwrap();

@@ -90,11 +90,9 @@ pub fn write_tables(tally: &Tally, document: &Path) {
     insert(document, "places", &places(tally));
 }
 
-const HEADER: &str = "output,contact,range,points,between,broken,worst_k,error,condition,plain_error,inputs";
-
 /// A row for each region.
 pub fn write_regions(tally: &Tally, path: &Path) {
-    let mut csv = format!("{HEADER}\n");
+    let mut csv = "output,contact,range,points,between,broken,worst_k,error,condition,plain_error,inputs\n".to_owned();
     for (key, cell) in &tally.cells {
         writeln!(
             csv,
@@ -114,37 +112,4 @@ pub fn write_regions(tally: &Tally, path: &Path) {
         .unwrap();
     }
     std::fs::write(path, csv).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-}
-
-/// Regions of a file.
-pub fn read_regions(path: &Path) -> Tally {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let mut lines = text.lines();
-    assert_eq!(lines.next(), Some(HEADER));
-    let mut tally = Tally::default();
-    for line in lines {
-        // Commas may be quoted; quotes only enclose whole fields.
-        let mut quoted = false;
-        let fields: Vec<&str> = line
-            .split(|c| {
-                quoted ^= c == '"';
-                c == ',' && !quoted
-            })
-            .map(|field| field.trim_matches('"'))
-            .collect();
-        let name = |i: usize| -> &'static str { Box::leak(fields[i].to_string().into_boxed_str()) };
-        let number = |i: usize| fields[i].parse::<f64>().expect("a number");
-        let cell = Cell {
-            points: number(3) as u64,
-            between: number(4) as u64,
-            broken: number(5) as u64,
-            worst: number(6),
-            error: number(7),
-            condition: number(8),
-            plain: number(9),
-            inputs: fields[10].to_string(),
-        };
-        tally.cells.insert((name(0), name(1), name(2)), cell);
-    }
-    tally
 }

@@ -148,13 +148,12 @@ impl Sampler {
         })
     }
 
-    /// A contact of a kind; rejected ones are counted.
-    pub fn case(&mut self, kind: &'static str, rejected: &mut u64) -> Case {
+    /// A contact of a kind that the library accepts.
+    pub fn case(&mut self, kind: &'static str) -> Case {
         loop {
             let input = self.parameters(kind);
-            match call::prepare(&input) {
-                Ok(contact) => return Case { contact, reference: Reference::new(input), kind },
-                Err(_) => *rejected += 1,
+            if let Some(contact) = call::prepare(&input) {
+                return Case { contact, reference: Reference::new(input), kind };
             }
         }
     }

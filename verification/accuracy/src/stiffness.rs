@@ -19,9 +19,9 @@ fn real(case: &Case, x: &Real) -> [Real; 2] {
 }
 
 /// Some amplitudes of a contact: each is a quadrature.
-pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, count: usize, tally: &mut Tally) -> i64 {
+pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
-    for _ in 0..count {
+    for _ in 0..5 {
         let (share, range) = match sampler.below(4) {
             0 => (sampler.between(1.0, 3.0), "beyond slip"),
             1 if sampler.chance(0.5) => (sampler.power(0.0, 12.0), "beyond slip"),
@@ -32,7 +32,6 @@ pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, count: usize, tally: &m
             at_amplitude(case, share * case.contact.slip_displacement, range, tally);
         }
     }
-    count as i64
 }
 
 fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mut Tally) {
@@ -82,8 +81,7 @@ pub fn event_driven(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let mean = if sampler.chance(0.3) { 0.0 } else { share * sampler.between(-1.0, 1.0) };
     let slip = contact.slip_displacement;
     let u = [mean * slip, share * slip * cosine, share * slip * sine];
-    let mut workspace = call::workspace(1, samples, MSLIP_EVENT_DRIVEN);
-    let (force, jacobian, dissipated) = call::harmonic(contact, &mut workspace, &u);
+    let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_EVENT_DRIVEN, &u);
     let law = reference.law(64);
     let v = u.map(|u| law.x(u));
     let amplitude = (v[1].square() + v[2].square()).sqrt();
@@ -147,38 +145,16 @@ pub fn event_driven(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 fn spring_slider(real: &Real, imaginary: &Real, amplitude: &Real) -> (Real, Real) {
     let bits = 256;
     let ratio = (imaginary / real).at(bits);
-    let f = |t: f64, ratio: f64| t.sin().powi(2) - ratio * (t - t.sin() * t.cos());
-    // Θ in doubles by bisection, coarsely for small ones; then Newton.
-    let approximate = ratio.f64();
-    let start = if approximate > 30.0 {
-        1.5 / approximate
-    } else if approximate < 1e-6 {
-        std::f64::consts::PI - (std::f64::consts::PI * approximate).sqrt()
-    } else {
-        let (mut low, mut high) = (1e-3, std::f64::consts::PI);
-        for _ in 0..52 {
-            let middle = 0.5 * (low + high);
-            if f(middle, approximate) > 0.0 { low = middle } else { high = middle }
-        }
-        0.5 * (low + high)
-    };
-    let pi = Real::pi(bits);
-    // η = π - Θ is small where the ratio is.
-    let small = approximate < 1e-6;
-    let mut eta = if small { (&pi * &ratio).sqrt() } else { &pi - start };
-    for _ in 0..60 {
-        let (sine, cosine) = eta.sin_cos();
-        let value = sine.square() - &ratio * (&pi - &eta + &sine * &cosine);
-        let slope = 2.0 * &sine * (&cosine + &ratio * &sine);
-        let step = value / slope;
-        eta = eta - &step;
-        if step.is_zero() || step.exponent() < eta.clone().min(&(&pi - &eta)).exponent() - 60 {
-            break;
-        }
+    let sine = |t: &Real| 2.0 * t / (1.0 + t.square());
+    // t = tan(Θ/2), by bisection of its logarithm to 30 digits: near 0 and π the angle itself has fewer.
+    let (mut low, mut high) = (Real::new(bits, 1e-20), Real::new(bits, 1e120));
+    for _ in 0..110 {
+        let t = (&low * &high).sqrt();
+        let (angle, sine) = (2.0 * t.atan2(&Real::new(bits, 1.0)), sine(&t));
+        let cosine = (1.0 - t.square()) / (1.0 + t.square());
+        if sine.square() > &ratio * (angle - &sine * cosine) { low = t } else { high = t }
     }
-    let sine = eta.sin_cos().0;
-    let stiffness = &pi * imaginary / sine.square();
-    let half = (eta / 2.0).sin_cos().1;
-    let force = &stiffness * amplitude * half.square();
+    let stiffness = Real::pi(bits) * imaginary / sine(&low).square();
+    let force = &stiffness * amplitude * low.square() / (1.0 + low.square());
     (stiffness, force)
 }

@@ -25,8 +25,6 @@ pub struct Cell {
 #[derive(Debug, Default)]
 pub struct Tally {
     pub cells: BTreeMap<Key, Cell>,
-    /// Contacts that the library rejected.
-    pub rejected: u64,
 }
 
 impl Tally {
@@ -103,7 +101,6 @@ impl Tally {
     }
 
     pub fn add(&mut self, other: Tally) {
-        self.rejected += other.rejected;
         for (key, cell) in other.cells {
             let mine = self.cells.entry(key).or_default();
             let (points, between, broken) =

@@ -32,20 +32,19 @@ fn place_of(law: &Law, x: f64) -> Real {
 }
 
 /// Tractions and slip at some positions under some forces.
-pub fn at_forces(case: &Case, sampler: &mut Sampler, count: usize, tally: &mut Tally) -> i64 {
-    for _ in 0..count.div_ceil(8) {
+pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
+    for _ in 0..6 {
         let (share, _) = sampler.share_of_force();
-        at_force(case, share * case.contact.slip_force, sampler, 8, tally);
+        at_force(case, share * case.contact.slip_force, sampler, tally);
     }
-    count as i64
 }
 
-fn at_force(case: &Case, force: f64, sampler: &mut Sampler, count: usize, tally: &mut Tally) {
+fn at_force(case: &Case, force: f64, sampler: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let [_, _, stick] = call::displacement(contact, force);
     let near = sampler.chance(0.3);
-    let spots: Vec<_> = (0..count).map(|_| position(sampler, case, stick, near)).collect();
-    let x: Vec<f64> = spots.iter().map(|spot| spot.0).collect();
+    let spots = [(); 8].map(|()| position(sampler, case, stick, near));
+    let x = spots.map(|(x, _)| x);
     let [pressure, shear] = call::tractions(contact, force, &x);
     let no_slip = matches!(reference.input, Input::Ellipse(_));
     let [slip, damage] = if no_slip { [vec![], vec![]] } else { call::slip(contact, force, &x) };

@@ -63,7 +63,8 @@ pub struct Path {
 }
 
 impl Path {
-    pub fn displacements(&self, numbers: &mut Numbers, scale: f64) -> Vec<f64> {
+    pub fn displacements(&self, scale: f64) -> Vec<f64> {
+        let mut numbers = Numbers::default();
         let mut path = numbers.all(&self.given[..self.given.len().min(64)], scale);
         let (mut width, decay) = (numbers.one(self.width, scale), 1.0 - 2f64.powi(-i32::from(self.decay % 16)));
         let mut state = u32::from(self.seed) | 1;
@@ -163,30 +164,6 @@ impl AnyParameters {
             AnyParameters::Ellipse(p) => Contact::elliptic(p),
         }
     }
-
-    /// The same contact in other units of length and force.
-    pub fn scaled(self, length: f64, force: f64) -> AnyParameters {
-        let material = |bodies: [Material; 2]| {
-            bodies.map(|body| Material { young_modulus: body.young_modulus * force / length / length, ..body })
-        };
-        match self {
-            AnyParameters::Flat(p) => AnyParameters::Flat(Parameters {
-                flat_half_width: p.flat_half_width * length,
-                edge_radius: p.edge_radius * length,
-                length: p.length * length,
-                normal_force: p.normal_force * force,
-                material: material(p.material),
-                ..p
-            }),
-            AnyParameters::Ellipse(p) => AnyParameters::Ellipse(EllipticParameters {
-                semi_axis_x: p.semi_axis_x * length,
-                semi_axis_y: p.semi_axis_y * length,
-                normal_force: p.normal_force * force,
-                material: material(p.material),
-                ..p
-            }),
-        }
-    }
 }
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
@@ -232,11 +209,20 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
             let (friction_coefficient, material) = (0.5, [STEEL; 2]);
             EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
         });
-        let extreme_units = [
-            AnyParameters::Flat(flat(50e-6)).scaled(2f64.powi(120), 2f64.powi(-100)),
-            AnyParameters::Flat(flat(0.0)).scaled(2f64.powi(-90), 2f64.powi(200)),
-        ];
-        let all = flats.map(AnyParameters::Flat).into_iter().chain(ellipses.map(AnyParameters::Ellipse));
-        all.chain(extreme_units).map(|p| (p, p.contact().unwrap_or_else(|error| panic!("{p:?}: {error}")))).collect()
+        let extreme_units = [(50e-6, 120, -100), (0.0, -90, 200)].map(|(flat_half_width, length, force)| {
+            let (metre, newton) = (2f64.powi(length), 2f64.powi(force));
+            Parameters {
+                flat_half_width: flat_half_width * metre,
+                edge_radius: FLAT.edge_radius * metre,
+                length: FLAT.length * metre,
+                normal_force: FLAT.normal_force * newton,
+                material: [Material { young_modulus: STEEL.young_modulus * newton / metre / metre, ..STEEL }; 2],
+                ..FLAT
+            }
+        });
+        let all = flats.into_iter().map(AnyParameters::Flat).chain(ellipses.map(AnyParameters::Ellipse));
+        all.chain(extreme_units.map(AnyParameters::Flat))
+            .map(|p| (p, p.contact().unwrap_or_else(|error| panic!("{p:?}: {error}"))))
+            .collect()
     })
 }

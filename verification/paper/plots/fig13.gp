@@ -1,15 +1,4 @@
-# Fig. 13: imaginary (a) and real part (b) of the complex stiffness for several a/b.
+# Fig. 13: complex stiffness for several a/b.
 load 'plots/style.gp'
-name = 'fig13'; wide = 1000; high = 470
-set xlabel amplitude
-set xrange [0:12]
-
-@set_terminal
-set multiplot layout 1, 2 margins 0.1, 0.985, 0.15, 0.92 spacing 0.11, 0
-do for [panel in 'a b'] {
-  set title sprintf('(%s)  L/b = 10', panel)
-  if (panel eq 'a') { set ylabel "imaginary part  K'' / (E^* L)"; set key bottom right } \
-  else { set ylabel "real part  K' / (E^* L)"; set key top right }
-  plot for [i = 2:6] file(name.panel) using 1:i with lines ls i-1 title columnheader(i)
-}
-unset multiplot
+name = 'fig13'; last = 6; label = 'L/b = 10'
+load 'plots/complex_stiffness.gp'

@@ -3,7 +3,7 @@
 //! In these units the results do not depend on the size, modulus and friction chosen here.
 
 use microslip::constant_load::{masing, state};
-use microslip::{Contact, EllipticParameters, Material, Parameters};
+use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
@@ -138,10 +138,14 @@ impl Case {
         self.contact.initial_stiffness / self.stiffness_unit()
     }
 
+    /// The point of the monotonic curve at Q/μP.
+    pub fn at_force(&self, force: f64) -> CurvePoint<'_> {
+        self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip")
+    }
+
     /// Displacement on the monotonic curve at Q/μP.
     pub fn displacement(&self, force: f64) -> f64 {
-        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
-        point.displacement() / self.displacement_unit()
+        self.at_force(force).displacement() / self.displacement_unit()
     }
 
     /// Q/μP on the monotonic curve at a displacement in its unit.
@@ -152,8 +156,7 @@ impl Case {
 
     /// Half-width of the stick zone over b at Q/μP.
     pub fn stick_zone(&self, force: f64) -> f64 {
-        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
-        point.stick_half_width() / self.contact.half_width
+        self.at_force(force).stick_half_width() / self.contact.half_width
     }
 
     /// b p/P at x/b; 0 at the edge, though the rounded b may differ.
@@ -169,14 +172,13 @@ impl Case {
         if x.abs() >= 1.0 {
             return 0.0;
         }
-        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
-        point.shear(x * self.contact.half_width) * self.contact.half_width / (self.friction * self.line_load())
+        self.at_force(force).shear(x * self.contact.half_width) * self.contact.half_width
+            / (self.friction * self.line_load())
     }
 
     /// Slip at x/b and Q/μP, in the unit of the displacement.
     pub fn slip(&self, x: f64, force: f64) -> f64 {
-        let point = self.contact.curve_at_force(force * self.contact.slip_force).expect("a force up to gross slip");
-        point.slip(x * self.contact.half_width).expect("a rounded flat") / self.displacement_unit()
+        self.at_force(force).slip(x * self.contact.half_width).expect("a rounded flat") / self.displacement_unit()
     }
 
     /// The state after displacements in their unit.

@@ -14,14 +14,8 @@ use crate::equations::{Tractions, integral, printed_load, printed_pressure, prin
 use microslip::Material;
 use std::f64::consts::PI;
 
-/// The check of a claim. Its text and its verdict are on the page.
-pub struct Claim {
-    /// The table of the page.
-    pub figure: &'static str,
-    pub computed: String,
-    /// Whether the verdict is true.
-    pub stands: bool,
-}
+/// The check of a claim: the computed values, and whether the verdict is true. Claim and verdict are on the page.
+pub type Claim = (String, bool);
 
 /// Two closed forms of one quantity.
 const CLOSED_FORMS: f64 = 1e-12;
@@ -29,6 +23,11 @@ const CLOSED_FORMS: f64 = 1e-12;
 const QUADRATURE: f64 = 1e-11;
 /// Other units: near the edge of the contact, at x/b = 0.999, rounding of its width is amplified a thousand times.
 const OTHER_UNITS: f64 = 1e-11;
+
+/// The claim that all errors are below a bound, with which the text ends.
+fn to_within(bound: f64, text: &str, errors: impl IntoIterator<Item = f64>) -> Claim {
+    (format!("{text} {bound:e}"), largest(errors) < bound)
+}
 
 /// The largest value, or NaN.
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -48,8 +47,8 @@ fn list(values: &[f64], digits: usize) -> String {
     values.iter().map(|value| format!("{value:.digits$}")).collect::<Vec<_>>().join(", ")
 }
 
-fn shapes() -> Vec<Case> {
-    SHAPES.iter().map(|&shape| Case::flat(shape, LENGTH)).collect()
+fn shapes() -> [Case; 5] {
+    SHAPES.map(|shape| Case::flat(shape, LENGTH))
 }
 
 /// The area of the loop by the trapezoidal rule, to 1e-7.
@@ -58,46 +57,39 @@ fn area(case: &Case, amplitude: f64) -> f64 {
     0.5 * x.windows(2).zip(y.windows(2)).map(|(x, y)| (y[0] + y[1]) * (x[0] - x[1])).sum::<f64>().abs()
 }
 
-pub fn all() -> Vec<Claim> {
+/// The claims of each table of the page.
+pub fn all() -> Vec<(&'static str, Vec<Claim>)> {
+    use {cycles::*, loops::*, stiffness::*, tractions::*};
     vec![
-        tractions::hertz(),
-        tractions::pressure_by_shape(),
-        tractions::two_limits_of_shape(),
-        tractions::incomplete_contact(),
-        tractions::slip_at_any_force(),
-        tractions::full_stick(),
-        tractions::shear_is_coulombs(),
-        loops::far_field(),
-        loops::displacement_of_tractions(),
-        loops::long_contact(),
-        loops::gross_slip_is_horizontal(),
-        loops::no_effect_of_frequency(),
-        loops::direct_tractions(),
-        loops::reloading(),
-        loops::mindlin(),
-        loops::curve_by_ratios(),
-        loops::area_by_shape(),
-        loops::slip_stays_on_the_edges(),
-        loops::length_is_a_spring(),
-        loops::area_by_length(),
-        stiffness::stiffness_by_load(),
-        stiffness::width_by_load(),
-        stiffness::slope_after_reversal(),
-        stiffness::common_tangent(),
-        stiffness::elliptic_dissipates_more(),
-        cycles::end_of_microslip(),
-        cycles::first_harmonic(),
-        cycles::imaginary_part_dissipates(),
-        cycles::imaginary_part_by_shape(),
-        cycles::no_microslip_of_a_flat(),
-        cycles::one_initial_stiffness(),
-        cycles::initial_stiffness_by_length(),
-        cycles::cube_of_the_force(),
-        cycles::work_of_slip(),
-        cycles::unit_energy(),
-        tractions::width_of_contact(),
-        tractions::load_of_pressure(),
-        tractions::relieved_load(),
-        tractions::slip_of_plane_problem(),
+        ("fig03", vec![hertz(), pressure_by_shape(), two_limits_of_shape(), incomplete_contact()]),
+        ("fig04", vec![slip_at_any_force(), full_stick(), shear_is_coulombs()]),
+        (
+            "fig07",
+            vec![
+                far_field(),
+                displacement_of_tractions(),
+                long_contact(),
+                gross_slip_is_horizontal(),
+                no_effect_of_frequency(),
+            ],
+        ),
+        ("oscillating", vec![direct_tractions(), reloading(), mindlin()]),
+        ("fig08", vec![curve_by_ratios(), area_by_shape(), slip_stays_on_the_edges()]),
+        ("fig09", vec![length_is_a_spring(), area_by_length()]),
+        ("fig10", vec![stiffness_by_load(), width_by_load()]),
+        ("fig11", vec![slope_after_reversal(), common_tangent(), elliptic_dissipates_more(), end_of_microslip()]),
+        (
+            "fig13",
+            vec![
+                first_harmonic(),
+                imaginary_part_dissipates(),
+                imaginary_part_by_shape(),
+                no_microslip_of_a_flat(),
+                one_initial_stiffness(),
+            ],
+        ),
+        ("fig14", vec![initial_stiffness_by_length()]),
+        ("fig15", vec![cube_of_the_force(), work_of_slip(), unit_energy()]),
+        ("printed", vec![width_of_contact(), load_of_pressure(), relieved_load(), slip_of_plane_problem()]),
     ]
 }

@@ -1,12 +1,12 @@
-//! Histories of displacement: regular, random, chaotic, and adversarial ones that depend on comparisons and rounding.
+//! Histories of displacement: regular, random, and adversarial ones that depend on comparisons and rounding.
 
 use crate::memory::Memory;
 use rand::Rng;
+use rand::rngs::SmallRng;
 use rand::seq::IndexedRandom;
-use rand_chacha::ChaCha8Rng;
 
 /// The next displacement, given the memory.
-pub type History = Box<dyn FnMut(&Memory, &mut ChaCha8Rng) -> f64 + Send>;
+pub type History = Box<dyn FnMut(&Memory, &mut SmallRng) -> f64 + Send>;
 
 /// Below the largest displacement of the interface (1e150), with room for sums.
 const FARTHEST: f64 = 1e149;
@@ -19,9 +19,6 @@ pub fn all(slip: f64) -> Vec<(&'static str, History)> {
         ("random walk", random_walk(slip)),
         ("spirals", spirals(slip)),
         ("drifting sine", drifting_sine(slip)),
-        ("logistic map", logistic_map(slip)),
-        ("Lorenz", lorenz(slip)),
-        ("Duffing", duffing(slip)),
         ("neighbours", neighbours(slip)),
         ("tiny and giant", tiny_and_giant(slip)),
         ("exact returns", exact_returns(slip)),
@@ -29,10 +26,6 @@ pub fn all(slip: f64) -> Vec<(&'static str, History)> {
         ("last digits", multiples(spacing)),
         ("subnormal", multiples(f64::from_bits(1))),
     ]
-}
-
-pub fn names() -> Vec<&'static str> {
-    all(1.0).into_iter().map(|(name, _)| name).collect()
 }
 
 fn scattered(slip: f64) -> History {
@@ -83,44 +76,6 @@ fn drifting_sine(slip: f64) -> History {
         phase = (phase + rng.random_range(0.05..0.4)) % std::f64::consts::TAU;
         middle += speed;
         (middle + amplitude * phase.sin()) * slip
-    })
-}
-
-fn logistic_map(slip: f64) -> History {
-    let (mut x, mut width) = (0.3_f64, 1.0);
-    Box::new(move |_, rng| {
-        x = 3.9999 * x * (1.0 - x);
-        if rng.random_bool(1e-3) {
-            width = 10f64.powf(rng.random_range(-3.0..0.3));
-        }
-        (2.0 * x - 1.0) * width * slip
-    })
-}
-
-/// A Runge-Kutta step.
-fn runge_kutta<const N: usize>(x: [f64; N], h: f64, rate: impl Fn([f64; N]) -> [f64; N]) -> [f64; N] {
-    let towards = |k: [f64; N], h: f64| std::array::from_fn(|i| x[i] + h * k[i]);
-    let k1 = rate(x);
-    let k2 = rate(towards(k1, 0.5 * h));
-    let k3 = rate(towards(k2, 0.5 * h));
-    let k4 = rate(towards(k3, h));
-    std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
-}
-
-fn lorenz(slip: f64) -> History {
-    let mut x = [1.0, 1.0, 20.0];
-    Box::new(move |_, _| {
-        x = runge_kutta(x, 0.01, |[x, y, z]| [10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z]);
-        x[0] / 18.0 * slip
-    })
-}
-
-/// A driven buckled beam in its chaotic range.
-fn duffing(slip: f64) -> History {
-    let mut state = [0.1, 0.0, 0.0];
-    Box::new(move |_, _| {
-        state = runge_kutta(state, 0.05, |[x, v, t]| [v, x - x * x * x - 0.3 * v + 0.5 * (1.2 * t).cos(), 1.0]);
-        state[0] * 0.8 * slip
     })
 }
 
@@ -184,18 +139,4 @@ fn multiples(unit: f64) -> History {
         let number: f64 = rng.random_range(-most..=most);
         number.round() * unit
     })
-}
-
-/// Random displacements between two, in order, and the end.
-pub fn divided(from: f64, to: f64, parts: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
-    // Rounding must not exceed the end.
-    let (low, high) = (from.min(to), from.max(to));
-    let mut places: Vec<f64> =
-        (1..parts).map(|_| (from + rng.random::<f64>() * (to - from)).clamp(low, high)).collect();
-    places.sort_by(f64::total_cmp);
-    if to < from {
-        places.reverse();
-    }
-    places.push(to);
-    places
 }

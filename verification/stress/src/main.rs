@@ -1,8 +1,8 @@
-//! Long and adversarial histories, with checks on every step.
+//! Long and adversarial histories of every contact: each kind with checks on every step, and all kinds against a bank of sliders.
 //!
 //! Every call traps invalid operations, divisions by zero and overflows.
 //!
-//! `stress [--scale X] [--seed N] [--only TEXT] [--jobs N]`; without a seed each run has another one, which is printed.
+//! `stress [--scale X] [--seed N] [--only TEXT]`; without a seed each run has another one, which is printed.
 
 mod bank;
 mod checked;
@@ -10,16 +10,14 @@ mod contacts;
 mod histories;
 mod library;
 mod memory;
-mod subjects;
 
-use indicatif::{ProgressBar, ProgressStyle};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use checked::CheckedHistory;
+use library::Contact;
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 use std::process::ExitCode;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-use std::time::Instant;
 
 /// An error is the message of a failed check.
 pub type Outcome = Result<(), String>;
@@ -35,114 +33,86 @@ macro_rules! ensure {
     };
 }
 
-/// The context of a case.
-pub struct Run {
-    pub rng: ChaCha8Rng,
-    bar: ProgressBar,
-}
-
-impl Run {
-    /// Reports progress by the given number of steps.
-    pub fn done(&self, steps: u64) {
-        self.bar.inc(steps);
-    }
-}
-
-type Test = Box<dyn Fn(&mut Run) -> Result<String, String> + Send + Sync>;
-
-/// One test: its name, its steps, and the test itself, which returns a remark.
-pub struct Case {
-    pub name: String,
-    pub steps: u64,
-    pub test: Test,
-}
-
-impl Case {
-    pub fn new(
-        name: String,
-        steps: u64,
-        test: impl Fn(&mut Run) -> Result<String, String> + Send + Sync + 'static,
-    ) -> Case {
-        Case { name, steps, test: Box::new(test) }
-    }
-}
-
 struct Arguments {
     scale: f64,
     seed: u64,
     only: String,
-    jobs: usize,
 }
 
-fn arguments() -> Result<Arguments, lexopt::Error> {
-    use lexopt::prelude::*;
-    let jobs = thread::available_parallelism().map_or(1, |jobs| jobs.get());
+fn arguments() -> Option<Arguments> {
     let seed = std::time::UNIX_EPOCH.elapsed().map_or(1, |now| now.as_secs());
-    let mut arguments = Arguments { scale: 1.0, seed, only: String::new(), jobs };
-    let mut parser = lexopt::Parser::from_env();
-    while let Some(argument) = parser.next()? {
-        match argument {
-            Long("scale") => arguments.scale = parser.value()?.parse()?,
-            Long("seed") => arguments.seed = parser.value()?.parse()?,
-            Long("only") => arguments.only = parser.value()?.parse()?,
-            Long("jobs") => arguments.jobs = parser.value()?.parse()?,
-            _ => return Err(argument.unexpected()),
+    let mut arguments = Arguments { scale: 1.0, seed, only: String::new() };
+    let mut words = std::env::args().skip(1);
+    while let Some(option) = words.next() {
+        let value = words.next()?;
+        match option.as_str() {
+            "--scale" => arguments.scale = value.parse().ok()?,
+            "--seed" => arguments.seed = value.parse().ok()?,
+            "--only" => arguments.only = value,
+            _ => return None,
         }
     }
-    Ok(arguments)
+    Some(arguments)
 }
 
-/// The generator of a case, independent of other cases: its seed is a hash (Fowler, Noll, Vo) of its name.
-fn random(seed: u64, name: &str) -> ChaCha8Rng {
-    let hash = name.bytes().fold(seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-    ChaCha8Rng::seed_from_u64(hash)
+/// Steps with every check; afterwards the expensive ones are made from time to time.
+const FULLY_CHECKED: u64 = 500;
+
+/// A contact through one kind of history.
+fn checked_history(contact: &Contact, kind: usize, steps: u64, rng: &mut SmallRng) -> Outcome {
+    let (_, mut history) = histories::all(contact.slip()).swap_remove(kind);
+    let mut checked = CheckedHistory::new(contact);
+    for number in 0..steps {
+        let displacement = history(&checked.memory, rng);
+        let thorough = number < FULLY_CHECKED || rng.random_ratio(1, 64);
+        checked.step(displacement, thorough, rng).map_err(|failure| format!("step {number}: {failure}"))?;
+    }
+    Ok(())
 }
 
 fn main() -> ExitCode {
-    let Arguments { scale, seed, only, jobs } = match arguments() {
-        Ok(arguments) => arguments,
-        Err(error) => {
-            eprintln!("{error}\nusage: stress [--scale X] [--seed N] [--only TEXT] [--jobs N]");
-            return ExitCode::from(2);
+    let Some(Arguments { scale, seed, only }) = arguments() else {
+        eprintln!("usage: stress [--scale X] [--seed N] [--only TEXT]");
+        return ExitCode::from(2);
+    };
+    println!("seed {seed}, scale {scale}");
+    let steps = |full: f64| (full * scale).max(100.0) as u64;
+    let contacts = contacts::all();
+    let mut cases: Vec<(String, &Contact, Option<usize>)> = Vec::new();
+    for contact in &contacts {
+        cases.push((format!("bank: {}", contact.name), contact, None));
+        let kinds = histories::all(1.0).into_iter().enumerate();
+        cases
+            .extend(kinds.map(|(kind, (name, _))| (format!("history: {}: {name}", contact.name), contact, Some(kind))));
+    }
+    cases.retain(|(name, ..)| name.contains(&only));
+    let (next, failures) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let work = || {
+        while let Some((name, contact, kind)) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+            // Independent of other cases: the seed is a hash (Fowler, Noll, Vo) of the name.
+            let hash = name.bytes().fold(seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+            let mut rng = SmallRng::seed_from_u64(hash);
+            let outcome = match *kind {
+                Some(kind) => {
+                    // In full length with one contact, a twentieth of it with the others.
+                    let full = contacts.get(kind).is_some_and(|full| std::ptr::eq(full, *contact));
+                    checked_history(contact, kind, steps(if full { 1e7 } else { 5e5 }), &mut rng)
+                }
+                None => bank::compare(contact, steps(1e6), &mut rng),
+            };
+            if let Err(failure) = outcome {
+                failures.fetch_add(1, Ordering::Relaxed);
+                println!("FAILED: {name}\n  {failure}\n  {:?}", contact.input);
+                println!("  again: make stress ARGUMENTS=\"--seed {seed} --scale {scale} --only '{name}'\"");
+            }
         }
     };
-    let mut cases = subjects::all(scale);
-    cases.retain(|case| case.name.contains(&only));
-    // The longest first, to keep all threads busy.
-    cases.sort_by_key(|case| std::cmp::Reverse(case.steps));
-    let start = Instant::now();
-    println!("{} cases, seed {seed}, scale {scale}", cases.len());
-    let style = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} steps, {eta} left";
-    let style = ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(cases.iter().map(|case| case.steps).sum()).with_style(style);
-    let (next, failures) = (AtomicUsize::new(0), Mutex::new(0));
     thread::scope(|scope| {
-        for _ in 0..jobs.max(1) {
-            scope.spawn(|| {
-                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let begun = Instant::now();
-                    let mut run = Run { rng: random(seed, &case.name), bar: bar.clone() };
-                    let outcome = (case.test)(&mut run);
-                    let seconds = begun.elapsed().as_secs_f64();
-                    let mut failures = failures.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-                    bar.suspend(|| match outcome {
-                        Ok(remark) => println!("{:66} {seconds:6.2} s  {remark}", case.name),
-                        Err(failure) => {
-                            *failures += 1;
-                            println!("FAILED: {}\n  {failure}", case.name);
-                            println!(
-                                "  again: make stress ARGUMENTS=\"--seed {seed} --scale {scale} --only '{}'\"",
-                                case.name
-                            );
-                        }
-                    });
-                }
-            });
+        for _ in 0..thread::available_parallelism().map_or(1, |threads| threads.get()) {
+            scope.spawn(work);
         }
     });
-    bar.finish_and_clear();
-    let failures = failures.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    println!("{:.0} s", start.elapsed().as_secs_f64());
+    let failures = failures.into_inner();
     println!("{} passed, {failures} failed", cases.len() - failures);
     if failures == 0 && !cases.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -85,30 +85,3 @@ impl Memory {
         run_up.into_iter().chain(self.points.iter().map(|point| point.displacement)).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn gross_slip_erases_the_memory() {
-        let mut memory = Memory::new(1.0);
-        for (displacement, depth, slip_direction) in [
-            (0.5, 0, 0.0),
-            (-0.2, 1, 0.0),
-            (1.0, 0, 0.0),
-            (0.3, 1, 0.0),
-            (1.5, 0, 1.0),
-            (0.0, 1, 1.0),
-            (0.2, 2, 1.0),
-            (1.5, 0, 1.0),
-            (1.4, 1, 1.0),
-            (-0.6, 0, -1.0),
-            (1.3, 1, -1.0),
-            (3.3, 0, 1.0),
-        ] {
-            memory.visit(Point { displacement, force: 0.0 }, false);
-            assert_eq!((memory.depth(), memory.slip_direction), (depth, slip_direction), "{displacement}");
-        }
-    }
-}
