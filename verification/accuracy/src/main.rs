@@ -78,6 +78,9 @@ fn main() {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let Some(Job { measurement, kind, count }) = jobs.get(i) else { break };
+            if i * 100 / jobs.len() != (i + 1) * 100 / jobs.len() && jobs.len() > 1000 {
+                eprintln!("{} %", (i + 1) * 100 / jobs.len());
+            }
             let mut tally = Tally::default();
             let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
             for _ in 0..*count {
@@ -96,7 +99,7 @@ fn main() {
         report::write_regions(&tally, &path);
     }
     if let Some(path) = document {
-        report::write_tables(&tally, &path);
+        report::write_table(&tally, &path);
     }
     let (passed, failed) = report::summary(&tally);
     println!("{passed} passed, {failed} failed");

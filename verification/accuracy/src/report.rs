@@ -59,35 +59,13 @@ fn table(tally: &Tally) -> String {
     text
 }
 
-fn places(tally: &Tally) -> String {
-    let mut text = String::new();
-    for bound in BOUNDS {
-        let Some((key, cell)) = worst(tally, bound.output) else { continue };
-        let between: u64 = of(tally, bound.output).map(|(_, cell)| cell.between).sum();
-        let inputs: String = cell.inputs.chars().take(400).collect();
-        writeln!(
-            text,
-            "- `{}`: {}, {}; error {:.1e}, κ {:.1e}; {between} points compared with neighbours. `{inputs}`",
-            bound.output, key.1, key.2, cell.error, cell.condition
-        )
-        .unwrap();
-    }
-    text
-}
-
-/// Replaces the text between two markers of a file.
-fn insert(path: &Path, name: &str, text: &str) {
-    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
+/// Replaces the table between two markers of a document.
+pub fn write_table(tally: &Tally, path: &Path) {
+    let (begin, end) = ("<!-- errors: begin -->\n", "<!-- errors: end -->");
     let old = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let (head, rest) = old.split_once(&begin).expect("markers");
-    let (_, tail) = rest.split_once(&end).expect("markers");
-    std::fs::write(path, format!("{head}{begin}{text}{end}{tail}")).unwrap();
-}
-
-/// Writes both tables into a document.
-pub fn write_tables(tally: &Tally, document: &Path) {
-    insert(document, "errors", &table(tally));
-    insert(document, "places", &places(tally));
+    let (head, rest) = old.split_once(begin).expect("markers");
+    let (_, tail) = rest.split_once(end).expect("markers");
+    std::fs::write(path, format!("{head}{begin}{}{end}{tail}", table(tally))).unwrap();
 }
 
 /// A row for each region.
