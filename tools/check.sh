@@ -23,7 +23,8 @@ rust() {
     for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
         step "formatting: $manifest" "$CARGO" fmt --all --manifest-path "$manifest" --check
     done
-    step 'lints: Rust' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+    step 'lints: library, tests, command line' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+    step 'lints: verification' "$CARGO" clippy $verification --workspace --all-targets -- -D warnings
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
