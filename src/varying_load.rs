@@ -6,8 +6,8 @@
 //! half-planes.
 //!
 //! - [`element`]: the laws N(U), S(N) and N(S) of a shape, tabulated independently of the load;
-//! - [`diagram`]: a step, in characteristic coordinates;
-//! - [`energy`]: the energy dissipated in it;
+//! - `diagram`: a step, in characteristic coordinates;
+//! - `energy`: the energy dissipated in it;
 //! - [`state`]: the caller's array that holds a diagram.
 
 pub mod element;
