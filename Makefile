@@ -73,7 +73,7 @@ demo: demo-dependencies all
 demo-dependencies:
 	@tools/dependencies.sh demo
 
-## parallel: contacts shared by OpenMP threads and a sweep shared by MPI ranks, and whether they give the same bits
+## parallel: check that OpenMP threads and MPI ranks give the same bits for any number of them
 parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
@@ -114,18 +114,18 @@ bench: all
 	@tools/dependencies.sh bench accuracy
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
-## figures: compute and draw the figures of the paper, and check its claims, into docs/
+## figures: compute the figures of the paper into docs/, draw them, and check its claims
 figures:
 	@tools/dependencies.sh figures
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package paper
 	verification/paper/draw.sh
 
-## host: build CalculiX with the law as one of its elements, and compare what it finds, into examples/ (some minutes)
+## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
 
-## stress: long and adversarial histories, for some minutes; ARGUMENTS="--only bank --seed 2 --scale 0.1"
+## stress: adversarial histories, for some minutes; ARGUMENTS="--only bank --seed 2 --scale 0.1"
 stress:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)

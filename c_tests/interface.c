@@ -47,8 +47,8 @@ static void test_parameters(void)
     CHECK_RELATIVE(contact.initial_stiffness, 8.0 * e.semi_axis_x / (2.0 * (2.0 - 0.45) * 2.0 * (1.0 + 0.45) / 2.1e11), 1e-13);
 }
 
-/* Both ends of the monotonic curve, by force and by displacement: at the onset of gross slip the stick zone is the flat, beyond
-   there is none; a rounding beyond mu N is mu N. */
+/* Both ends of the monotonic curve, by force and by displacement: at the onset of gross slip the stick zone is the flat, beyond it
+   has no width; a force above mu N by a rounding error counts as mu N. */
 static void test_ends_of_the_curve(void)
 {
     static const double zero[2] = { 0.0, -0.0 };
