@@ -8,9 +8,11 @@
 //! - [`element`]: the laws N(U), S(N) and N(S) of a shape, tabulated independently of the load;
 //! - `diagram`: a step, in characteristic coordinates;
 //! - `energy`: the energy dissipated in it;
-//! - [`state`]: the caller's array that holds a diagram.
+//! - [`state`]: the caller's array that holds a diagram;
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
 pub mod element;
+pub mod harmonic_force;
 pub mod state;
 
 pub(crate) mod diagram;

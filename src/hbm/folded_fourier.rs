@@ -126,9 +126,10 @@ impl<'a> FoldedFourier<'a> {
         continue_periodically(values, samples);
     }
 
-    /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`.
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`. Continues the values periodically.
     #[inline(always)]
-    pub fn sum(&mut self, values: &[f64], sums: &mut [f64]) {
+    pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
+        continue_periodically(values, self.samples);
         self.fold(values);
         let blocks = self.scratch.len() / SYMMETRIES;
         let (odd, even) = self.scratch.split_at_checked(2 * blocks).unwrap_or((&[], &[]));
@@ -295,7 +296,7 @@ mod tests {
                 }
                 for last in [2 * harmonics, 2 * orders] {
                     let mut sums = vec![f64::NAN; last + 1];
-                    fourier.sum(&values, &mut sums);
+                    fourier.sum(&mut values, &mut sums);
                     for (c, sum) in sums.iter().enumerate() {
                         let exact: f64 = (0..samples).map(|n| values[n] * function(c, n)).sum();
                         assert!((sum - exact).abs() < 1e-13, "{samples} {harmonics} {c}: {sum} {exact}");
