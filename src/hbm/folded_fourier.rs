@@ -112,7 +112,8 @@ impl<'a> FoldedFourier<'a> {
             let [odd_cosines, odd_sines, even_cosines, even_sines] = sums;
             if samples.is_multiple_of(2) {
                 let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
-                let (even_mirrored, odd_mirrored) = (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
+                let (even_mirrored, odd_mirrored) =
+                    (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
                 store(values, first, add(even, odd));
                 store(values, half + first, subtract(even, odd));
                 store_reversed(values, half.checked_sub(first), subtract(even_mirrored, odd_mirrored));
@@ -191,8 +192,7 @@ impl<'a> FoldedFourier<'a> {
                 *odd = [times(weights, add(o, om)), times(weights, subtract(o, om))];
                 *even = [times(weights, add(e, em)), times(weights, subtract(e, em))];
             } else {
-                let (cosines, sines) =
-                    (times(weights, add(here, mirrored)), times(weights, subtract(here, mirrored)));
+                let (cosines, sines) = (times(weights, add(here, mirrored)), times(weights, subtract(here, mirrored)));
                 (*odd, *even) = ([cosines, sines], [cosines, sines]);
             }
         }
@@ -285,7 +285,7 @@ mod tests {
                 fourier.take_scratch(&mut parts).unwrap();
                 let function = |c: usize, n: usize| {
                     let angle = angle(c.div_ceil(2), n, samples);
-                    if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+                    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
                 };
                 let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
                 let mut values = vec![f64::NAN; sample_length(samples)];

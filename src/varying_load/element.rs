@@ -131,7 +131,9 @@ impl Element {
         input: NormalInput,
         kind: u64,
     ) -> Result<Element, Error> {
-        in_range(&[friction_coefficient.max(f64::MIN_POSITIVE.sqrt())], &[])?;
+        if friction_coefficient > 0.0 {
+            in_range(&[friction_coefficient], &[])?;
+        }
         let w = shape.at_load(normal_force);
         let (approach, shift) = (shape.approach(w), shape.shift(w));
         for value in [approach, shift, normal_force] {

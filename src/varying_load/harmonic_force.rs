@@ -362,7 +362,14 @@ impl Workspace<'_> {
     }
 
     #[inline(always)]
-    fn write_force(&mut self, element: &Element, input: &[f64], motion: Motion, part: Option<&Part>, force: &mut [f64]) {
+    fn write_force(
+        &mut self,
+        element: &Element,
+        input: &[f64],
+        motion: Motion,
+        part: Option<&Part>,
+        force: &mut [f64],
+    ) {
         let Workspace { size, fourier, samples, tractions, .. } = self;
         let weight = 1.0 / samples.count as f64;
         let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
@@ -402,7 +409,8 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
+                assembly
+                    .write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
                 let columns = columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients));
                 assembly.add_products(sensitivity, index, symmetry, columns);
             } else {
@@ -413,7 +421,7 @@ impl Workspace<'_> {
             }
         }
         let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
-        if motion.open {
+        if motion.open && element.by_approach() {
             return;
         }
         if motion.constant || !element.by_approach() {

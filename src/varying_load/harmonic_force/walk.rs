@@ -44,7 +44,7 @@ impl Place {
             return Place::Centre;
         }
         let number = number as usize;
-        if number % 2 == 0 { Place::Cut(number / 2) } else { Place::End(number / 2) }
+        if number.is_multiple_of(2) { Place::Cut(number / 2) } else { Place::End(number / 2) }
     }
 }
 
@@ -169,7 +169,8 @@ impl Stack<'_> {
     #[inline(always)]
     fn pop(&mut self, x: f64, y: f64) -> bool {
         let inside = |&[xi, eta, ..]: &[f64; KNOT]| xi > x && eta < y;
-        let kept = self.knots.get(..self.depth).and_then(|knots| knots.iter().rposition(inside)).map_or(0, |last| last + 1);
+        let kept =
+            self.knots.get(..self.depth).and_then(|knots| knots.iter().rposition(inside)).map_or(0, |last| last + 1);
         let popped = kept < self.depth;
         self.depth = kept;
         popped
