@@ -8,10 +8,12 @@
 //! - [`element`]: the laws N(U), S(N) and N(S) of a shape, tabulated independently of the load;
 //! - `diagram`: a step, in characteristic coordinates;
 //! - `energy`: the energy dissipated in it;
-//! - [`state`]: the caller's array that holds a diagram.
+//! - [`state`]: the caller's array that holds a diagram;
+//! - [`tractions`]: pressure and shear traction of a diagram.
 
 pub mod element;
 pub mod state;
+pub mod tractions;
 
 pub(crate) mod diagram;
 pub(crate) mod energy;

@@ -143,10 +143,12 @@ impl Slip {
             let middle = outer_start + growth * 0.5 * (from + to);
             swept * (to - from).max(0.0) * (middle - s).max(0.0)
         };
-        let mut ends = [inner_end, inner_start, outer_start, outer_end];
-        ends.sort_by(f64::total_cmp);
-        ends.windows(2)
-            .map(|pair| if let &[low, high] = pair { integral_between(element, low, high, weight) } else { 0.0 })
+        // inner_end is the smallest and inner_start <= outer_start; outer_end may lie anywhere above inner_end.
+        let (low, high) = (outer_start.min(outer_end), outer_start.max(outer_end));
+        let (first, second) = (inner_start.min(low), inner_start.max(low));
+        [[inner_end, first], [first, second], [second, high]]
+            .iter()
+            .map(|[low, high]| integral_between(element, *low, *high, weight))
             .sum()
     }
 }

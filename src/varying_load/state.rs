@@ -7,6 +7,7 @@
 
 use crate::constant_load::contact::check_displacement;
 use crate::error::Error;
+use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 use crate::varying_load::diagram::{self, Knot, Response};
 use crate::varying_load::element::{Element, Normal};
@@ -79,15 +80,15 @@ pub fn force_error(state: &[f64]) -> f64 {
 const ERROR: usize = 7;
 
 /// A state whose header was checked.
-struct View<'a> {
-    displacement: f64,
+pub(crate) struct View<'a> {
+    pub displacement: f64,
     input: f64,
-    normal: Normal,
+    pub normal: Normal,
     error: f64,
-    knots: &'a [[f64; PER_KNOT]],
+    pub knots: &'a [[f64; PER_KNOT]],
 }
 
-fn view(state: &[f64]) -> View<'_> {
+pub(crate) fn view(state: &[f64]) -> View<'_> {
     let (&[tag, displacement, input, load, shift, load_slope, shift_slope, error], knots) =
         state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
     let used = Kind::ElementState.count(tag).unwrap_or(0);
@@ -122,8 +123,7 @@ pub(crate) fn update(
     [displacement, input]: [f64; 2],
     with_energy: bool,
 ) -> Result<Update, Error> {
-    check_displacement(displacement)?;
-    element.check_input(input)?;
+    check_step(element, &[displacement, input])?;
     let old = view(state);
     let closed = input > 0.0;
     let normal = if !closed {
@@ -206,7 +206,8 @@ pub(crate) fn update(
 impl Update {
     /// Writes the new state; `old` is the state that the step started from, of the same length, or `None` if it is in `new`
     /// already.
-    pub fn write(mut self, old: Option<&[f64]>, new: &mut [f64]) {
+    #[inline(always)]
+    pub fn write(self, old: Option<&[f64]>, new: &mut [f64]) {
         if let Some(old) = old {
             let used = HEADER + PER_KNOT * self.kept;
             if let (Some(new), Some(old)) = (new.get_mut(HEADER..used), old.get(HEADER..used)) {
@@ -214,49 +215,86 @@ impl Update {
             }
         }
         let Some((header, knots)) = new.split_first_chunk_mut::<HEADER>() else { return };
-        let knots = knots.as_chunks_mut::<PER_KNOT>().0;
-        let mut kept = self.kept;
-        let mut error = 0.0;
-        while kept + self.count > knots.len() {
-            let Some(change) = merge(self.friction_coefficient, knots, &mut kept, self.new[0]) else { return };
-            self.new.iter_mut().for_each(|knot| knot.force += change);
-            error += change.abs();
-        }
-        for (place, knot) in knots.iter_mut().skip(kept).zip(self.new.iter().take(self.count)) {
-            *place = (*knot).into();
-        }
-        let [_, rest @ ..] = header;
+        let mut polygon = Polygon::new(self.friction_coefficient, knots, self.kept);
+        self.new.into_iter().take(self.count).for_each(|knot| polygon.push(knot));
+        let [tag, rest @ ..] = header;
+        *tag = Kind::ElementState.tag(polygon.used);
         *rest = self.header;
-        rest[HEADER - 2] += error;
-        header[0] = Kind::ElementState.tag(kept + self.count);
+        rest[HEADER - 2] += polygon.error;
     }
 }
 
-/// Removes the knot among the first `kept`, the centre excepted, whose removal changes later forces least, and returns the change
-/// of the force beyond it.
-///
-/// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram.
-/// Tangential forces beyond change by the integral of the change of D over N. This also bounds the change of all later forces:
-/// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
-/// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
-/// direction.
-#[cold]
-fn merge(friction_coefficient: f64, knots: &mut [[f64; PER_KNOT]], kept: &mut usize, next: Knot) -> Option<f64> {
-    let knot = |index: usize| knots.get(index).filter(|_| index < *kept).copied().map_or(next, Knot::from);
-    let change_without = |index: usize| {
-        let (inner, outer) = (knot(index - 1), knot(index + 1));
-        let slope = outer.slope_from(&inner, friction_coefficient);
-        inner.force + slope * (outer.load - inner.load) - outer.force
-    };
-    let (index, change) = (1..*kept)
-        .map(|index| (index, change_without(index)))
-        .min_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;
-    knots.copy_within(index + 1..*kept, index);
-    *kept -= 1;
-    for [.., force] in knots.iter_mut().take(*kept).skip(index) {
-        *force += change;
+/// The knots of a state, while some are appended.
+struct Polygon<'a> {
+    friction_coefficient: f64,
+    knots: &'a mut [[f64; PER_KNOT]],
+    used: usize,
+    /// Change of the force beyond merged pieces.
+    change: f64,
+    /// Sum of the magnitudes of these changes.
+    error: f64,
+}
+
+impl Polygon<'_> {
+    fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
+        Polygon { friction_coefficient, knots: knots.as_chunks_mut().0, used, change: 0.0, error: 0.0 }
     }
-    Some(change)
+
+    /// Appends a knot, in place of another one if there is no room.
+    #[inline(always)]
+    fn push(&mut self, mut knot: Knot) {
+        knot.force += self.change;
+        if self.used == self.knots.len() {
+            let change = self.merge(knot);
+            self.change += change;
+            self.error += change.abs();
+            knot.force += change;
+        }
+        if let Some(place) = self.knots.get_mut(self.used) {
+            *place = knot.into();
+            self.used += 1;
+        }
+    }
+
+    /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
+    ///
+    /// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram.
+    /// Tangential forces beyond change by the integral of the change of D over N. This also bounds the change of all later forces:
+    /// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
+    /// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
+    /// direction.
+    #[cold]
+    #[inline(never)]
+    fn merge(&mut self, next: Knot) -> f64 {
+        let knot = |index: usize| {
+            if index < self.used { self.knots.get(index).copied().map_or(next, Knot::from) } else { next }
+        };
+        let change_without = |index: usize| {
+            let (inner, outer) = (knot(index - 1), knot(index + 1));
+            let slope = outer.slope_from(&inner, self.friction_coefficient);
+            inner.force + slope * (outer.load - inner.load) - outer.force
+        };
+        let (mut least, mut removed) = (f64::INFINITY, 0);
+        for index in 1..self.used {
+            let change = change_without(index);
+            if change.abs() < least.abs() {
+                (least, removed) = (change, index);
+            }
+        }
+        if removed == 0 {
+            return 0.0;
+        }
+        let outer = self.knots.get_mut(removed..self.used).unwrap_or(&mut []);
+        for index in 1..outer.len() {
+            if let Some(&[xi, eta, load, force]) = outer.get(index)
+                && let Some(place) = outer.get_mut(index - 1)
+            {
+                *place = [xi, eta, load, force + least];
+            }
+        }
+        self.used -= 1;
+        least
+    }
 }
 
 /// A step in place.
@@ -269,4 +307,103 @@ pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], wit
     let step = update.step;
     update.write(None, state);
     Ok(step)
+}
+
+/// Copies a state whose header was checked into one that may hold fewer pieces.
+pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
+    let (Some((header, target)), Some(source)) = (to.split_first_chunk_mut::<HEADER>(), from.first_chunk::<HEADER>())
+    else {
+        return;
+    };
+    let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
+    view(from).knots.iter().for_each(|knot| polygon.push((*knot).into()));
+    *header = *source;
+    header[0] = Kind::ElementState.tag(polygon.used);
+    header[ERROR] += polygon.error;
+}
+
+/// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
+/// process.
+///
+/// # Errors
+/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+pub fn state_check(state: &[f64]) -> Result<(), Error> {
+    check_header(state)?;
+    let View { displacement, input, normal, error, knots } = view(state);
+    let Normal { load, shift, load_slope, shift_slope } = normal;
+    let finite =
+        [displacement, input, load, shift, load_slope, shift_slope, error].iter().all(|value| is_finite(*value))
+            && knots.as_flattened().iter().all(|value| is_finite(*value));
+    if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
+        return Err(Error::BadState);
+    }
+    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => next_xi <= xi && next_eta >= eta && outer >= inner,
+        _ => true,
+    };
+    let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
+        return Err(Error::BadState);
+    };
+    let centred = xi == eta && *first == 0.0 && *last <= load;
+    // A frictionless or an open contact is its centre.
+    let complete = knots.len() == 1 || (*last == load && *last_xi <= displacement && *last_eta >= displacement);
+    if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
+}
+
+/// Pieces of the copy of a state that is discarded after a path.
+const PIECES_OF_COPY: usize = 256;
+
+/// Outputs of a path: `[T, N]`, tangents and energies, step after step; `None` is not computed.
+#[derive(Debug)]
+pub struct PathOutput<'a> {
+    /// Two doubles per step \[N\].
+    pub force: Option<&'a mut [f64]>,
+    /// Four doubles per step.
+    pub tangent: Option<&'a mut [f64]>,
+    /// One double per step \[J\].
+    pub dissipated: Option<&'a mut [f64]>,
+}
+
+/// Checks a path: two doubles per step.
+///
+/// # Errors
+/// `BadDisplacement` or `BadNormalForce`.
+pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
+    path.as_chunks().0.iter().try_for_each(|displacement| check_step(element, displacement))
+}
+
+/// # Errors
+/// `BadDisplacement` or `BadNormalForce`.
+#[inline(always)]
+pub(crate) fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
+    check_displacement(displacement)?;
+    element.check_input(input)
+}
+
+/// Advances a state through displacements, two doubles per step, that were checked.
+///
+/// # Errors
+/// `StateTooShort` or `BadState`, and those of [`check_path`]; the state is unchanged then.
+pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    check_header(state)?;
+    check_path(element, path)?;
+    let PathOutput { force, tangent, dissipated } = output;
+    let with_energy = dissipated.is_some();
+    let mut forces = force.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
+    let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
+    let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
+    for displacement in path.as_chunks().0 {
+        let step = advance(element, state, *displacement, with_energy)?;
+        forces.next().into_iter().for_each(|force| *force = step.force);
+        tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
+        energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
+    }
+    Ok(())
+}
+
+/// As [`path`], from a copy of the state that holds at most 256 pieces exactly.
+pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
+    let mut buffer = [0.0; state_length(PIECES_OF_COPY)];
+    copy(element, state, &mut buffer);
+    path(element, &mut buffer, steps, output)
 }

@@ -42,16 +42,14 @@ pub(crate) struct Position {
 impl Table {
     pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
 
-    /// The table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of each
-    /// quarter in powers of ρ, for the argument x (1 + ρ).
-    pub fn new(largest: f64, mut series_about: impl FnMut(f64) -> Series) -> Table {
-        let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
-        let mut table = Table { base, ..Table::EMPTY };
-        for (number, quarter) in (base..).zip(&mut table.quarters) {
+    /// Fills the table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of
+    /// each quarter in powers of ρ, for the argument x (1 + ρ).
+    pub fn fill(&mut self, largest: f64, series_about: &dyn Fn(f64) -> Series) {
+        self.base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
+        for (number, quarter) in (self.base..).zip(&mut self.quarters) {
             let [middle, half_length] = middle_and_half_length(number);
             *quarter = economized(&series_about(middle), middle, half_length);
         }
-        table
     }
 
     /// Position of an argument; `None` outside the table.
@@ -202,7 +200,8 @@ mod tests {
         for flat in FLATS {
             let shape = RoundedFlat::new(&parameters(flat)).unwrap();
             let largest = shape.shift(shape.at_load(150.0));
-            let table = Table::new(largest, |x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
+            let mut table = Table::EMPTY;
+            table.fill(largest, &|x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
             assert!(table.position(largest).is_some() && table.position(2.0 * largest).is_none());
             assert!(table.position(largest * 0.25_f64.powi(11)).is_none() && table.position(0.0).is_none());
             let mut x = largest;
@@ -230,7 +229,8 @@ mod tests {
             series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
             series
         };
-        let table = Table::new(1.9, cube);
+        let mut table = Table::EMPTY;
+        table.fill(1.9, &cube);
         for x in [1.75, 1.8, 1.875, 1.99] {
             let integral = table.integral_from_middle(x, table.position(x).unwrap());
             let exact = (x.powi(4) - 1.875_f64.powi(4)) / 32.0;
