@@ -204,37 +204,30 @@ impl Element {
         self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG
     }
 
-    /// The normal force at an approach \[m\]; 0 for an approach <= 0, an open contact.
-    ///
-    /// # Errors
-    /// `BadDisplacement` unless the approach is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
-    /// too wide for its length.
+    /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[must_use]
     #[inline(always)]
-    pub fn normal_force_at(&self, approach: f64) -> Result<NormalPoint, Error> {
-        self.check_approach(approach)?;
+    pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let position = if self.by_approach() { self.of_input.position(approach) } else { None };
         let (value, slope) = match position {
             Some(at) => self.of_input.value_and_slope(approach, at),
             None if approach <= 0.0 => (0.0, 0.0),
             None => self.load_of_approach_outside(approach),
         };
-        Ok(NormalPoint { value, slope })
+        NormalPoint { value, slope }
     }
 
-    /// The approach under a normal force \[N\]. Its derivative at 0 is infinite for a cylinder or an ellipse.
-    ///
-    /// # Errors
-    /// `BadNormalForce` unless the force is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too
-    /// wide for its length.
+    /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
+    /// cylinder or an ellipse.
+    #[must_use]
     #[inline(always)]
-    pub fn approach_under(&self, normal_force: f64) -> Result<NormalPoint, Error> {
-        self.check_normal_force(normal_force)?;
+    pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
-        let Some(at) = position else { return Ok(self.approach_outside(normal_force)) };
+        let Some(at) = position else { return self.approach_outside(normal_force) };
         let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
-        Ok(NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) })
+        NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
     }
 
     #[inline(never)]
@@ -285,12 +278,24 @@ impl Element {
         if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
     }
 
-    fn check_approach(&self, approach: f64) -> Result<(), Error> {
+    /// Checks a normal approach.
+    ///
+    /// # Errors
+    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
         if approach <= self.largest_approach { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
-    fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
+    /// Checks a normal force.
+    ///
+    /// # Errors
+    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         if !in_0_to(1e150, normal_force) {
             return Err(Error::BadNormalForce);
         }

@@ -65,8 +65,14 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
     }
-    match Kind::ElementState.count(state.first().copied().unwrap_or(0.0)) {
-        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state.len() => Ok(()),
+    check_tag(state.first().copied().unwrap_or(0.0), state.len())
+}
+
+/// Rejects the tag of what is no state of that length.
+#[inline(always)]
+pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
+    match Kind::ElementState.count(tag) {
+        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
         _ => Err(Error::BadState),
     }
 }
@@ -113,17 +119,9 @@ pub(crate) struct Update {
     friction_coefficient: f64,
 }
 
-/// Computes a step from a state whose header was checked.
-///
-/// # Errors
-/// `BadDisplacement` or `BadNormalForce` for a component that is not allowed.
-pub(crate) fn update(
-    element: &Element,
-    state: &[f64],
-    [displacement, input]: [f64; 2],
-    with_energy: bool,
-) -> Result<Update, Error> {
-    check_step(element, &[displacement, input])?;
+/// Computes a step to a displacement that was checked, from a state whose header was checked.
+#[inline(always)]
+pub(crate) fn update(element: &Element, state: &[f64], [displacement, input]: [f64; 2], with_energy: bool) -> Update {
     let old = view(state);
     let closed = input > 0.0;
     let normal = if !closed {
@@ -157,7 +155,7 @@ pub(crate) fn update(
             dissipated,
         };
         let new = [Knot::centre(displacement); 3];
-        return Ok(Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient });
+        return Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient };
     }
     let closing = old.normal.load <= 0.0;
     let touch: [f64; PER_KNOT];
@@ -200,7 +198,7 @@ pub(crate) fn update(
             count += 1;
         }
     }
-    Ok(Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count, friction_coefficient })
+    Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count, friction_coefficient }
 }
 
 impl Update {
@@ -303,10 +301,16 @@ impl Polygon<'_> {
 /// `StateTooShort`, `BadState`, `BadDisplacement` or `BadNormalForce`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
     check_header(state)?;
-    let update = update(element, state, displacement, with_energy)?;
+    check_step(element, &displacement)?;
+    Ok(advance_checked(element, state, displacement, with_energy))
+}
+
+/// A step in place, with a state and a displacement that were checked.
+fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
+    let update = update(element, state, displacement, with_energy);
     let step = update.step;
     update.write(None, state);
-    Ok(step)
+    step
 }
 
 /// Copies a state whose header was checked into one that may hold fewer pieces.
@@ -393,7 +397,7 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
     let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
     for displacement in path.as_chunks().0 {
-        let step = advance(element, state, *displacement, with_energy)?;
+        let step = advance_checked(element, state, *displacement, with_energy);
         forces.next().into_iter().for_each(|force| *force = step.force);
         tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
         energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
