@@ -44,6 +44,8 @@ pub struct Element {
     tag: u64,
     /// Set by the C interface.
     pub(crate) checksum: u64,
+    /// 1/(2 mu); 0 without friction.
+    pub(crate) per_two_mu: f64,
     /// The largest normal force and approach for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
@@ -84,11 +86,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\].
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
@@ -173,6 +170,7 @@ impl Element {
         }
         (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
         self.friction_coefficient = friction_coefficient;
+        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
         self.approach = approach;
@@ -400,6 +398,7 @@ const EMPTY: Element = Element {
     normal_input: 0,
     tag: 0,
     checksum: 0,
+    per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
     shift_per_approach: 0.0,

@@ -32,6 +32,7 @@ struct Slip {
 }
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
+#[inline(never)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;

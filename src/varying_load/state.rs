@@ -9,7 +9,7 @@ use crate::constant_load::contact::check_displacement;
 use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
-use crate::varying_load::diagram::{self, Knot, Response};
+use crate::varying_load::diagram::{self, Change, Knot, Response};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{self, Path};
 
@@ -111,11 +111,13 @@ pub(crate) fn view(state: &[f64]) -> View<'_> {
 /// A step, with what it changes in the state.
 pub(crate) struct Update {
     pub step: Step,
-    header: [f64; HEADER - 1],
-    /// Knots of the old state that stay, and the new ones.
-    kept: usize,
-    new: [Knot; 3],
-    count: usize,
+    displacement: f64,
+    input: f64,
+    normal: Normal,
+    /// Bound on the error of the force, without pieces that writing merges.
+    error: f64,
+    /// The change of the diagram.
+    change: Change,
     friction_coefficient: f64,
 }
 
@@ -123,82 +125,73 @@ pub(crate) struct Update {
 #[inline(always)]
 pub(crate) fn update(element: &Element, state: &[f64], [displacement, input]: [f64; 2], with_energy: bool) -> Update {
     let old = view(state);
-    let closed = input > 0.0;
-    let normal = if !closed {
-        Normal::OPEN
-    } else if input.to_bits() == old.input.to_bits() {
-        old.normal
-    } else {
-        element.normal(input)
-    };
-    let header = |error| {
-        let Normal { load, shift, load_slope, shift_slope } = normal;
-        [displacement, input, load, shift, load_slope, shift_slope, error]
-    };
     let friction_coefficient = element.friction_coefficient;
-    let without_friction = friction_coefficient == 0.0;
-    let crossing = |start: f64| {
-        // The straight path passes N = 0 at this displacement.
-        let fraction = if element.by_approach() { old.input / (old.input - input) } else { start };
-        old.displacement + fraction * (displacement - old.displacement)
-    };
-    if !closed || without_friction {
-        let dissipated = if with_energy && old.normal.load > 0.0 && !without_friction {
-            let path = Path { shift: [old.normal.shift, 0.0], displacement: crossing(1.0) - old.displacement };
-            energy::dissipated(element, old.knots, &path)
-        } else {
-            0.0
-        };
-        let step = Step {
-            force: [0.0, normal.load],
-            tangent: [0.0, 0.0, 0.0, if closed { normal.load_slope } else { 0.0 }],
-            dissipated,
-        };
-        let new = [Knot::centre(displacement); 3];
-        return Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient };
+    let stays_closed = input > 0.0 && old.normal.load > 0.0 && friction_coefficient > 0.0;
+    if !stays_closed {
+        return opening_or_closing(element, &old, [displacement, input], with_energy);
     }
-    let closing = old.normal.load <= 0.0;
-    let touch: [f64; PER_KNOT];
-    let touching: [[f64; PER_KNOT]; 1];
-    let (knots, start) = if closing {
-        let start = crossing(0.0);
-        touch = Knot::centre(start).into();
-        touching = [touch];
-        (&touching[..], start)
-    } else {
-        (old.knots, old.displacement)
+    let normal = if input.to_bits() == old.input.to_bits() { old.normal } else { element.normal(input) };
+    let (change, Response { force, by_displacement, by_input }) =
+        diagram::step(element, old.knots, displacement, &normal);
+    let mut step = Step {
+        force: [force, normal.load],
+        tangent: [by_displacement, 0.0, by_input, normal.load_slope],
+        dissipated: 0.0,
     };
-    let change = diagram::step(element, knots, displacement, &normal);
-    let Response { force, by_displacement, mut by_input } = change.response;
-    let mut by_displacement = by_displacement;
-    if closing && change.kept > 0 && element.by_approach() {
+    if with_energy {
+        let shift = [old.normal.shift, normal.shift];
+        let path = Path { shift, displacement: displacement - old.displacement };
+        step.dissipated = energy::dissipated(element, old.knots, &path);
+    }
+    let error = if change.kept == 0 { 0.0 } else { old.error };
+    Update { step, displacement, input, normal, error, change, friction_coefficient }
+}
+
+/// A step from or to an open contact, and every step without friction: the diagram starts anew.
+#[inline(never)]
+fn opening_or_closing(element: &Element, old: &View, [displacement, input]: [f64; 2], with_energy: bool) -> Update {
+    let friction_coefficient = element.friction_coefficient;
+    let (was_closed, closed) = (old.normal.load > 0.0, input > 0.0);
+    let normal = if closed { element.normal(input) } else { Normal::OPEN };
+    // The straight path passes N = 0 at this fraction; with the force as input at its open end.
+    let fraction = match (was_closed, closed) {
+        (true, false) | (false, true) if element.by_approach() => old.input / (old.input - input),
+        (true, false) => 1.0,
+        _ => 0.0,
+    };
+    let crossing = old.displacement + fraction * (displacement - old.displacement);
+    let mut step = Step {
+        force: [0.0, normal.load],
+        tangent: [0.0, 0.0, 0.0, if closed { normal.load_slope } else { 0.0 }],
+        dissipated: 0.0,
+    };
+    if !closed || friction_coefficient == 0.0 {
+        if with_energy && was_closed && friction_coefficient > 0.0 {
+            let path = Path { shift: [old.normal.shift, 0.0], displacement: crossing - old.displacement };
+            step.dissipated = energy::dissipated(element, old.knots, &path);
+        }
+        let change = Change { kept: 0, centre: None, cut: None, end: Knot::centre(displacement) };
+        return Update { step, displacement, input, normal, error: 0.0, change, friction_coefficient };
+    }
+    let centre = Knot::centre(crossing);
+    let touching = [centre.into()];
+    let (mut change, Response { force, mut by_displacement, mut by_input }) =
+        diagram::step(element, &touching, displacement, &normal);
+    if change.kept > 0 && element.by_approach() {
         // The start of the path moves with its end.
         let distance = input - old.input;
         by_input += by_displacement * (displacement - old.displacement) * -old.input / (distance * distance);
         by_displacement *= input / distance;
     }
-    let dissipated = if with_energy {
-        let path = Path {
-            shift: [if closing { 0.0 } else { old.normal.shift }, normal.shift],
-            displacement: displacement - start,
-        };
-        energy::dissipated(element, knots, &path)
-    } else {
-        0.0
-    };
-    let step =
-        Step { force: [force, normal.load], tangent: [by_displacement, 0.0, by_input, normal.load_slope], dissipated };
-    let first = change.centre.or((closing).then_some(Knot::centre(start)));
-    let kept = if first.is_some() { 0 } else { change.kept };
-    let mut new = [change.end; 3];
-    let mut count = 0;
-    for knot in [first, change.cut, Some(change.end)].into_iter().flatten() {
-        if let Some(place) = new.get_mut(count) {
-            *place = knot;
-            count += 1;
-        }
+    step.force[0] = force;
+    (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);
+    if with_energy {
+        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing };
+        step.dissipated = energy::dissipated(element, &touching, &path);
     }
-    Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count, friction_coefficient }
+    change.centre = change.centre.or(Some(centre));
+    change.kept = 0;
+    Update { step, displacement, input, normal, error: 0.0, change, friction_coefficient }
 }
 
 impl Update {
@@ -206,19 +199,26 @@ impl Update {
     /// already.
     #[inline(always)]
     pub fn write(self, old: Option<&[f64]>, new: &mut [f64]) {
+        let Change { kept, centre, cut, end } = self.change;
         if let Some(old) = old {
-            let used = HEADER + PER_KNOT * self.kept;
+            let used = HEADER + PER_KNOT * kept;
             if let (Some(new), Some(old)) = (new.get_mut(HEADER..used), old.get(HEADER..used)) {
                 new.copy_from_slice(old);
             }
         }
         let Some((header, knots)) = new.split_first_chunk_mut::<HEADER>() else { return };
-        let mut polygon = Polygon::new(self.friction_coefficient, knots, self.kept);
-        self.new.into_iter().take(self.count).for_each(|knot| polygon.push(knot));
-        let [tag, rest @ ..] = header;
-        *tag = Kind::ElementState.tag(polygon.used);
-        *rest = self.header;
-        rest[HEADER - 2] += polygon.error;
+        let mut polygon = Polygon::new(self.friction_coefficient, knots, kept);
+        if let Some(centre) = centre {
+            polygon.push(centre);
+        }
+        if let Some(cut) = cut {
+            polygon.push(cut);
+        }
+        polygon.push(end);
+        let Normal { load, shift, load_slope, shift_slope } = self.normal;
+        let tag = Kind::ElementState.tag(polygon.used);
+        let error = self.error + polygon.error;
+        *header = [tag, self.displacement, self.input, load, shift, load_slope, shift_slope, error];
     }
 }
 
@@ -240,7 +240,20 @@ impl Polygon<'_> {
 
     /// Appends a knot, in place of another one if there is no room.
     #[inline(always)]
-    fn push(&mut self, mut knot: Knot) {
+    fn push(&mut self, knot: Knot) {
+        match self.knots.get_mut(self.used) {
+            Some(place) if self.error == 0.0 => {
+                *place = knot.into();
+                self.used += 1;
+            }
+            _ => self.push_merged(knot),
+        }
+    }
+
+    /// Appends a knot where pieces were merged or must be.
+    #[cold]
+    #[inline(never)]
+    fn push_merged(&mut self, mut knot: Knot) {
         knot.force += self.change;
         if self.used == self.knots.len() {
             let change = self.merge(knot);
@@ -261,8 +274,6 @@ impl Polygon<'_> {
     /// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
     /// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
     /// direction.
-    #[cold]
-    #[inline(never)]
     fn merge(&mut self, next: Knot) -> f64 {
         let knot = |index: usize| {
             if index < self.used { self.knots.get(index).copied().map_or(next, Knot::from) } else { next }
