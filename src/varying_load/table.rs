@@ -58,7 +58,7 @@ impl Table {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
         let mantissa = |bits: u64, kept: u32| f64::from_bits((bits & ((1 << kept) - 1)) | EXPONENT_OF_1);
-        let t = POSITION * (mantissa(bits, SHIFT) - 1.0) - 1.0;
+        let t = POSITION * mantissa(bits, SHIFT) - (POSITION + 1.0);
         (index < PIECES).then_some(Position { index, t, scaled: POSITION * mantissa(bits, 52) })
     }
 
