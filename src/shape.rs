@@ -54,6 +54,13 @@ pub trait Shape {
     /// The size w at a tangential shift \[m\].
     fn at_shift(&self, shift: f64) -> f64;
 
+    /// The largest size for which the laws hold.
+    fn largest_size(&self) -> f64;
+
+    /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry; 0 outside the contact. For an ellipse on
+    /// the x axis.
+    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64;
+
     /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ
     /// for the argument `x (1 + ρ)`.
     fn series(&self, w: f64, relation: Relation) -> Series;

@@ -9,11 +9,13 @@
 //! - `diagram`: a step, in characteristic coordinates;
 //! - `energy`: the energy dissipated in it;
 //! - [`state`]: the caller's array that holds a diagram;
-//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion;
+//! - [`tractions`]: pressure and shear traction of a diagram.
 
 pub mod element;
 pub mod harmonic_force;
 pub mod state;
+pub mod tractions;
 
 pub(crate) mod diagram;
 pub(crate) mod energy;

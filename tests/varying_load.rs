@@ -1,5 +1,6 @@
 //! The law under a varying normal force: reference histories, and the properties that it must have.
 
+mod common;
 #[path = "golden/table.rs"]
 mod table;
 
@@ -7,7 +8,8 @@ use microslip::constant_load::masing;
 use microslip::constant_load::state as constant_state;
 use microslip::varying_load::element::{Element, NormalInput};
 use microslip::varying_load::state::{Step, advance, force_error, state_init, state_length};
-use microslip::{Contact, EllipticParameters, Material, Parameters};
+use microslip::varying_load::tractions::tractions;
+use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use proptest::prelude::*;
 use table::{Row, geometry, table};
 
@@ -56,23 +58,29 @@ impl History<'_> {
     }
 }
 
+/// The element of a row of a table, under the given largest normal force.
+fn element_of_row(row: &Row, normal_force: f64, input: NormalInput) -> Element {
+    let body = |e, nu| Material { young_modulus: row[e], poisson_ratio: row[nu] };
+    let material = [body("E1", "nu1"), body("E2", "nu2")];
+    let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
+    let element = if row["a"].is_nan() {
+        let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
+        let ellipse = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
+        Element::elliptic(&ellipse, input)
+    } else {
+        let flat = Parameters { normal_force, friction_coefficient, material, ..geometry(row) };
+        Element::rounded_flat(&flat, input)
+    };
+    element.unwrap()
+}
+
 /// The element of a history of the reference table, its normal input, and the largest normal force and displacement.
 fn element_of(history: &[Row]) -> (Element, &'static str, [f64; 2]) {
     let first = &history[0];
     let largest = ["N", "delta"].map(|name| history.iter().map(|row| row[name].abs()).fold(0.0, f64::max));
-    let body = |e, nu| Material { young_modulus: first[e], poisson_ratio: first[nu] };
-    let (material, friction_coefficient) = ([body("E1", "nu1"), body("E2", "nu2")], first["mu"]);
     let (input, column) =
         if first.text("control") == "N" { (NormalInput::Force, "N") } else { (NormalInput::Approach, "u_n") };
-    let element = if first["a"].is_nan() {
-        let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| first[name]);
-        let ellipse = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
-        Element::elliptic(&ellipse, input)
-    } else {
-        let flat = Parameters { normal_force: largest[0], friction_coefficient, material, ..geometry(first) };
-        Element::rounded_flat(&flat, input)
-    };
-    (element.unwrap(), column, largest)
+    (element_of_row(first, largest[0], input), column, largest)
 }
 
 #[test]
@@ -224,4 +232,113 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn loads_beyond_the_tables_are_exact_up_to_the_largest_half_width() {
+    let small = Parameters { normal_force: 800.0, ..parameters(6e-5) };
+    let large = Parameters { normal_force: 800.0 * 64.0, ..small };
+    for input in [NormalInput::Approach, NormalInput::Force] {
+        let [one, other] = [small, large].map(|parameters| Element::rounded_flat(&parameters, input).unwrap());
+        let (mut beyond, mut within) = (History::new(&one, 64), History::new(&other, 64));
+        for (u, load) in [(0.1, 0.2), (0.5, 40.0), (0.4, 60.0), (0.45, 1e-3), (0.4, 64.0)] {
+            let load = load * 800.0;
+            let w = if input == NormalInput::Force { load } else { other.approach_under(load).value };
+            let u = u * 4e4 / other.tangential_stiffness;
+            let (step, expected) = (beyond.step(u, w), within.step(u, w));
+            assert!((step.force[0] - expected.force[0]).abs() < 1e-14 * 0.5 * load.max(800.0), "{step:?} {expected:?}");
+            assert!((step.force[1] / expected.force[1] - 1.0).abs() < 1e-14);
+        }
+        // The approach of a line contact has a maximum near b = 2L.
+        let mut state = beyond.state.clone();
+        let too_large = if input == NormalInput::Force { 1e12 } else { 1.0 };
+        assert_eq!(advance(&one, &mut state, [0.0, too_large], true), Err(Error::LengthTooShort));
+        assert_eq!(one.check_approach(1.0), Err(Error::LengthTooShort));
+        assert_eq!(one.check_normal_force(1e12), Err(Error::LengthTooShort));
+        assert_eq!(state, beyond.state);
+    }
+}
+
+#[test]
+fn tractions_satisfy_coulomb_and_integrate_to_the_forces() {
+    for element in &elements(NormalInput::Force)[..3] {
+        let unit = 400.0 / element.tangential_stiffness;
+        let mut memory = History::new(element, 64);
+        for (u, w) in [(0.1, 0.4), (0.3, 0.9), (0.7, 0.8), (0.5, 1.1), (-0.2, 0.9), (0.3, 1.0)] {
+            let step = memory.step(u * unit, w * 800.0);
+            // The midpoint rule in the angle, x = b cos: its error is that of the logarithms at the edges of the pieces.
+            let (n, half_width) = (20_000, element.half_width_under(w * 800.0));
+            let angles: Vec<f64> = (0..n).map(|i| std::f64::consts::PI * (f64::from(i) + 0.5) / f64::from(n)).collect();
+            let x: Vec<f64> = angles.iter().map(|angle| half_width * angle.cos()).collect();
+            let (mut pressure, mut shear) = (vec![f64::NAN; x.len()], vec![f64::NAN; x.len()]);
+            tractions(element, &memory.state, &x, Some(&mut pressure), Some(&mut shear)).unwrap();
+            let integral = |values: &[f64]| -> f64 {
+                let sum: f64 = values.iter().zip(&angles).map(|(value, angle)| value * angle.sin()).sum();
+                sum * half_width * std::f64::consts::PI / f64::from(n) * 20e-3
+            };
+            assert!((integral(&pressure) - step.force[1]).abs() < 1e-6 * 800.0);
+            assert!((integral(&shear) - step.force[0]).abs() < 1e-6 * 400.0);
+            for (shear, pressure) in shear.iter().zip(&pressure) {
+                assert!(shear.abs() <= 0.5 * pressure + 1e-13 * pressure.max(1e8));
+            }
+        }
+        let mut outside = [1.0];
+        tractions(element, &memory.state, &[2.0 * element.half_width], None, Some(&mut outside)).unwrap();
+        assert_eq!(outside, [0.0]);
+    }
+}
+
+#[test]
+fn tractions_at_constant_load_are_those_of_the_law_of_a_constant_load() {
+    let contacts = [0.0, 6e-5, 5e-4].map(|a| Contact::rounded_flat(&parameters(a)).unwrap());
+    let contacts = contacts.into_iter().chain([Contact::elliptic(&SPHERE).unwrap()]);
+    for (element, contact) in elements(NormalInput::Force).iter().zip(contacts) {
+        let mut memory = History::new(element, 64);
+        memory.step(0.0, 800.0);
+        let mut state = common::unloaded(64);
+        for u in [0.8, -0.3, 0.2, -0.1] {
+            memory.step(u * contact.slip_displacement, 800.0);
+            common::advance(&contact, &mut state, u * contact.slip_displacement);
+        }
+        let x: Vec<f64> = (0..200).map(|i| contact.half_width * (f64::from(i) / 199.0 * 2.2 - 1.1)).collect();
+        let (mut pressure, mut shear, mut expected) = (vec![0.0; 200], vec![0.0; 200], vec![0.0; 200]);
+        tractions(element, &memory.state, &x, Some(&mut pressure), Some(&mut shear)).unwrap();
+        masing::shear_tractions(&contact, &state, &x, &mut expected).unwrap();
+        let scale = contact.pressure(0.0);
+        for ((x, pressure), (shear, expected)) in x.iter().zip(pressure).zip(shear.iter().zip(expected)) {
+            assert!((pressure - contact.pressure(*x)).abs() < 1e-13 * scale);
+            // The edges of the stick zones have errors of a few units of rounding; beside them the tractions have a vertical tangent.
+            assert!((shear - expected).abs() < 1e-9 * scale, "{x} {shear} {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_normal_law_of_the_reference_table_is_reproduced() {
+    // Errors relative to the present values: roundings of the tables' coefficients, and of the argument.
+    let mut worst = [0.0_f64; 5];
+    let rows = table("normal_law");
+    for row in &rows {
+        let geometry = |row: &Row| ["R", "L", "semi_x"].map(|name| row.text(name));
+        let of_geometry = rows.iter().filter(|other| geometry(other) == geometry(row));
+        let largest = of_geometry.map(|row| row["N"]).fold(0.0, f64::max);
+        for input in [NormalInput::Approach, NormalInput::Force] {
+            let element = element_of_row(row, largest, input);
+            let (load, approach) = (row["N"], row["u_n"]);
+            let (at_load, at_approach) = (element.approach_under(load), element.normal_force_at(approach));
+            // The given one is an exact double.
+            let compare = [
+                (at_load.value, approach),
+                (at_approach.value, load),
+                (at_load.slope, 1.0 / row["dN_dun"]),
+                (at_approach.slope, row["dN_dun"]),
+                (element.half_width_under(load), row["size"]),
+            ];
+            for (worst, (computed, expected)) in worst.iter_mut().zip(compare) {
+                *worst = worst.max((computed / expected - 1.0).abs());
+            }
+        }
+    }
+    let bounds = [4e-15, 4e-15, 1e-13, 1e-13, 4e-15];
+    assert!(worst.iter().zip(bounds).all(|(worst, bound)| *worst <= bound), "{worst:?}");
 }

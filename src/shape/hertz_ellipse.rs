@@ -28,6 +28,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 #[derive(Debug, Clone, Copy)]
 pub struct HertzEllipse {
     semi_axis_x: f64,
+    semi_axis_y: f64,
     normal_force: f64,
     /// C_n and C_t \[m/N\].
     normal: f64,
@@ -37,7 +38,7 @@ pub struct HertzEllipse {
 impl HertzEllipse {
     /// No shape, for memory of another kind.
     pub(crate) const EMPTY: HertzEllipse =
-        HertzEllipse { semi_axis_x: 0.0, normal_force: 0.0, normal: 0.0, tangential: 0.0 };
+        HertzEllipse { semi_axis_x: 0.0, semi_axis_y: 0.0, normal_force: 0.0, normal: 0.0, tangential: 0.0 };
 
     /// S/U = C_t/C_n, the same for all sizes.
     pub(crate) fn tangential_ratio(&self) -> f64 {
@@ -66,6 +67,7 @@ impl HertzEllipse {
         };
         Ok(HertzEllipse {
             semi_axis_x,
+            semi_axis_y,
             normal_force,
             normal: sum(&|nu| (1.0 - nu) * all),
             tangential: sum(&|nu| (1.0 - nu) * all + nu * cosine),
@@ -103,11 +105,11 @@ impl Shape for HertzEllipse {
     }
 
     fn normal_compliance(&self, w: f64) -> f64 {
-        self.normal * (self.semi_axis_x / w)
+        self.normal * (self.semi_axis_x / w.max(TINY))
     }
 
     fn tangential_compliance(&self, w: f64) -> f64 {
-        self.tangential * (self.semi_axis_x / w)
+        self.tangential * (self.semi_axis_x / w.max(TINY))
     }
 
     fn at_load(&self, load: f64) -> f64 {
@@ -120,6 +122,23 @@ impl Shape for HertzEllipse {
 
     fn at_shift(&self, shift: f64) -> f64 {
         self.semi_axis_x * (shift / (1.5 * self.tangential * self.normal_force)).sqrt()
+    }
+
+    /// Loads up to 2^498 N, approaches and shifts up to 2^498 m.
+    fn largest_size(&self) -> f64 {
+        let largest = f64::from_bits((1023 + 498) << 52);
+        let compliance = 1.5 * self.normal.max(self.tangential);
+        let by_load = (largest / self.normal_force).cbrt();
+        self.semi_axis_x * by_load.min((largest / (compliance * self.normal_force)).sqrt())
+    }
+
+    /// Differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, which is the pressure of the size s.
+    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
+        let height = |s: f64| ((s - x.abs()) * (s + x.abs())).max(0.0).sqrt();
+        let (inner, outer) = (height(from), height(to));
+        let difference = if inner > 0.0 { (to - from) * (to + from) / (outer + inner).max(TINY) } else { outer };
+        let area = self.semi_axis_x.max(TINY) * self.semi_axis_y.max(TINY);
+        1.5 / PI * (self.normal_force / area) * (difference / self.semi_axis_x.max(TINY))
     }
 
     /// Binomial series: N scales as the powers 3/2 of U and of S.

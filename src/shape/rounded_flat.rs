@@ -17,8 +17,12 @@ use crate::error::Error;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
-use crate::shape::{ORDER, Relation, Series, Shape, integrate_term, product_term, quotient_term};
+use crate::shape::stick_zone::SurfacePoint;
+use crate::shape::{ORDER, Relation, Series, Shape, integrate_term, product_term, quotient_term, tractions};
 use core::f64::consts::{LN_2, PI};
+
+/// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
+const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 
 /// A flat with rounded edges pressed on a flat.
 #[derive(Debug, Clone, Copy)]
@@ -178,6 +182,29 @@ impl Shape for RoundedFlat {
 
     fn at_shift(&self, shift: f64) -> f64 {
         self.size_at(shift / (self.load_scale * self.compliance_scale), self.tangential_constant)
+    }
+
+    /// The half-width at which the smaller one of both K is 1/16; both vanish near s = 2L. Negative if that is less than a.
+    fn largest_size(&self) -> f64 {
+        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
+        let half_width = 2.0 * self.length * (constant - SMALLEST_COMPLIANCE).exp();
+        let (less, more) = (half_width - self.flat, half_width + self.flat);
+        less.signum() * (less.abs() * more).sqrt()
+    }
+
+    /// Eq. 17 between two sizes: `dp = E* ψ w dw/(πR sqrt(s² - x²))`, with lengths in units of the larger half-width.
+    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
+        let half_width = Shape::half_width(self, to);
+        let unit = half_width.max(TINY);
+        let x = x.abs().min(2.0 * half_width);
+        let point = SurfacePoint {
+            x: x / unit,
+            past_flat: (x - self.flat.min(x + unit)) / unit,
+            from_edge: (half_width - x) / unit,
+        };
+        let squares = ((to - from) / unit) * ((to + from) / unit);
+        let integral = tractions::pressure_between(self.flat / unit, from / unit, to / unit, squares, &point);
+        4.0 / PI * (self.load_scale / self.length) * unit * integral
     }
 
     /// From the differential equations, with ' the derivative with respect to ρ and `dN = 4 w ψ dw` times the load scale:

@@ -1,7 +1,7 @@
 //! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all
 //! contact points of a geometry.
 
-use crate::constant_load::contact::check_moduli;
+use crate::constant_load::contact::{check_displacement, check_moduli};
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
 use crate::parameters::{EllipticParameters, Pair, Parameters};
@@ -14,9 +14,9 @@ use crate::varying_load::table::{PIECES, Table};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NormalInput {
     /// The normal approach; not positive if the contact is open.
-    Approach,
+    Approach = 0,
     /// The normal force.
-    Force,
+    Force = 1,
 }
 
 /// An initialised element: plain data of fixed size that may be copied, stored and sent.
@@ -37,7 +37,18 @@ pub struct Element {
     pub normal_stiffness: f64,
     /// dT/d(displacement) of a fully stuck contact, x direction \[N/m\].
     pub tangential_stiffness: f64,
+    /// Tangential directions: 1.
+    pub directions: i32,
+    /// [`NormalInput`] as an integer.
+    pub normal_input: i32,
     tag: u64,
+    /// Set by the C interface.
+    pub(crate) checksum: u64,
+    /// 1/(2 mu); 0 without friction.
+    pub(crate) per_two_mu: f64,
+    /// The largest normal force and approach for which the laws hold.
+    largest_load: f64,
+    largest_approach: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
     shift_per_load: f64,
@@ -55,6 +66,15 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 
+/// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalPoint {
+    /// The normal force \[N\] at a given approach, the approach \[m\] at a given force.
+    pub value: f64,
+    /// The normal stiffness \[N/m\] or compliance \[m/N\].
+    pub slope: f64,
+}
+
 /// The normal state of a contact that is closed: load, tangential shift, and their derivatives with respect to the input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Normal {
@@ -66,11 +86,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\].
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
@@ -79,6 +94,24 @@ impl Element {
     /// # Errors
     /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, input: NormalInput) -> Result<Element, Error> {
+        let mut element = EMPTY;
+        element.init_rounded_flat(parameters, input).map(|()| element)
+    }
+
+    /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
+    ///
+    /// # Errors
+    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    pub fn elliptic(parameters: &EllipticParameters, input: NormalInput) -> Result<Element, Error> {
+        let mut element = EMPTY;
+        element.init_elliptic(parameters, input).map(|()| element)
+    }
+
+    /// Initialises an element in place; unchanged on an error.
+    ///
+    /// # Errors
+    /// As for [`Element::rounded_flat`].
+    pub(crate) fn init_rounded_flat(&mut self, parameters: &Parameters, input: NormalInput) -> Result<(), Error> {
         parameters.check()?;
         let flat_half_width = parameters.flat_half_width.abs();
         let parameters = &Parameters { flat_half_width, ..*parameters };
@@ -88,23 +121,22 @@ impl Element {
             return Err(Error::BadNormalForce);
         }
         let flat = RoundedFlat::new(parameters)?;
-        in_range(&[normal_force], &[length, flat.half_width()])?;
         let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        let element = Element {
-            composite_modulus,
-            shift_per_approach: 1.0,
-            shift_per_load: flat.shift_less_approach(),
-            flat,
-            ..EMPTY
-        };
-        element.with_tables(&flat, normal_force, friction_coefficient, input, 0)
+        in_range(&[normal_force], &[length, flat.half_width()])?;
+        // The load at b = 2L.
+        in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
+        self.init(&flat, [normal_force, friction_coefficient], input, 0)?;
+        self.composite_modulus = composite_modulus;
+        (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
+        (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
+        Ok(())
     }
 
-    /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
+    /// Initialises an element in place; unchanged on an error.
     ///
     /// # Errors
-    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
-    pub fn elliptic(parameters: &EllipticParameters, input: NormalInput) -> Result<Element, Error> {
+    /// As for [`Element::elliptic`].
+    pub(crate) fn init_elliptic(&mut self, parameters: &EllipticParameters, input: NormalInput) -> Result<(), Error> {
         parameters.check()?;
         check_moduli(&parameters.material)?;
         let EllipticParameters { normal_force, friction_coefficient, .. } = *parameters;
@@ -112,57 +144,105 @@ impl Element {
             return Err(Error::BadNormalForce);
         }
         let ellipse = HertzEllipse::new(parameters)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        let element = Element {
-            composite_modulus,
-            shift_per_approach: ellipse.tangential_ratio(),
-            shift_per_load: 0.0,
-            ellipse,
-            ..EMPTY
-        };
-        element.with_tables(&ellipse, normal_force, friction_coefficient, input, ELLIPTIC)
+        self.init(&ellipse, [normal_force, friction_coefficient], input, ELLIPTIC)?;
+        self.composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
+        (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
+        Ok(())
     }
 
-    fn with_tables(
-        self,
-        shape: &impl Shape,
-        normal_force: f64,
-        friction_coefficient: f64,
+    /// Checks all ranges, then writes what depends on the shape only through its trait.
+    fn init(
+        &mut self,
+        shape: &dyn Shape,
+        [normal_force, friction_coefficient]: [f64; 2],
         input: NormalInput,
         kind: u64,
-    ) -> Result<Element, Error> {
+    ) -> Result<(), Error> {
         if friction_coefficient > 0.0 {
             in_range(&[friction_coefficient], &[])?;
         }
-        let w = shape.at_load(normal_force);
+        let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
+        if w >= largest {
+            return Err(Error::LengthTooShort);
+        }
         let (approach, shift) = (shape.approach(w), shape.shift(w));
         for value in [approach, shift, normal_force] {
             in_range(&[value], &[])?;
         }
-        let load_of_shift = Table::new(shift, |x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
-        let of_input = match input {
+        (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.friction_coefficient = friction_coefficient;
+        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
+        self.normal_force = normal_force;
+        self.half_width = shape.half_width(w);
+        self.approach = approach;
+        self.normal_stiffness = 1.0 / shape.normal_compliance(w);
+        self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
+        (self.directions, self.normal_input) = (1, input as i32);
+        self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        self.checksum = 0;
+        let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
+        self.load_of_shift.fill(shift, &load_of_shift);
+        match input {
             NormalInput::Approach => {
-                Table::new(approach, |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach))
+                let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
+                self.of_input.fill(approach, &load_of_approach);
             }
-            NormalInput::Force => Table::new(normal_force, |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad)),
-        };
-        let mut potential = [0.0; PIECES];
-        for (value, middle) in potential.iter_mut().zip(load_of_shift.middles()) {
+            NormalInput::Force => {
+                let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
+                self.of_input.fill(normal_force, &shift_of_load);
+            }
+        }
+        for (value, middle) in self.potential.iter_mut().zip(self.load_of_shift.middles()) {
             *value = shape.potential(shape.at_shift(middle));
         }
-        Ok(Element {
-            friction_coefficient,
-            normal_force,
-            half_width: shape.half_width(w),
-            approach,
-            normal_stiffness: 1.0 / shape.normal_compliance(w),
-            tangential_stiffness: 1.0 / shape.tangential_compliance(w),
-            tag: TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 },
-            of_input,
-            load_of_shift,
-            potential,
-            ..self
-        })
+        Ok(())
+    }
+
+    /// Whether the tag is that of an element initialised by this version.
+    pub(crate) fn is_initialised(&self) -> bool {
+        self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG
+    }
+
+    /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[must_use]
+    #[inline(always)]
+    pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
+        let position = if self.by_approach() { self.of_input.position(approach) } else { None };
+        let (value, slope) = match position {
+            Some(at) => self.of_input.value_and_slope(approach, at),
+            None if approach <= 0.0 => (0.0, 0.0),
+            None => self.load_of_approach_outside(approach),
+        };
+        NormalPoint { value, slope }
+    }
+
+    /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
+    /// cylinder or an ellipse.
+    #[must_use]
+    #[inline(always)]
+    pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
+        let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
+        let Some(at) = position else { return self.approach_outside(normal_force) };
+        let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
+        let per_approach = 1.0 / self.shift_per_approach;
+        let value = per_approach * (shift - self.shift_per_load * normal_force);
+        NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
+    }
+
+    #[inline(never)]
+    fn approach_outside(&self, normal_force: f64) -> NormalPoint {
+        let shape = self.shape();
+        let w = shape.at_load(normal_force);
+        let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
+        NormalPoint { value: shape.approach(w), slope }
+    }
+
+    /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
+    #[must_use]
+    pub fn half_width_under(&self, normal_force: f64) -> f64 {
+        let shape = self.shape();
+        if normal_force > 0.0 { shape.half_width(shape.at_load(normal_force)) } else { 0.0 }
     }
 
     /// The tangential shift S \[m\] under a normal force \[N\].
@@ -191,15 +271,35 @@ impl Element {
     /// Checks a normal component.
     ///
     /// # Errors
-    /// `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite.
+    /// `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
+    /// `LengthTooShort` if the contact would become too wide for its length.
+    #[inline(always)]
     pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
-        if self.by_approach() {
-            crate::constant_load::contact::check_displacement(input)
-        } else if in_0_to(1e150, input) {
-            Ok(())
-        } else {
-            Err(Error::BadNormalForce)
+        if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
+    }
+
+    /// Checks a normal approach.
+    ///
+    /// # Errors
+    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
+        check_displacement(approach)?;
+        if approach <= self.largest_approach { Ok(()) } else { Err(Error::LengthTooShort) }
+    }
+
+    /// Checks a normal force.
+    ///
+    /// # Errors
+    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
+        if !in_0_to(1e150, normal_force) {
+            return Err(Error::BadNormalForce);
         }
+        if normal_force <= self.largest_load { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
     /// The normal state at an input > 0.
@@ -224,14 +324,19 @@ impl Element {
     /// N(U) or S(N) and its slope, from the shape.
     #[inline(never)]
     fn outside(&self, input: f64) -> (f64, f64) {
-        let shape = self.shape();
         if self.by_approach() {
-            let w = shape.at_approach(input);
-            (shape.load(w), 1.0 / shape.normal_compliance(w))
-        } else {
-            let w = shape.at_load(input);
-            (shape.shift(w), shape.tangential_compliance(w))
+            return self.load_of_approach_outside(input);
         }
+        let shape = self.shape();
+        let w = shape.at_load(input);
+        (shape.shift(w), shape.tangential_compliance(w))
+    }
+
+    #[inline(never)]
+    fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
+        let shape = self.shape();
+        let w = shape.at_approach(approach);
+        (shape.load(w), 1.0 / shape.normal_compliance(w))
     }
 
     /// N and 1/K_t at a shift S >= 0.
@@ -256,29 +361,36 @@ impl Element {
         if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
     }
 
-    /// N, N', N'' and M at a shift S >= 0.
-    pub(crate) fn potential_at_shift(&self, shift: f64) -> [f64; 4] {
+    /// N'' at a shift S > 0.
+    #[inline(always)]
+    pub(crate) fn curvature_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
-            Some(at) => {
-                let (load, slope) = self.load_of_shift.value_and_slope(shift, at);
-                let (_, curvature) = self.load_of_shift.slope_and_curvature(at);
-                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
-                let potential = middle + self.load_of_shift.integral_from_middle(shift, at);
-                [load, slope, curvature / shift, potential]
-            }
-            None => self.potential_outside(shift),
+            Some(at) => self.load_of_shift.curvature(shift, at),
+            None => self.curvature_outside(shift),
         }
     }
 
     #[inline(never)]
-    fn potential_outside(&self, shift: f64) -> [f64; 4] {
+    fn curvature_outside(&self, shift: f64) -> f64 {
         let shape = self.shape();
         let w = shape.at_shift(shift);
-        if w <= 0.0 {
-            return [0.0, self.touching_stiffness(), 0.0, 0.0];
+        let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
+        if w > 0.0 { 2.0 * curvature / (shift * shift) } else { 0.0 }
+    }
+
+    /// M at a shift S >= 0.
+    pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
+        match self.load_of_shift.position(shift) {
+            Some(at) => {
+                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
+                middle + self.load_of_shift.integral_from_middle(shift, at)
+            }
+            None => {
+                let shape = self.shape();
+                let w = shape.at_shift(shift);
+                if w > 0.0 { shape.potential(w) } else { 0.0 }
+            }
         }
-        let [load, slope, curvature, ..] = shape.series(w, Relation::LoadOfShift);
-        [load, slope / shift, 2.0 * curvature / (shift * shift), shape.potential(w)]
     }
 }
 
@@ -291,7 +403,13 @@ const EMPTY: Element = Element {
     approach: 0.0,
     normal_stiffness: 0.0,
     tangential_stiffness: 0.0,
+    directions: 0,
+    normal_input: 0,
     tag: 0,
+    checksum: 0,
+    per_two_mu: 0.0,
+    largest_load: 0.0,
+    largest_approach: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
     flat: RoundedFlat::EMPTY,

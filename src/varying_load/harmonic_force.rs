@@ -234,7 +234,8 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// # Errors
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding.
+/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
+/// wide for its length.
 #[inline(always)]
 pub fn harmonic_force(
     element: &Element,
@@ -279,6 +280,19 @@ pub fn harmonic_force(
         workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
     }
     Ok(())
+}
+
+/// The least and the largest value.
+#[inline(always)]
+fn range_of(values: &[f64]) -> (f64, f64) {
+    let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
+    for block in values.as_chunks::<4>().0 {
+        for k in 0..4 {
+            least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+            largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
+        }
+    }
+    (least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max))
 }
 
 /// Rows of T in a column of the Jacobian.
@@ -326,23 +340,25 @@ impl Workspace<'_> {
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
             open: false,
         };
-        if element.by_approach() {
+        let rounding = if element.by_approach() {
             motion.open = mean + swing <= 0.0;
+            f64::MAX
         } else {
-            let rounding = NORMAL_FORCE_ROUNDING * (mean.abs() + swing);
-            if mean < -rounding {
-                return Err(Error::BadNormalForce);
-            }
-            motion.open = motion.constant && mean <= 0.0;
-            if !motion.constant {
-                fourier.synthesise(input, samples.input);
-                let least = samples.input.iter().copied().fold(f64::MAX, f64::min);
-                if least < -rounding {
-                    return Err(Error::BadNormalForce);
-                }
-                samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
-            }
+            NORMAL_FORCE_ROUNDING * (mean.abs() + swing)
+        };
+        if motion.open {
+            return Ok(motion);
         }
+        let (mut least, mut largest) = (mean, mean);
+        if !motion.constant {
+            fourier.synthesise(input, samples.input);
+            (least, largest) = range_of(samples.input);
+        }
+        if least < -rounding {
+            return Err(Error::BadNormalForce);
+        }
+        element.check_input(largest.max(0.0))?;
+        motion.open = largest <= 0.0;
         if motion.open {
             return Ok(motion);
         }
@@ -350,13 +366,10 @@ impl Workspace<'_> {
             samples.input.fill(mean);
             samples.press_constantly(&element.normal(mean));
         } else {
-            if element.by_approach() {
-                fourier.synthesise(input, samples.input);
+            if !element.by_approach() && least < 0.0 {
+                samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
             }
-            motion.open = samples.input.iter().all(|input| *input <= 0.0);
-            if !motion.open {
-                samples.press(element);
-            }
+            samples.press(element);
         }
         Ok(motion)
     }

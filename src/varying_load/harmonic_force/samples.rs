@@ -78,7 +78,7 @@ impl Samples<'_> {
         self.shift.fill(normal.shift);
         self.load_slope.fill(normal.load_slope);
         self.shift_slope.fill(normal.shift_slope);
-        self.stiffness.fill(normal.tangential_stiffness());
+        self.stiffness.fill(normal.load_slope / normal.shift_slope);
     }
 
     /// The normal states of all samples.
@@ -100,7 +100,7 @@ impl Samples<'_> {
             *shift = normal.shift;
             *load_slope = normal.load_slope;
             *shift_slope = normal.shift_slope;
-            *stiffness = if closed { normal.tangential_stiffness() } else { 0.0 };
+            *stiffness = if closed { normal.load_slope / normal.shift_slope } else { 0.0 };
         }
         continue_periodically(self.load, self.count);
         continue_periodically(self.shift, self.count);
