@@ -252,7 +252,7 @@ pub fn harmonic_force(
     }
     check_coefficients(displacement)?;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
-    let motion = workspace.press(element, tangential, input)?;
+    let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
     let has_friction = !motion.open && element.friction_coefficient > 0.0;
     let needs_forces = force.is_some() || jacobian.is_some();
     let mut part = None;
@@ -316,8 +316,12 @@ fn evaluate_forces(
     with_stiffness: bool,
 ) -> usize {
     let extent = walk.evaluate(element.friction_coefficient, element.by_approach(), samples, part);
-    let cut_shift = walk.cut_shift.get(..extent.cuts).unwrap_or(&[]);
-    tractions.evaluate_cuts(element, cut_shift, with_stiffness);
+    let cuts = walk.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[]);
+    if with_stiffness {
+        tractions.evaluate_cuts::<true>(element, cuts);
+    } else {
+        tractions.evaluate_cuts::<false>(element, cuts);
+    }
     tractions.evaluate(element.friction_coefficient, samples, walk.runs.get(..extent.runs).unwrap_or(&[]));
     extent.runs
 }
@@ -328,7 +332,13 @@ impl Workspace<'_> {
     /// # Errors
     /// `BadNormalForce`.
     #[inline(always)]
-    fn press(&mut self, element: &Element, tangential: &[f64], input: &[f64]) -> Result<Motion, Error> {
+    fn press(
+        &mut self,
+        element: &Element,
+        tangential: &[f64],
+        input: &[f64],
+        with_slopes: bool,
+    ) -> Result<Motion, Error> {
         let Workspace { fourier, samples, .. } = self;
         let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
         let has = |coefficients: &[f64], parity: usize| {
@@ -369,7 +379,11 @@ impl Workspace<'_> {
             if !element.by_approach() && least < 0.0 {
                 samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
             }
-            samples.press(element);
+            if with_slopes {
+                samples.press::<true>(element);
+            } else {
+                samples.press::<false>(element);
+            }
         }
         Ok(motion)
     }

@@ -75,6 +75,52 @@ impl Table {
         (x * q, q + at.scaled * dq)
     }
 
+    /// The smallest argument inside.
+    #[inline(always)]
+    pub fn smallest(&self) -> f64 {
+        f64::from_bits(self.base << SHIFT)
+    }
+
+    /// Values and, if requested, slopes at four arguments; `None` if one is outside.
+    ///
+    /// The blocks of four coefficients are combined for each argument; the cubics that remain are transposed and evaluated together.
+    #[inline(always)]
+    pub fn four<const SLOPES: bool>(&self, x: &[f64; 4]) -> Option<([f64; 4], [f64; 4])> {
+        let indices = x.map(|x| (x.to_bits() >> SHIFT).wrapping_sub(self.base));
+        let [a, b, c, d] = indices.map(|index| self.quarters.get(index as usize));
+        let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) else { return None };
+        let mantissa = |kept: u32| x.map(|x| f64::from_bits((x.to_bits() & ((1 << kept) - 1)) | EXPONENT_OF_1));
+        let t = mantissa(SHIFT).map(|m| POSITION * m - (POSITION + 1.0));
+        let t2: [f64; 4] = array(|k| t[k] * t[k]);
+        let t4: [f64; 4] = array(|k| t2[k] * t2[k]);
+        let (mut cubics, mut derivatives) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+        for (lane, coefficients) in [a, b, c, d].into_iter().enumerate() {
+            let power = t4[lane];
+            for k in 0..4 {
+                let high = coefficients[4 + k] + power * coefficients[8 + k];
+                cubics[lane][k] = coefficients[k] + power * high;
+                if SLOPES {
+                    derivatives[lane][k] = high + power * coefficients[8 + k];
+                }
+            }
+        }
+        let [c0, c1, c2, c3] = transposed(&cubics);
+        let q: [f64; 4] = array(|k| (c0[k] + c1[k] * t[k]) + t2[k] * (c2[k] + c3[k] * t[k]));
+        let values = array(|k| x[k] * q[k]);
+        if !SLOPES {
+            return Some((values, [0.0; 4]));
+        }
+        // With P1 and P2 the blocks behind the first, d/dt of P0 + t⁴ P1 + t⁸ P2 is that of the cubic, plus 4t³ (P1 + 2 t⁴ P2).
+        let [d0, d1, d2, d3] = transposed(&derivatives);
+        let scaled = mantissa(52);
+        let slopes = array(|k| {
+            let by_blocks = (d0[k] + d1[k] * t[k]) + t2[k] * (d2[k] + d3[k] * t[k]);
+            let by_cubic = (c1[k] + 2.0 * c2[k] * t[k]) + 3.0 * (c3[k] * t2[k]);
+            q[k] + (POSITION * scaled[k]) * (by_cubic + 4.0 * (t[k] * t2[k]) * by_blocks)
+        });
+        Some((values, slopes))
+    }
+
     /// y''.
     #[inline(always)]
     pub fn curvature(&self, x: f64, at: Position) -> f64 {
@@ -107,6 +153,16 @@ impl Position {
     pub fn index(&self) -> usize {
         self.index
     }
+}
+
+#[inline(always)]
+fn array(mut value: impl FnMut(usize) -> f64) -> [f64; 4] {
+    [value(0), value(1), value(2), value(3)]
+}
+
+#[inline(always)]
+fn transposed(rows: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    [0, 1, 2, 3].map(|k| [rows[0][k], rows[1][k], rows[2][k], rows[3][k]])
 }
 
 /// Middle and half-length of the quarter with this exponent and leading bits.

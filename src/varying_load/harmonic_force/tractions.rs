@@ -20,13 +20,17 @@ pub(super) struct Tractions<'a> {
 }
 
 impl Tractions<'_> {
-    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones.
+    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones: whole blocks of four.
     #[inline(always)]
-    pub fn evaluate_cuts(&mut self, element: &Element, cut_shift: &[f64], _with_stiffness: bool) {
-        for ((shift, load), stiffness) in
-            cut_shift.iter().zip(self.cut_load.iter_mut()).zip(self.cut_stiffness.iter_mut())
-        {
-            (*load, *stiffness) = element.load_at_shift(shift.max(0.0));
+    pub fn evaluate_cuts<const SLOPES: bool>(&mut self, element: &Element, cut_shift: &[[f64; 4]]) {
+        let loads = self.cut_load.as_chunks_mut::<4>().0;
+        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+        for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
+            let (loads, stiffnesses) = element.four_loads::<SLOPES>(shift);
+            *load = loads;
+            if SLOPES {
+                *stiffness = stiffnesses;
+            }
         }
     }
 

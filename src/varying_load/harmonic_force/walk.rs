@@ -290,6 +290,9 @@ impl Walk<'_> {
                 next += run.count;
             }
         }
+        // Fills the last block of four.
+        let last = cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
+        self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
         Extent { runs: count, cuts }
     }
 }
@@ -367,7 +370,7 @@ fn slip<const FORWARD: bool>(
         if count > 0 && !(x >= last && x < inner_x && cut <= y) {
             break;
         }
-        *place = (cut - x) * half_over_mu;
+        *place = ((cut - x) * half_over_mu).max(0.0);
         (last, last_cut, end) = (x, cut, (xi, eta));
         count += 1;
     }
