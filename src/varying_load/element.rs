@@ -325,7 +325,8 @@ impl Element {
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
         let substitute = self.of_input.smallest();
-        let closed = input.map(|input| if input > 0.0 { input } else { substitute });
+        let mut closed = *input;
+        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
         let (value, slope) = match self.of_input.four::<SLOPES>(&closed) {
             Some(values) => values,
             None => self.four_outside(&closed),

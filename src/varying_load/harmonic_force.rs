@@ -261,10 +261,12 @@ pub fn harmonic_force(
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
-            let runs = evaluate_forces(element, samples, part, walk, tractions, jacobian.is_some());
+            let extent = walk.evaluate(element, samples, part);
+            let runs = walk.runs(extent, part, samples.count);
+            tractions.evaluate(element, samples, walk.cuts(extent), runs.clone(), jacobian.is_some());
             if jacobian.is_some() {
                 let context = Context { element, samples, part };
-                sensitivity.gather(&context, tractions, walk.cut_shift, walk.runs.get(..runs).unwrap_or(&[]));
+                sensitivity.gather(&context, tractions, walk.cut_shift, runs);
             }
         }
     }
@@ -303,27 +305,6 @@ fn upper(column: &mut [f64], coefficients: usize) -> &mut [f64] {
 /// Rows of N.
 fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
     column.get_mut(coefficients..).unwrap_or(&mut [])
-}
-
-/// Evaluates the tangential forces of a part of the period; returns the number of runs.
-#[inline(always)]
-fn evaluate_forces(
-    element: &Element,
-    samples: &Samples,
-    part: &Part,
-    walk: &mut Walk,
-    tractions: &mut Tractions,
-    with_stiffness: bool,
-) -> usize {
-    let extent = walk.evaluate(element.friction_coefficient, element.by_approach(), samples, part);
-    let cuts = walk.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[]);
-    if with_stiffness {
-        tractions.evaluate_cuts::<true>(element, cuts);
-    } else {
-        tractions.evaluate_cuts::<false>(element, cuts);
-    }
-    tractions.evaluate(element.friction_coefficient, samples, walk.runs.get(..extent.runs).unwrap_or(&[]));
-    extent.runs
 }
 
 impl Workspace<'_> {

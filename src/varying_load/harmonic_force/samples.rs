@@ -1,6 +1,5 @@
 //! Normal states and characteristic coordinates of the samples.
 
-use crate::hbm::folded_fourier::continue_periodically;
 use crate::varying_load::element::{Element, Normal};
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.

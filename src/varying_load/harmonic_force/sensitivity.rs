@@ -21,7 +21,7 @@ use crate::hbm::workspace::Blocks;
 use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at};
 use crate::varying_load::harmonic_force::tractions::Tractions;
-use crate::varying_load::harmonic_force::walk::{Kind, RUN, Run, closing};
+use crate::varying_load::harmonic_force::walk::{Kind, Run, Runs, closing};
 use core::f64::consts::PI;
 
 /// Doubles of a piece in the workspace.
@@ -216,7 +216,7 @@ pub(super) struct Context<'c> {
 impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(always)]
-    pub fn gather(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: &[[f64; RUN]]) {
+    pub fn gather(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: Runs) {
         let Context { element, samples, part } = *context;
         self.places.fill(-1.0);
         self.touched_count = 0;
@@ -225,7 +225,6 @@ impl Sensitivity<'_> {
         let mut now = 0;
         let stiffness = |sample| at(samples.stiffness, sample);
         for run in runs {
-            let run = Run::from(*run);
             let range = run.first..run.first + run.count;
             let last = range.end.saturating_sub(1);
             let kept = match run.kind {
