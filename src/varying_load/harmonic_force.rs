@@ -68,7 +68,7 @@ pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize), Error> {
 struct Layout(Size);
 
 /// Arrays over the samples.
-const SAMPLE_ARRAYS: usize = 20;
+const SAMPLE_ARRAYS: usize = 19;
 
 impl Layout {
     /// Doubles of the rows over the coefficients of all samples.
@@ -114,7 +114,8 @@ impl WorkspaceLayout for Layout {
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
-            + 2 * self.rows_length()
+            + 3 * self.rows_length()
+            + 4 * row_blocks(harmonics)
             + jacobian::memory_length(harmonics)
     }
 
@@ -176,7 +177,7 @@ impl<'a> Workspace<'a> {
             last_cut_force: array()?,
             last_cut_load: array()?,
         };
-        let (own, places, touched) = ([array()?, array()?], array()?, array()?);
+        let (own, places) = ([array()?, array()?], array()?);
         let walk = Walk {
             knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
             runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
@@ -185,7 +186,9 @@ impl<'a> Workspace<'a> {
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
         let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
         let gathered = [blocks(layout.pieces_length())?, blocks(layout.pieces_length())?];
+        let touched_rows = blocks(layout.rows_length())?;
         let (by_displacement, by_input) = (blocks(layout.rows_length())?, blocks(layout.rows_length())?);
+        let covered = blocks(4 * row_blocks(harmonics))?;
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity {
             row_blocks: row_blocks(harmonics),
@@ -194,8 +197,9 @@ impl<'a> Workspace<'a> {
             pieces,
             gathered,
             places,
-            touched,
-            touched_count: 0,
+            touched: 0,
+            touched_rows,
+            covered,
             by_displacement,
             by_input,
             own,
