@@ -110,7 +110,7 @@ impl WorkspaceLayout for Layout {
         let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
-            + folded_fourier::scratch_length(samples)
+            + folded_fourier::scratch_length(samples, 2 * harmonics)
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
