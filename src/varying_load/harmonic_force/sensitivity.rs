@@ -176,21 +176,26 @@ fn row_of_mut<const N: usize>(blocks: &mut Blocks, index: usize, length: usize) 
     }
 }
 
+/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
+/// not combine them in a vector.
+#[inline(always)]
+fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
+    let ([a, b, c, d], [e, f, g, h]) = (target, row);
+    [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
+}
+
 #[inline(always)]
 fn add_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
     for (target, row) in target.iter_mut().zip(row) {
-        for k in 0..4 {
-            target[k] += scale * row[k];
-        }
+        *target = plus(*target, scale, *row);
     }
 }
 
 #[inline(always)]
 fn set_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
     for (target, row) in target.iter_mut().zip(row) {
-        for k in 0..4 {
-            target[k] = scale * row[k];
-        }
+        let [a, b, c, d] = *row;
+        *target = [scale * a, scale * b, scale * c, scale * d];
     }
 }
 
@@ -365,9 +370,8 @@ impl Sensitivity<'_> {
         let covered = row_of_mut::<N>(self.covered, 0, length);
         let (Some(to), Some(from), Some(covered)) = (to, from, covered) else { return };
         for ((covered, to), from) in covered.iter_mut().zip(to).zip(from) {
-            for k in 0..4 {
-                covered[k] = to[k] - from[k];
-            }
+            let ([a, b, c, d], [e, f, g, h]) = (*to, *from);
+            *covered = [a - e, b - f, c - g, d - h];
         }
         if let Some([constant, ..]) = covered.first_mut() {
             *constant = (now - since) as f64;
@@ -489,11 +493,10 @@ impl Sensitivity<'_> {
             let rows = (row_of::<N>(one, index, length), row_of::<N>(two, index, length));
             let (Some(one), Some(two)) = rows else { return };
             for (((u_row, input_row), one), two) in u_row.iter_mut().zip(input_row).zip(one).zip(two) {
-                for k in 0..4 {
-                    let v = constant * one[k] + linear * two[k];
-                    u_row[k] += by_u * v;
-                    input_row[k] += by_input * v;
-                }
+                let ([a, b, c, d], two) = (*one, *two);
+                let v = plus([constant * a, constant * b, constant * c, constant * d], linear, two);
+                let (u, input) = (plus(*u_row, by_u, v), plus(*input_row, by_input, v));
+                (*u_row, *input_row) = (u, input);
             }
         } else {
             let factor = constant * piece.weights[0] + linear * piece.weights[1];
