@@ -145,10 +145,10 @@ pub(super) struct Sensitivity<'a> {
     /// Sums of φ times both weights of each piece, and a row for the sums of a piece that was never cut.
     pub gathered: [&'a mut Blocks; 2],
     pub covered: &'a mut Blocks,
-    /// Place of each sample in the following, or -1; rows φ of these samples, and rows Y by u and by the input.
+    /// Place of each sample in the following, or -1; φ of these samples, for each pair of functions; rows Y by u and by the input.
     pub places: &'a mut [f64],
     pub touched: usize,
-    pub touched_rows: &'a mut Blocks,
+    pub touched_pairs: &'a mut [[f64; 2]],
     pub by_displacement: &'a mut Blocks,
     pub by_input: &'a mut Blocks,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
@@ -521,9 +521,13 @@ impl Sensitivity<'_> {
                 row.iter_mut().for_each(|block| *block = [0.0; 4]);
             }
         }
-        let rows = (row_of_mut::<N>(self.touched_rows, index, length), row_of::<N>(self.rows, sample, length));
-        if let (Some(place), Some(row)) = rows {
-            place.iter_mut().zip(row).for_each(|(place, row)| *place = *row);
+        if let Some(row) = row_of::<N>(self.rows, sample, length) {
+            let columns = self.touched_pairs.chunks_exact_mut(self.places.len().max(1));
+            for (column, pair) in columns.zip(row.as_flattened().as_chunks::<2>().0) {
+                if let Some(place) = column.get_mut(index) {
+                    *place = *pair;
+                }
+            }
         }
         index
     }
@@ -533,13 +537,22 @@ impl Sensitivity<'_> {
     pub fn products(&self, index: usize, products: &mut Blocks) {
         let length = self.row_blocks;
         let rows = if index == 0 { &*self.by_displacement } else { &*self.by_input };
-        let used = self.touched * length;
-        let (rows, phi) = (rows.get(..used).unwrap_or(&[]), self.touched_rows.get(..used).unwrap_or(&[]));
-        match length {
-            1 => products_of::<1>(rows, phi, length, 0, products),
-            3 => products_of::<3>(rows, phi, length, 0, products),
-            5 => products_of::<5>(rows, phi, length, 0, products),
-            _ => (0..length).for_each(|first| products_of::<1>(rows, phi, length, first, products)),
+        let rows = rows.get(..self.touched * length).unwrap_or(&[]);
+        let columns = self.touched_pairs.chunks_exact(self.places.len().max(1));
+        for (columns, phi) in products.chunks_exact_mut((2 * length).max(1)).zip(columns) {
+            match length {
+                1 => products_of::<1>(rows, phi, columns),
+                3 => products_of::<3>(rows, phi, columns),
+                5 => products_of::<5>(rows, phi, columns),
+                _ => {
+                    columns.fill([0.0; 4]);
+                    let (one, two) = columns.split_at_mut_checked(length).unwrap_or((&mut [], &mut []));
+                    for (row, &[a, b]) in rows.chunks_exact(length.max(1)).zip(phi) {
+                        add_scaled(one, a, row);
+                        add_scaled(two, b, row);
+                    }
+                }
+            }
         }
     }
 }
@@ -551,27 +564,19 @@ struct Cuts<'c> {
     stiffnesses: &'c [f64],
 }
 
-/// N blocks of pairs of columns, from the block `first` of each row on.
+/// A pair of columns of N blocks each.
 #[inline(always)]
-fn products_of<const N: usize>(rows: &Blocks, phi: &Blocks, length: usize, first: usize, products: &mut Blocks) {
-    for (pair, columns) in products.chunks_exact_mut((2 * length).max(1)).enumerate() {
-        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-        for (row, phi) in rows.chunks_exact(length).zip(phi.chunks_exact(length)) {
-            let row: Option<&[[f64; 4]; N]> = row.get(first..).and_then(<[_]>::first_chunk);
-            let phi = phi.as_flattened().as_chunks::<2>().0.get(pair);
-            let (Some(row), Some(&[a, b])) = (row, phi) else { continue };
-            for block in 0..N {
-                for k in 0..4 {
-                    one[block][k] += a * row[block][k];
-                    two[block][k] += b * row[block][k];
-                }
+fn products_of<const N: usize>(rows: &Blocks, phi: &[[f64; 2]], columns: &mut Blocks) {
+    let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+    for (row, &[a, b]) in rows.as_chunks::<N>().0.iter().zip(phi) {
+        for block in 0..N {
+            for k in 0..4 {
+                one[block][k] += a * row[block][k];
+                two[block][k] += b * row[block][k];
             }
         }
-        for (column, sums) in columns.chunks_exact_mut(length).zip([one, two]) {
-            let column: Option<&mut [[f64; 4]; N]> = column.get_mut(first..).and_then(<[_]>::first_chunk_mut);
-            if let Some(column) = column {
-                *column = sums;
-            }
-        }
+    }
+    for (column, sums) in columns.as_chunks_mut::<N>().0.iter_mut().zip([one, two]) {
+        *column = sums;
     }
 }
