@@ -34,14 +34,14 @@ pub(crate) fn scratch_length(samples: usize, orders: usize) -> usize {
 /// Cosines of odd orders, sines of odd orders, cosines of even orders, sines of even orders.
 const SYMMETRIES: usize = 4;
 
-/// Fills the table: in each block of positions their weights, then cos and sin of the orders 1, 2, ...
+/// Fills the table: the weights of the positions, then for each block of positions cos and sin of the orders 1, 2, ...
 pub(crate) fn fill_table(table: &mut [f64], samples: usize, orders: usize) {
-    let rows = table.as_chunks_mut::<4>().0.chunks_exact_mut(1 + 2 * orders);
-    for (first, rows) in (0..).step_by(4).zip(rows) {
+    let blocks = table.as_chunks_mut::<4>().0.split_at_mut_checked(position_blocks(samples));
+    let Some((weights, rows)) = blocks else { return };
+    for ((first, weights), rows) in (0..).step_by(4).zip(weights).zip(rows.chunks_exact_mut((2 * orders).max(1))) {
         let positions = [first, first + 1, first + 2, first + 3];
-        let Some((weights, pairs)) = rows.split_first_mut() else { return };
         *weights = positions.map(|n| weight(n, samples));
-        for (order, [cosines, sines]) in (1..).zip(pairs.as_chunks_mut::<2>().0) {
+        for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
             *cosines = positions.map(|n| angle(order, n, samples).cos());
             *sines = positions.map(|n| angle(order, n, samples).sin());
         }
@@ -65,7 +65,9 @@ fn weight(n: usize, samples: usize) -> f64 {
 pub(crate) struct FoldedFourier<'a> {
     samples: usize,
     orders: usize,
-    table: &'a Blocks,
+    weights: &'a Blocks,
+    /// Cosines and sines of two orders each; for each block of positions those of all orders.
+    quads: &'a [[[f64; 4]; SYMMETRIES]],
     /// Blocks of folded sums.
     folded: usize,
     scratch: &'a mut Blocks,
@@ -75,9 +77,10 @@ impl<'a> FoldedFourier<'a> {
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
-        let table = parts.take(table_length(samples, orders))?;
+        let table: &'a Blocks = parts.take(table_length(samples, orders))?.as_chunks().0;
+        let (weights, rows) = table.split_at_checked(position_blocks(samples)).unwrap_or((&[], &[]));
         let folded = SYMMETRIES * position_blocks(samples);
-        Ok(FoldedFourier { samples, orders, table: table.as_chunks().0, folded, scratch: &mut [] })
+        Ok(FoldedFourier { samples, orders, weights, quads: rows.as_chunks().0, folded, scratch: &mut [] })
     }
 
     /// # Errors
@@ -87,20 +90,15 @@ impl<'a> FoldedFourier<'a> {
         Ok(())
     }
 
-    fn rows(&self) -> impl Iterator<Item = &'a Blocks> {
-        self.table.chunks_exact(1 + 2 * self.orders)
-    }
-
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
     #[inline(always)]
     pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
-        for (first, rows) in (0..).step_by(4).zip(self.rows()) {
+        for (first, row_quads) in (0..).step_by(4).zip(self.quads.chunks_exact((self.orders / 2).max(1))) {
             let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
             let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
-            let row_quads = rows.get(1..).unwrap_or(&[]).as_chunks::<4>().0;
             for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
                 for k in 0..4 {
                     odd_cosines[k] += a * rows[0][k];
@@ -139,7 +137,7 @@ impl<'a> FoldedFourier<'a> {
         self.fold(values);
         let (folded, totals) = self.scratch.split_at_mut_checked(self.folded).unwrap_or((&mut [], &mut []));
         let folded = folded.as_chunks::<SYMMETRIES>().0;
-        let stride = 1 + 2 * self.orders;
+        let stride = (self.orders / 2).max(1);
         // The constant, then blocks of four sums for each pair of orders.
         let mut total = [0.0; 4];
         for [_, _, even_cosines, _] in folded {
@@ -150,11 +148,9 @@ impl<'a> FoldedFourier<'a> {
         let Some((constant, totals)) = totals.split_first_mut() else { return };
         *constant = total;
         let count = sums.len().saturating_sub(1).div_ceil(4);
-        for (first, totals) in (1..).step_by(4).zip(totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count)) {
+        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
             let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
-            let rows = self.table.get(first..).unwrap_or(&[]).chunks(stride);
-            for (rows, folded) in rows.zip(folded) {
-                let Some(rows) = rows.first_chunk::<SYMMETRIES>() else { break };
+            for (rows, folded) in self.quads.iter().skip(quad).step_by(stride).zip(folded) {
                 for k in 0..4 {
                     a[k] += folded[0][k] * rows[0][k];
                     b[k] += folded[1][k] * rows[1][k];
@@ -176,10 +172,8 @@ impl<'a> FoldedFourier<'a> {
     #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let weights = self.table.chunks_exact(1 + 2 * self.orders);
         let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
-        for ((first, weights), folded) in (0..).step_by(4).zip(weights).zip(folded) {
-            let &[weights, ..] = weights else { return };
+        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
             let here = load(values, first);
             let mirrored = load_reversed(values, samples.checked_sub(first));
             if samples.is_multiple_of(2) {
@@ -188,13 +182,14 @@ impl<'a> FoldedFourier<'a> {
                 let (e, o) = (add(here, opposite), subtract(here, opposite));
                 let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
                 *folded = [
-                    times(weights, add(o, om)),
-                    times(weights, subtract(o, om)),
-                    times(weights, add(e, em)),
-                    times(weights, subtract(e, em)),
+                    times(*weights, add(o, om)),
+                    times(*weights, subtract(o, om)),
+                    times(*weights, add(e, em)),
+                    times(*weights, subtract(e, em)),
                 ];
             } else {
-                let (cosines, sines) = (times(weights, add(here, mirrored)), times(weights, subtract(here, mirrored)));
+                let (cosines, sines) =
+                    (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
                 *folded = [cosines, sines, cosines, sines];
             }
         }

@@ -179,7 +179,7 @@ fn row_of_mut<const N: usize>(blocks: &mut Blocks, index: usize, length: usize) 
 /// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
 /// not combine them in a vector.
 #[inline(always)]
-fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
+pub(super) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
     let ([a, b, c, d], [e, f, g, h]) = (target, row);
     [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
 }
