@@ -13,7 +13,7 @@ use crate::varying_load::harmonic_force::sensitivity::{Sensitivity, plus, row_bl
 
 /// Doubles for the pairs of the orders from -H to 2H.
 fn pairs_length(harmonics: usize) -> usize {
-    2 * (3 * harmonics + 1)
+    2 * (3 * harmonics + 2)
 }
 
 /// Doubles of an [`Assembly`].
@@ -78,15 +78,15 @@ impl<'a> Assembly<'a> {
             *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
             let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
             let (blocks, rest) = rows.as_chunks_mut::<4>();
-            let ((sums, last_sums), (differences, last_differences)) =
-                (sums.as_chunks::<4>(), differences.as_chunks::<4>());
-            let lasts = (sums.get(blocks.len()).map_or(last_sums, <[f64; 4]>::as_slice), differences.get(blocks.len()));
-            let last_differences = lasts.1.map_or(last_differences, <[f64; 4]>::as_slice);
+            let (sums, differences) = (sums.as_chunks::<4>().0, differences.as_chunks::<4>().0);
+            // The pairs extend beyond H: whole blocks are left for the last rows.
+            if let ([row, next], Some(sum), Some(difference)) =
+                (rest, sums.get(blocks.len()), differences.get(blocks.len()))
+            {
+                (*row, *next) = (sum[0] + sign * difference[0], sum[1] + sign * difference[1]);
+            }
             for ((row, sum), difference) in blocks.iter_mut().zip(sums).zip(differences) {
                 *row = plus(*sum, sign, *difference);
-            }
-            for ((row, sum), difference) in rest.iter_mut().zip(lasts.0).zip(last_differences) {
-                *row = sum + sign * difference;
             }
         }
     }
