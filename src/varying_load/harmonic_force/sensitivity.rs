@@ -381,6 +381,9 @@ impl Sensitivity<'_> {
     /// Adds the sums from `since` up to `now` with constant weights to those of a piece that is cut.
     #[inline(always)]
     fn gather_covered<const N: usize>(&mut self, context: &Context, index: usize, piece: &mut Piece, now: usize) {
+        if piece.stored && now <= piece.since {
+            return;
+        }
         self.sum_covered::<N>(context, piece.since, now);
         let length = self.row_blocks;
         for (gathered, weight) in self.gathered.iter_mut().zip(piece.weights) {
