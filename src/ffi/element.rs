@@ -5,7 +5,7 @@ use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
 use crate::varying_load::element::{Element, NormalInput, NormalPoint};
-use crate::varying_load::state::{self, PathOutput, Step};
+use crate::varying_load::state::{self, PathOutput};
 use crate::varying_load::tractions::tractions;
 use core::{ptr, slice};
 use libc::size_t;
@@ -333,21 +333,26 @@ pub(super) unsafe fn update(
     state_new: *mut f64,
     [force, tangent, dissipated]: [*mut f64; 3],
 ) {
-    // SAFETY: by the function's contract.
+    let with_energy = !dissipated.is_null();
+    // SAFETY: by the function's contract; no reference to the old state is left when the new one, which may be the same memory, is
+    // written.
     unsafe {
-        let old = slice::from_raw_parts(state_old, state_length);
-        let update = state::update(element, old, *displacement, !dissipated.is_null());
-        let Step { force: forces, tangent: tangents, dissipated: energy } = update.step;
-        if !state_new.is_null() {
-            if ptr::eq(state_old, state_new) {
-                update.write(None, slice::from_raw_parts_mut(state_new, state_length));
-            } else {
-                update.write(Some(old), slice::from_raw_parts_mut(state_new, state_length));
+        let step = if state_new.is_null() {
+            state::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, with_energy)
+        } else {
+            let state = slice::from_raw_parts_mut(state_new, state_length);
+            if !ptr::eq(state_old, state_new) {
+                state::copy_used(slice::from_raw_parts(state_old, state_length), state);
             }
-        }
-        force.cast::<[f64; COMPONENTS]>().as_mut().into_iter().for_each(|force| *force = forces);
-        tangent.cast::<[f64; COMPONENTS * COMPONENTS]>().as_mut().into_iter().for_each(|tangent| *tangent = tangents);
-        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = energy);
+            state::advance_checked(element, state, *displacement, with_energy)
+        };
+        force.cast::<[f64; COMPONENTS]>().as_mut().into_iter().for_each(|force| *force = step.force);
+        tangent
+            .cast::<[f64; COMPONENTS * COMPONENTS]>()
+            .as_mut()
+            .into_iter()
+            .for_each(|tangent| *tangent = step.tangent);
+        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.dissipated);
     }
 }
 
