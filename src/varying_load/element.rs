@@ -49,6 +49,8 @@ pub struct Element {
     /// The largest normal force and approach for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
+    /// The contact counts as open up to this input, [`TOUCHING`] of that of the tables: there squares and products would underflow.
+    smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
     shift_per_load: f64,
@@ -61,6 +63,9 @@ pub struct Element {
     /// M at the middle of each quarter of `load_of_shift`.
     potential: [f64; PIECES],
 }
+
+/// Forces at less than this part of the largest input of the tables are beyond any rounding error.
+const TOUCHING: f64 = 1e-60;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
@@ -175,6 +180,7 @@ impl Element {
             in_range(&[value], &[])?;
         }
         (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.smallest_input = TOUCHING * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
@@ -306,7 +312,13 @@ impl Element {
         if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
-    /// The normal state at an input > 0.
+    /// Whether an input that was checked closes the contact.
+    #[inline(always)]
+    pub(crate) fn is_closed(&self, input: f64) -> bool {
+        input > self.smallest_input
+    }
+
+    /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
         let (value, slope) = match self.of_input.position(input) {
@@ -379,7 +391,7 @@ impl Element {
         let shape = self.shape();
         let w = shape.at_shift(shift);
         let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
-        if w > 0.0 { 2.0 * curvature / (shift * shift) } else { 0.0 }
+        if w > 0.0 { 2.0 * curvature / shift / shift } else { 0.0 }
     }
 
     /// M at a shift S >= 0.
@@ -414,6 +426,7 @@ const EMPTY: Element = Element {
     per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
+    smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
     flat: RoundedFlat::EMPTY,
