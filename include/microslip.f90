@@ -472,6 +472,40 @@ module microslip
       integer(c_int32_t) :: c_harmonic_workspace_size
     end function c_harmonic_workspace_size
 
+    pure function c_element_workspace_length(directions, harmonics, samples, rule) &
+      bind(c, name='mslip_element_workspace_length')
+      import
+      integer(c_int32_t), value :: directions, rule
+      integer(c_size_t), value :: harmonics, samples
+      integer(c_size_t) :: c_element_workspace_length
+    end function c_element_workspace_length
+
+    function c_element_workspace_init(directions, harmonics, samples, rule, workspace_length, workspace) &
+      bind(c, name='mslip_element_workspace_init')
+      import
+      integer(c_int32_t), value :: directions, rule
+      integer(c_size_t), value :: harmonics, samples, workspace_length
+      type(c_ptr), value :: workspace
+      integer(c_int32_t) :: c_element_workspace_init
+    end function c_element_workspace_init
+
+    function c_element_workspace_size(workspace, directions, harmonics, samples, rule) &
+      bind(c, name='mslip_element_workspace_size')
+      import
+      real(c_double), intent(in) :: workspace(*)
+      type(c_ptr), value :: directions, harmonics, samples, rule
+      integer(c_int32_t) :: c_element_workspace_size
+    end function c_element_workspace_size
+
+    function c_element_harmonic_force(element, workspace, displacement, force, jacobian, dissipated) &
+      bind(c, name='mslip_element_harmonic_force')
+      import
+      type(mslip_element), intent(in) :: element
+      type(c_ptr), value :: workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_element_harmonic_force
+    end function c_element_harmonic_force
+
     function c_harmonic_force(contact, workspace, displacement, force, jacobian, dissipated) &
       bind(c, name='mslip_harmonic_force')
       import
@@ -626,6 +660,16 @@ module microslip
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_batch_element_update
     end function c_batch_element_update
+
+    function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, displacement, force, &
+      jacobian, dissipated) bind(c, name='mslip_batch_element_harmonic_force')
+      import
+      integer(c_size_t), value :: n, n_elements
+      type(mslip_element), intent(in) :: elements(*)
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_batch_element_harmonic_force
+    end function c_batch_element_harmonic_force
 
   end interface
   ! </generated>
