@@ -213,7 +213,11 @@ static void test_parameters(int shape)
         bad_parameter(shape, i, -DBL_MAX, "the smallest double");
         for (int sign = -1; sign <= 1; sign += 2) {
             if (shapes[shape].field[i].zero_is_valid) {
+                const double good = *parameter(shape, i);
                 extreme_parameter(shape, i, sign * 0.0);
+                *parameter(shape, i) = sign * 0.0;
+                CHECK(init(shape) == MSLIP_OK);
+                *parameter(shape, i) = good;
             } else {
                 bad_parameter(shape, i, sign * 0.0, "zero");
             }
