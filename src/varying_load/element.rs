@@ -229,7 +229,7 @@ impl Element {
         let (value, slope) = match position {
             Some(at) => self.of_input.value_and_slope(approach, at),
             None if approach <= 0.0 => (0.0, 0.0),
-            None => self.load_of_approach_outside(approach),
+            None => return above_touching(approach, self.approach, |approach| self.load_of_approach_outside(approach)),
         };
         NormalPoint { value, slope }
     }
@@ -240,7 +240,14 @@ impl Element {
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
-        let Some(at) = position else { return self.approach_outside(normal_force) };
+        let Some(at) = position else {
+            return if normal_force > 0.0 {
+                above_touching(normal_force, self.normal_force, |force| self.approach_outside(force))
+            } else {
+                let (value, slope) = self.approach_outside(0.0);
+                NormalPoint { value, slope }
+            };
+        };
         let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
@@ -248,11 +255,11 @@ impl Element {
     }
 
     #[inline(never)]
-    fn approach_outside(&self, normal_force: f64) -> NormalPoint {
+    fn approach_outside(&self, normal_force: f64) -> (f64, f64) {
         let shape = self.shape();
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
-        NormalPoint { value: shape.approach(w), slope }
+        (shape.approach(w), slope)
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
@@ -415,6 +422,13 @@ impl Element {
             }
         }
     }
+}
+
+/// A point of the normal law at a given quantity > 0; below [`TOUCHING`] of that of the tables on a straight line to 0.
+fn above_touching(given: f64, largest: f64, law: impl Fn(f64) -> (f64, f64)) -> NormalPoint {
+    let least = given.max(TOUCHING * largest);
+    let (value, slope) = law(least);
+    NormalPoint { value: value * (given / least), slope }
 }
 
 /// An element without tables.
