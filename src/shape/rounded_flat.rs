@@ -23,6 +23,8 @@ use core::f64::consts::{LN_2, PI};
 
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
+/// Smallest K of tables: there the series of their pieces, which converge up to K = 0, have errors of rounding size.
+const SMALLEST_TABULATED_COMPLIANCE: f64 = 0.75;
 
 /// A flat with rounded edges pressed on a flat.
 #[derive(Debug, Clone, Copy)]
@@ -105,6 +107,14 @@ impl RoundedFlat {
         RoundedPunch::new(self.flat, w)
     }
 
+    /// The size at which the smaller one of both K is this.
+    fn size_of_compliance(&self, compliance: f64) -> f64 {
+        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
+        let half_width = 2.0 * self.length * (constant - compliance).exp();
+        let (less, more) = (half_width - self.flat, half_width + self.flat);
+        less.signum() * (less.abs() * more).sqrt()
+    }
+
     /// `ln(2L/s) + constant`.
     fn log_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
         (2.0 * self.length / punch.half_width.max(TINY)).ln() + constant
@@ -126,9 +136,15 @@ impl RoundedFlat {
         let mut w = RoundedPunch::initial_guess_w(self.flat, load);
         for _ in 0..60 {
             let punch = self.punch_at(w);
+            let compliance = self.log_compliance(&punch, constant);
+            if compliance <= 0.0 {
+                // Beyond the largest size: the steps from below do not overshoot, because the logarithm is concave.
+                w *= 0.5;
+                continue;
+            }
             let found = self.integrated_compliance(&punch, constant);
-            let slope = 4.0 * w * w * punch.psi * self.log_compliance(&punch, constant) / found;
-            let step = (value / found).ln() / slope;
+            let slope = 4.0 * w * w * punch.psi * compliance / found;
+            let step = ((value / found).ln() / slope).clamp(-4.0, 4.0);
             w *= step.exp();
             if step.abs() < 1e-9 {
                 break;
@@ -186,10 +202,11 @@ impl Shape for RoundedFlat {
 
     /// The half-width at which the smaller one of both K is 1/16; both vanish near s = 2L. Negative if that is less than a.
     fn largest_size(&self) -> f64 {
-        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
-        let half_width = 2.0 * self.length * (constant - SMALLEST_COMPLIANCE).exp();
-        let (less, more) = (half_width - self.flat, half_width + self.flat);
-        less.signum() * (less.abs() * more).sqrt()
+        self.size_of_compliance(SMALLEST_COMPLIANCE)
+    }
+
+    fn largest_tabulated_size(&self) -> f64 {
+        self.size_of_compliance(SMALLEST_TABULATED_COMPLIANCE)
     }
 
     /// Eq. 17 between two sizes: `dp = E* ψ w dw/(πR sqrt(s² - x²))`, with lengths in units of the larger half-width.

@@ -198,16 +198,18 @@ impl Element {
         (self.directions, self.normal_input) = (1, input as i32);
         self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        let tabulated = w.min(shape.largest_tabulated_size().max(1e-3 * w));
         let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
-        self.load_of_shift.fill(shift, &load_of_shift);
+        self.load_of_shift.fill(shape.shift(tabulated), &load_of_shift);
         match input {
             NormalInput::Approach => {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
-                self.of_input.fill(approach, &load_of_approach);
+                self.of_input.fill(shape.approach(tabulated), &load_of_approach);
             }
             NormalInput::Force => {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
-                self.of_input.fill(normal_force, &shift_of_load);
+                // The load of the parameters without the rounding error of its size.
+                self.of_input.fill(if tabulated < w { shape.load(tabulated) } else { normal_force }, &shift_of_load);
             }
         }
         for (value, middle) in self.potential.iter_mut().zip(self.load_of_shift.middles()) {
