@@ -36,7 +36,8 @@ module microslip
   !! is modified. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. Infinite values and NaN are rejected, and so is
   !! a contact, element, state or workspace that was never initialised.
   !!
-  !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them. A Jacobian
+  !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them; of an element
+  !! component after component: those of the tangential one, then those of the normal one. A Jacobian
   !! has the derivative of force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a
   !! default NumPy array of the same memory holds its transpose.
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
@@ -62,7 +63,9 @@ module microslip
   public :: mslip_element_state_length, mslip_element_state_init, mslip_element_state_check, mslip_element_state_error
   public :: mslip_element_update, mslip_element_advance, mslip_element_path, mslip_element_path_advance
   public :: mslip_element_tractions
-  public :: mslip_batch_element_update, mslip_batch_element_advance
+  public :: mslip_element_workspace_length, mslip_element_workspace_init, mslip_element_workspace_size
+  public :: mslip_element_harmonic_force
+  public :: mslip_batch_element_update, mslip_batch_element_advance, mslip_batch_element_harmonic_force
 
   integer, parameter, public :: mslip_real = c_double  !! Kind of every real value.
   integer, parameter, public :: mslip_int = c_int32_t  !! Kind of status codes, flags and choices.
@@ -199,7 +202,7 @@ module microslip
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     integer(mslip_int) :: directions = 0  !! Number of tangential directions.
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(2150) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(2151) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -1644,6 +1647,93 @@ contains
     if (status == MSLIP_OK) status = c_element_tractions(element, size(state, kind=mslip_size), state, n, x, ptr(1), ptr(2))
   end subroutine mslip_element_tractions
 
+  pure function mslip_element_workspace_length(directions, harmonics, samples, rule) result(length)
+    !! Length of the workspace of `mslip_element_harmonic_force`; 0 if the arguments are out of range. May dimension an array.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+    integer(mslip_size) :: length  !! Length of the workspace.
+
+    ! A C length beyond the largest integer of this kind arrives negative.
+    length = max(c_element_workspace_length(directions, harmonics, samples, rule_or_default(rule)), 0_mslip_size)
+  end function mslip_element_workspace_length
+
+  subroutine mslip_element_workspace_init(directions, harmonics, samples, workspace, status, rule)
+    !! Initialise a workspace of elements: tables of cosines and sines, and scratch memory. Done once; each thread needs a workspace
+    !! of its own.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
+      !! The workspace; at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_BAD_RULE`, `MSLIP_NOT_AVAILABLE`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES` or
+      !! `MSLIP_WORKSPACE_TOO_SHORT`.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+
+    status = c_element_workspace_init(directions, harmonics, samples, rule_or_default(rule), &
+      size(workspace, kind=mslip_size), address_of(workspace))
+  end subroutine mslip_element_workspace_init
+
+  subroutine mslip_element_workspace_size(workspace, directions, harmonics, samples, rule, status)
+    !! The arguments with which a workspace of elements was initialised.
+    real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
+    integer(mslip_int), intent(inout) :: directions  !! Number of tangential directions.
+    integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
+    integer(mslip_size), intent(inout) :: samples  !! Samples per period.
+    integer(mslip_int), intent(inout) :: rule  !! `MSLIP_UNIFORM_SAMPLING`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_WORKSPACE` or `MSLIP_WORKSPACE_TOO_SHORT`.
+
+    integer(mslip_size), target :: sizes(2)
+    integer(mslip_int), target :: kinds(2)
+    integer(mslip_size) :: n
+
+    n = size(workspace, kind=mslip_size)
+    status = MSLIP_WORKSPACE_TOO_SHORT
+    ! C reads the header, which the shortest workspace contains.
+    if (n < c_element_workspace_length(1_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING)) return
+    status = c_element_workspace_size(workspace, c_loc(kinds(1)), c_loc(sizes(1)), c_loc(sizes(2)), c_loc(kinds(2)))
+    if (status /= MSLIP_OK) return
+    if (n < c_element_workspace_length(kinds(1), sizes(1), sizes(2), kinds(2))) then
+      status = MSLIP_WORKSPACE_TOO_SHORT
+      return
+    end if
+    directions = kinds(1)
+    harmonics = sizes(1)
+    samples = sizes(2)
+    rule = kinds(2)
+  end subroutine mslip_element_workspace_size
+
+  subroutine mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, dissipated)
+    !! Fourier coefficients of the force of an element under a periodic displacement in the steady state. The element is pressed by
+    !! the normal force of the sample at which that is largest with no tangential displacement, is displaced to that sample at
+    !! constant normal force, and advances through two periods from there; the second one counts.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
+    real(mslip_real), intent(in) :: displacement(:)
+      !! 2(2H+1) coefficients: of the tangential displacement [m], then of the normal approach [m] or the normal force [N].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)
+      !! 2(2H+1) coefficients: of the tangential force, then of the normal force [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
+      !! (2(2H+1), 2(2H+1)): derivatives of the force coefficients with respect to the displacement coefficients, exact for the
+      !! discretisation, one-sided at corners.
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
+
+    integer(mslip_size) :: m
+    type(c_ptr) :: ptr(2)
+
+    call count_element_coefficients(workspace, m, status)
+    if (status /= MSLIP_OK) return
+    ptr = c_null_ptr
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, m, ptr(1), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m], ptr(2), status)
+    if (status == MSLIP_OK) status = c_element_harmonic_force(element, address_of(workspace), displacement, ptr(1), ptr(2), &
+      address_of(dissipated))
+  end subroutine mslip_element_harmonic_force
+
   subroutine mslip_batch_element_update(elements, states_old, displacement, states_new, status, index, active, force, &
     tangent, dissipated)
     !! `mslip_element_update` of n items. On an error of one item none is modified.
@@ -1716,6 +1806,42 @@ contains
       length, ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
   end subroutine mslip_batch_element_advance
 
+  subroutine mslip_batch_element_harmonic_force(elements, workspace, displacement, status, index, active, force, jacobian, &
+    dissipated)
+    !! `mslip_element_harmonic_force` of n items, with one workspace. On an error of one item none is modified.
+    type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2(2H+1), n): coefficients of each displacement.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (2(2H+1), n): coefficients of each force [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
+      !! (2(2H+1), 2(2H+1), n): the Jacobian of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
+      !! n energies dissipated per period [J].
+
+    integer(mslip_size) :: m, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(5)
+
+    call count_element_coefficients(workspace, m, status)
+    if (status /= MSLIP_OK) return
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (size(displacement, 1, mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    if (present(force)) call check_array(force, [m, n], ptr(3), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m, n], ptr(4), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
+    if (status == MSLIP_OK) status = c_batch_element_harmonic_force(n, size(elements, kind=mslip_size), elements, ptr(1), &
+      ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
+  end subroutine mslip_batch_element_harmonic_force
+
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Conversion between Fortran and C
 
@@ -1763,6 +1889,21 @@ contains
     call mslip_harmonic_workspace_size(workspace, m, samples, rule, status)
     m = 2*m + 1
   end subroutine count_coefficients
+
+  subroutine count_element_coefficients(workspace, m, status)
+    ! The number m(2H+1) of coefficients of a workspace of elements.
+    real(mslip_real), intent(in), contiguous :: workspace(:)
+    integer(mslip_size), intent(out) :: m
+    integer(mslip_int), intent(out) :: status
+
+    integer(mslip_size) :: samples
+    integer(mslip_int) :: directions, rule
+
+    m = 0
+    directions = 0
+    call mslip_element_workspace_size(workspace, directions, m, samples, rule, status)
+    m = (directions + 1)*(2*m + 1)
+  end subroutine count_element_coefficients
 
   subroutine check_index(n_laws, n, index, from_zero, ptr, status)
     ! The index of a batch as a copy that counts from 0; without an index, each of the n items has a contact or element of its own.

@@ -49,6 +49,8 @@ pub struct Element {
     /// The largest normal force and approach for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
+    /// The contact counts as open up to this input, [`TOUCHING`] of that of the tables: there squares and products would underflow.
+    smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
     shift_per_load: f64,
@@ -61,6 +63,9 @@ pub struct Element {
     /// M at the middle of each quarter of `load_of_shift`.
     potential: [f64; PIECES],
 }
+
+/// Forces at less than this part of the largest input of the tables are beyond any rounding error.
+const TOUCHING: f64 = 1e-60;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
@@ -170,7 +175,9 @@ impl Element {
         input: NormalInput,
         kind: u64,
     ) -> Result<(), Error> {
-        in_range(&[friction_coefficient.max(f64::MIN_POSITIVE.sqrt())], &[])?;
+        if friction_coefficient > 0.0 {
+            in_range(&[friction_coefficient], &[])?;
+        }
         let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
         if w >= largest {
             return Err(Error::LengthTooShort);
@@ -180,6 +187,7 @@ impl Element {
             in_range(&[value], &[])?;
         }
         (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.smallest_input = TOUCHING * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
@@ -221,7 +229,7 @@ impl Element {
         let (value, slope) = match position {
             Some(at) => self.of_input.value_and_slope(approach, at),
             None if approach <= 0.0 => (0.0, 0.0),
-            None => self.load_of_approach_outside(approach),
+            None => return above_touching(approach, self.approach, |approach| self.load_of_approach_outside(approach)),
         };
         NormalPoint { value, slope }
     }
@@ -232,7 +240,14 @@ impl Element {
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
-        let Some(at) = position else { return self.approach_outside(normal_force) };
+        let Some(at) = position else {
+            return if normal_force > 0.0 {
+                above_touching(normal_force, self.normal_force, |force| self.approach_outside(force))
+            } else {
+                let (value, slope) = self.approach_outside(0.0);
+                NormalPoint { value, slope }
+            };
+        };
         let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
@@ -240,11 +255,11 @@ impl Element {
     }
 
     #[inline(never)]
-    fn approach_outside(&self, normal_force: f64) -> NormalPoint {
+    fn approach_outside(&self, normal_force: f64) -> (f64, f64) {
         let shape = self.shape();
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
-        NormalPoint { value: shape.approach(w), slope }
+        (shape.approach(w), slope)
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
@@ -311,7 +326,13 @@ impl Element {
         if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
-    /// The normal state at an input > 0.
+    /// Whether an input that was checked closes the contact.
+    #[inline(always)]
+    pub(crate) fn is_closed(&self, input: f64) -> bool {
+        input > self.smallest_input
+    }
+
+    /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
         let (value, slope) = match self.of_input.position(input) {
@@ -388,7 +409,7 @@ impl Element {
             return 0.0;
         }
         let [_, _, curvature, ..] = shape.series(w, Relation::LoadOfShift);
-        2.0 * curvature / (shift * shift)
+        2.0 * curvature / shift / shift
     }
 
     /// M at a shift S >= 0.
@@ -407,6 +428,13 @@ impl Element {
     }
 }
 
+/// A point of the normal law at a given quantity > 0; below [`TOUCHING`] of that of the tables on a straight line to 0.
+fn above_touching(given: f64, largest: f64, law: impl Fn(f64) -> (f64, f64)) -> NormalPoint {
+    let least = given.max(TOUCHING * largest);
+    let (value, slope) = law(least);
+    NormalPoint { value: value * (given / least), slope }
+}
+
 /// An element without tables.
 const EMPTY: Element = Element {
     composite_modulus: 0.0,
@@ -423,6 +451,7 @@ const EMPTY: Element = Element {
     per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
+    smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
     flat: RoundedFlat::EMPTY,

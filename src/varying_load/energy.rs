@@ -168,7 +168,8 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
         return width * nodes.map(|(node, part)| part * integrand(low + node * width)).sum::<f64>();
     }
     let (first, last) = (weight(low), weight(high));
-    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / (width * width) };
+    // width² may underflow.
+    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / width / width };
     let slope = (last - first) / width;
     let at = |s: f64, value: f64, slope: f64| {
         let (load, load_slope) = element.load_at_shift(s);
@@ -182,5 +183,5 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
 /// `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 for a quarter of the largest S and 62
 /// for a sixteenth: below the rounding of the sum.
 fn nodes_for(width: f64, largest: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
-    (width < 0.25 * largest).then(|| gauss_nodes(if width < 0.0625 * largest { 1 } else { 2 }))
+    (width <= 0.25 * largest).then(|| gauss_nodes(if width < 0.0625 * largest { 1 } else { 2 }))
 }

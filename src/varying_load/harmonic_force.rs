@@ -343,13 +343,13 @@ impl Workspace<'_> {
             open: false,
         };
         if element.by_approach() {
-            motion.open = mean + swing <= 0.0;
+            motion.open = !element.is_closed(mean + swing);
         } else {
             let rounding = NORMAL_FORCE_ROUNDING * (mean.abs() + swing);
             if mean < -rounding {
                 return Err(Error::BadNormalForce);
             }
-            motion.open = motion.constant && mean <= 0.0;
+            motion.open = motion.constant && !element.is_closed(mean);
             if !motion.constant {
                 fourier.synthesise(input, samples.input);
                 let least = samples.input.iter().copied().fold(f64::MAX, f64::min);
@@ -373,6 +373,8 @@ impl Workspace<'_> {
             if element.check_input(mean.abs() + swing).is_err() {
                 samples.input.iter().try_for_each(|input| element.check_input(*input))?;
             }
+            let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
+            samples.input.iter_mut().for_each(|input| *input = open(*input));
             motion.open = samples.input.iter().all(|input| *input <= 0.0);
             if !motion.open {
                 samples.press(element);
