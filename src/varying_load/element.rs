@@ -162,7 +162,9 @@ impl Element {
         input: NormalInput,
         kind: u64,
     ) -> Result<(), Error> {
-        in_range(&[friction_coefficient.max(f64::MIN_POSITIVE.sqrt())], &[])?;
+        if friction_coefficient > 0.0 {
+            in_range(&[friction_coefficient], &[])?;
+        }
         let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
         if w >= largest {
             return Err(Error::LengthTooShort);
