@@ -83,9 +83,12 @@ module microslip
     !! invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22
     !! invalid workspace: uninitialised, or created by an incompatible version of the library
-  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23  !! state_length must be at least mslip_state_length(0)
+  integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23
+    !! state_length must be at least mslip_state_length(0) or mslip_element_state_length(directions, 0)
+  integer(mslip_int), parameter, public :: MSLIP_BAD_ELEMENT = 24
+    !! invalid element: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
-    !! workspace_length must be at least the value of mslip_harmonic_workspace_length
+    !! workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
   integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! a force must be finite
   integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! a force must not exceed mu N in magnitude
   integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32
@@ -98,8 +101,12 @@ module microslip
     !! the number of samples must exceed twice the number of harmonics and be at most 2^24
   integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! the number of sliders must be between 1 and 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
-  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40  !! not available for this kind of contact
-  integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41  !! an index must refer to one of the n_contacts contacts
+  integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40
+    !! not available for this kind of contact, this number of directions, or this rule
+  integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41
+    !! an index must refer to one of the n_contacts contacts or n_elements elements
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42  !! directions must be 1 or 2
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43  !! normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
     !! an array is too long to be addressed, or (in Fortran) array sizes do not agree
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
@@ -114,6 +121,10 @@ module microslip
     !! Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
   integer(mslip_int), parameter, public :: MSLIP_EVENT_DRIVEN = 1
     !! Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
+  integer(mslip_int), parameter, public :: MSLIP_APPROACH = 0
+    !! The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
+  integer(mslip_int), parameter, public :: MSLIP_NORMAL_FORCE = 1
+    !! The normal component of a displacement is the normal force [N] itself.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
   ! </generated>
 
@@ -166,6 +177,22 @@ module microslip
     real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip [J].
     real(mslip_real) :: reserved(241) = 0  !! Internal tables.
   end type mslip_contact
+  type, bind(c), public :: mslip_element
+    !! A friction contact element: the law under a normal force that varies, with separation. Initialised once and only
+    !! read afterwards; it serves any number of contact points of its geometry. Plain data of fixed size that may be
+    !! copied, stored and sent.
+    real(mslip_real) :: composite_modulus = 0  !! E*, Eq. 2 [Pa].
+    real(mslip_real) :: friction_coefficient = 0  !! Coulomb's friction coefficient.
+    real(mslip_real) :: normal_force = 0  !! The largest normal force that the tables cover [N]; larger ones are exact, but slower.
+    real(mslip_real) :: half_width = 0  !! Half-width of the contact under that force [m]; elliptical: the semi-axis x.
+    real(mslip_real) :: approach = 0  !! Normal approach under that force [m].
+    real(mslip_real) :: normal_stiffness = 0  !! dN/d(approach) under that force [N/m].
+    real(mslip_real) :: tangential_stiffness = 0
+      !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
+    integer(mslip_int) :: directions = 0  !! Number of tangential directions.
+    integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    real(mslip_real) :: reserved(2149) = 0  !! Internal tables.
+  end type mslip_element
   ! </generated>
 
   ! The address of arrays without elements: c_loc is defined for arrays with elements only.
@@ -436,6 +463,112 @@ module microslip
       integer(c_int32_t) :: c_harmonic_force
     end function c_harmonic_force
 
+    function c_element_init(p, directions, normal_input, element) bind(c, name='mslip_element_init')
+      import
+      type(mslip_parameters), intent(in) :: p
+      integer(c_int32_t), value :: directions, normal_input
+      type(mslip_element), intent(inout) :: element
+      integer(c_int32_t) :: c_element_init
+    end function c_element_init
+
+    function c_element_init_elliptic(p, directions, normal_input, element) &
+      bind(c, name='mslip_element_init_elliptic')
+      import
+      type(mslip_elliptic_parameters), intent(in) :: p
+      integer(c_int32_t), value :: directions, normal_input
+      type(mslip_element), intent(inout) :: element
+      integer(c_int32_t) :: c_element_init_elliptic
+    end function c_element_init_elliptic
+
+    function c_element_check(element) bind(c, name='mslip_element_check')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_int32_t) :: c_element_check
+    end function c_element_check
+
+    function c_normal_force(element, n, approach, normal_force, stiffness, half_width) &
+      bind(c, name='mslip_normal_force')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: approach(*)
+      type(c_ptr), value :: normal_force, stiffness, half_width
+      integer(c_int32_t) :: c_normal_force
+    end function c_normal_force
+
+    function c_normal_approach(element, n, normal_force, approach, compliance, half_width) &
+      bind(c, name='mslip_normal_approach')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: normal_force(*)
+      type(c_ptr), value :: approach, compliance, half_width
+      integer(c_int32_t) :: c_normal_approach
+    end function c_normal_approach
+
+    pure function c_element_state_length(directions, pieces) bind(c, name='mslip_element_state_length')
+      import
+      integer(c_int32_t), value :: directions
+      integer(c_size_t), value :: pieces
+      integer(c_size_t) :: c_element_state_length
+    end function c_element_state_length
+
+    function c_element_state_init(directions, state_length, state) bind(c, name='mslip_element_state_init')
+      import
+      integer(c_int32_t), value :: directions
+      integer(c_size_t), value :: state_length
+      type(c_ptr), value :: state
+      integer(c_int32_t) :: c_element_state_init
+    end function c_element_state_init
+
+    function c_element_state_check(directions, state_length, state) bind(c, name='mslip_element_state_check')
+      import
+      integer(c_int32_t), value :: directions
+      integer(c_size_t), value :: state_length
+      real(c_double), intent(in) :: state(*)
+      integer(c_int32_t) :: c_element_state_check
+    end function c_element_state_check
+
+    function c_element_state_error(directions, state_length, state, force_error) &
+      bind(c, name='mslip_element_state_error')
+      import
+      integer(c_int32_t), value :: directions
+      integer(c_size_t), value :: state_length
+      real(c_double), intent(in) :: state(*)
+      type(c_ptr), value :: force_error
+      integer(c_int32_t) :: c_element_state_error
+    end function c_element_state_error
+
+    function c_element_update(element, state_length, state_old, displacement, state_new, force, tangent, dissipated) &
+      bind(c, name='mslip_element_update')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_size_t), value :: state_length
+      type(c_ptr), value :: state_old, state_new, force, tangent, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_element_update
+    end function c_element_update
+
+    function c_element_path(element, state_length, state_old, n, displacement, state_new, force, tangent, &
+      dissipated) bind(c, name='mslip_element_path')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_size_t), value :: state_length, n
+      type(c_ptr), value :: state_old, state_new, force, tangent, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_element_path
+    end function c_element_path
+
+    function c_element_tractions(element, state_length, state, n, x, pressure, shear) &
+      bind(c, name='mslip_element_tractions')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_size_t), value :: state_length, n
+      real(c_double), intent(in) :: state(*), x(*)
+      type(c_ptr), value :: pressure, shear
+      integer(c_int32_t) :: c_element_tractions
+    end function c_element_tractions
+
     function c_batch_complex_stiffness(n, n_contacts, contacts, index, active, amplitude, k_real, k_imag, dk_real, &
       dk_imag) bind(c, name='mslip_batch_complex_stiffness')
       import
@@ -465,6 +598,16 @@ module microslip
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_batch_harmonic_force
     end function c_batch_harmonic_force
+
+    function c_batch_element_update(n, n_elements, elements, index, active, state_length, states_old, displacement, &
+      states_new, force, tangent, dissipated) bind(c, name='mslip_batch_element_update')
+      import
+      integer(c_size_t), value :: n, n_elements, state_length
+      type(mslip_element), intent(in) :: elements(*)
+      type(c_ptr), value :: index, active, states_old, states_new, force, tangent, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_batch_element_update
+    end function c_batch_element_update
 
   end interface
   ! </generated>

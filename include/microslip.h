@@ -79,10 +79,13 @@
 // invalid workspace: uninitialised, or created by an incompatible version of the library
 #define MSLIP_BAD_WORKSPACE 22
 
-// state_length must be at least mslip_state_length(0)
+// state_length must be at least mslip_state_length(0) or mslip_element_state_length(directions, 0)
 #define MSLIP_STATE_TOO_SHORT 23
 
-// workspace_length must be at least the value of mslip_harmonic_workspace_length
+// invalid element: uninitialised, corrupted, or created by an incompatible version of the library
+#define MSLIP_BAD_ELEMENT 24
+
+// workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
 #define MSLIP_WORKSPACE_TOO_SHORT 25
 
 // a force must be finite
@@ -115,11 +118,17 @@
 // rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
 #define MSLIP_BAD_RULE 39
 
-// not available for this kind of contact
+// not available for this kind of contact, this number of directions, or this rule
 #define MSLIP_NOT_AVAILABLE 40
 
-// an index must refer to one of the n_contacts contacts
+// an index must refer to one of the n_contacts contacts or n_elements elements
 #define MSLIP_BAD_INDEX 41
+
+// directions must be 1 or 2
+#define MSLIP_BAD_DIRECTIONS 42
+
+// normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
+#define MSLIP_BAD_NORMAL_INPUT 43
 
 // an array is too long to be addressed, or (in Fortran) array sizes do not agree
 #define MSLIP_BAD_ARRAY_SIZE 90
@@ -141,6 +150,12 @@
 
 // Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
 #define MSLIP_EVENT_DRIVEN 1
+
+// The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
+#define MSLIP_APPROACH 0
+
+// The normal component of a displacement is the normal force [N] itself.
+#define MSLIP_NORMAL_FORCE 1
 
 // Success.
 #define MSLIP_OK 0
@@ -205,6 +220,31 @@ typedef struct mslip_contact {
     // Internal tables.
     double reserved[241];
 } mslip_contact;
+
+// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
+// it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and sent.
+typedef struct mslip_element {
+    // E*, Eq. 2 [Pa].
+    double composite_modulus;
+    // Coulomb's friction coefficient.
+    double friction_coefficient;
+    // The largest normal force that the tables cover [N]; larger ones are exact, but slower.
+    double normal_force;
+    // Half-width of the contact under that force [m]; elliptical: the semi-axis x.
+    double half_width;
+    // Normal approach under that force [m].
+    double approach;
+    // dN/d(approach) under that force [N/m].
+    double normal_stiffness;
+    // dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
+    double tangential_stiffness;
+    // Number of tangential directions.
+    int32_t directions;
+    // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    int32_t normal_input;
+    // Internal tables.
+    double reserved[2149];
+} mslip_element;
 
 #ifdef __cplusplus
 extern "C" {
@@ -502,6 +542,153 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
+// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest force for
+// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1;
+// normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
+// first invalid parameter, MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+//
+// Memory: `p` and `element` are NULL or valid for their types.
+int32_t mslip_element_init(const struct mslip_parameters *p,
+                           int32_t directions,
+                           int32_t normal_input,
+                           struct mslip_element *element);
+
+// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, > 0, is
+// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions is
+// the number of tangential directions, 1; normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
+// first invalid parameter, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+//
+// Memory: `p` and `element` are NULL or valid for their types.
+int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
+                                    int32_t directions,
+                                    int32_t normal_input,
+                                    struct mslip_element *element);
+
+// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other functions
+// only check a tag.
+//
+// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
+//
+// Memory: `element` is NULL or valid for an element.
+int32_t mslip_element_check(const struct mslip_element *element);
+
+// The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An approach <= 0
+// gives 0, 0, 0.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the contact
+// would be too wide for its length.
+//
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+int32_t mslip_normal_force(const struct mslip_element *element,
+                           size_t n,
+                           const double *approach,
+                           double *normal_force,
+                           double *stiffness,
+                           double *half_width);
+
+// The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force[n] [N]. At 0 the compliance of a
+// cylinder and of an ellipse is infinite.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the contact
+// would be too wide for its length.
+//
+// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
+int32_t mslip_normal_approach(const struct mslip_element *element,
+                              size_t n,
+                              const double *normal_force,
+                              double *approach,
+                              double *compliance,
+                              double *half_width);
+
+// Number of doubles in the state of an element for one tangential direction with a capacity of `pieces` pieces of the memory diagram,
+// at least 4; 0 if directions is not 1. A state is never full: if the capacity is exceeded, the two adjacent pieces are merged for
+// which later forces change least.
+size_t mslip_element_state_length(int32_t directions,
+                                  size_t pieces);
+
+// Initialises the state of an element: open, at zero displacement.
+//
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+//
+// Memory: `state` is NULL or valid for state_length doubles.
+int32_t mslip_element_state_init(int32_t directions, size_t state_length, double *state);
+
+// Validates the state of an element that was read from a file or a message: all values must be finite and the pieces nested. Other
+// functions only check a tag and the number of pieces.
+//
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+//
+// Memory: `state` is NULL or valid for state_length doubles.
+int32_t mslip_element_state_check(int32_t directions,
+                                  size_t state_length,
+                                  const double *state);
+
+// Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or separation.
+//
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+//
+// Memory: `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
+int32_t mslip_element_state_error(int32_t directions,
+                                  size_t state_length,
+                                  const double *state,
+                                  double *force_error);
+
+// Advances the state of an element to displacement[2]: the tangential displacement [m], and the normal approach [m] or the normal
+// force [N]. force[2] [N] is the tangential and the normal force, tangent[4] [N/m] is d force_i / d displacement_j, 2 x 2,
+// column-major, consistent with the step and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may
+// alias state_old; if NULL, the new state is discarded. Within a step the path is straight in the tangential displacement and the
+// tangential shift S of the contact size.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT,
+// MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length.
+//
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
+// does not alias any other argument.
+int32_t mslip_element_update(const struct mslip_element *element,
+                             size_t state_length,
+                             const double *state_old,
+                             const double *displacement,
+                             double *state_new,
+                             double *force,
+                             double *tangent,
+                             double *dissipated);
+
+// Advances the state of an element through n displacements, two doubles each; force holds two doubles per step, tangent four,
+// dissipated one. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
+// evaluated with a capacity of at most 256 pieces.
+//
+// Returns the codes of mslip_element_update; all outputs are unchanged then.
+//
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
+// does not alias any other argument.
+int32_t mslip_element_path(const struct mslip_element *element,
+                           size_t state_length,
+                           const double *state_old,
+                           size_t n,
+                           const double *displacement,
+                           double *state_new,
+                           double *force,
+                           double *tangent,
+                           double *dissipated);
+
+// Pressure and shear traction [Pa] at x[n] [m] along the width after a load history; 0 outside the contact. Elliptical: on the x
+// axis.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+//
+// Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
+int32_t mslip_element_tractions(const struct mslip_element *element,
+                                size_t state_length,
+                                const double *state,
+                                size_t n,
+                                const double *x,
+                                double *pressure,
+                                double *shear);
+
 // mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
 // active is not NULL and active[i] is 0, item i is skipped.
 //
@@ -558,6 +745,27 @@ int32_t mslip_batch_harmonic_force(size_t n,
                                    const double *displacement,
                                    double *force,
                                    double *jacobian,
+                                   double *dissipated);
+
+// mslip_element_update for n items: states hold state_length doubles per item, contiguously; displacement and force two, tangent four,
+// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If active is
+// not NULL and active[i] is 0, item i is skipped, and its state is not written.
+//
+// Returns MSLIP_BAD_INDEX or the codes of mslip_element_update; all outputs are unchanged then.
+//
+// Memory: `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
+// like the outputs, does not alias any other argument.
+int32_t mslip_batch_element_update(size_t n,
+                                   size_t n_elements,
+                                   const struct mslip_element *elements,
+                                   const int32_t *index,
+                                   const int32_t *active,
+                                   size_t state_length,
+                                   const double *states_old,
+                                   const double *displacement,
+                                   double *states_new,
+                                   double *force,
+                                   double *tangent,
                                    double *dissipated);
 
 #ifdef __cplusplus

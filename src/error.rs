@@ -67,9 +67,12 @@ status_codes! {
         "invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library";
     BadWorkspace, MSLIP_BAD_WORKSPACE = 22:
         "invalid workspace: uninitialised, or created by an incompatible version of the library";
-    StateTooShort, MSLIP_STATE_TOO_SHORT = 23: "state_length must be at least mslip_state_length(0)";
+    StateTooShort, MSLIP_STATE_TOO_SHORT = 23:
+        "state_length must be at least mslip_state_length(0) or mslip_element_state_length(directions, 0)";
+    BadElement, MSLIP_BAD_ELEMENT = 24:
+        "invalid element: uninitialised, corrupted, or created by an incompatible version of the library";
     WorkspaceTooShort, MSLIP_WORKSPACE_TOO_SHORT = 25:
-        "workspace_length must be at least the value of mslip_harmonic_workspace_length";
+        "workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length";
     BadForce, MSLIP_BAD_FORCE = 30: "a force must be finite";
     ForceExceedsSlip, MSLIP_FORCE_EXCEEDS_SLIP = 31: "a force must not exceed mu N in magnitude";
     BadDisplacement, MSLIP_BAD_DISPLACEMENT = 32: "a displacement must be finite and at most 1e150 in magnitude";
@@ -81,8 +84,11 @@ status_codes! {
         "the number of samples must exceed twice the number of harmonics and be at most 2^24";
     BadCount, MSLIP_BAD_COUNT = 38: "the number of sliders must be between 1 and 65536";
     BadRule, MSLIP_BAD_RULE = 39: "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN";
-    NotAvailable, MSLIP_NOT_AVAILABLE = 40: "not available for this kind of contact";
-    BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts";
+    NotAvailable, MSLIP_NOT_AVAILABLE = 40:
+        "not available for this kind of contact, this number of directions, or this rule";
+    BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
+    BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2";
+    BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
         "an array is too long to be addressed, or (in Fortran) array sizes do not agree";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";

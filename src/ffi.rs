@@ -13,18 +13,22 @@ mod history;
 mod cycle;
 mod hbm;
 
+mod element;
+
 mod batch;
 
 pub use crate::error::constants::*;
 pub use batch::*;
 pub use contact::*;
 pub use cycle::*;
+pub use element::*;
 pub use hbm::*;
 pub use history::*;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
+use crate::varying_load::element::Element;
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
@@ -39,6 +43,11 @@ pub const MSLIP_RIGID_STRIP: i32 = 1;
 pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
 /// Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
 pub const MSLIP_EVENT_DRIVEN: i32 = 1;
+
+/// The normal component of a displacement is the normal approach \[m\]; if it is not positive, the contact is open.
+pub const MSLIP_APPROACH: i32 = 0;
+/// The normal component of a displacement is the normal force \[N\] itself.
+pub const MSLIP_NORMAL_FORCE: i32 = 1;
 
 /// Success.
 pub const MSLIP_OK: i32 = 0;
@@ -63,8 +72,40 @@ pub struct mslip_contact {
     pub reserved: [f64; 241],
 }
 
+/// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
+/// it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and sent.
+#[repr(C)]
+pub struct mslip_element {
+    /// E*, Eq. 2 \[Pa\].
+    pub composite_modulus: f64,
+    /// Coulomb's friction coefficient.
+    pub friction_coefficient: f64,
+    /// The largest normal force that the tables cover \[N\]; larger ones are exact, but slower.
+    pub normal_force: f64,
+    /// Half-width of the contact under that force \[m\]; elliptical: the semi-axis x.
+    pub half_width: f64,
+    /// Normal approach under that force \[m\].
+    pub approach: f64,
+    /// dN/d(approach) under that force \[N/m\].
+    pub normal_stiffness: f64,
+    /// dT/d(displacement) of a fully stuck contact under that force, x direction \[N/m\].
+    pub tangential_stiffness: f64,
+    /// Number of tangential directions.
+    pub directions: i32,
+    /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    pub normal_input: i32,
+    /// Internal tables.
+    pub reserved: [f64; 2150],
+}
+
 const _: () = {
     use core::mem::offset_of;
+    assert!(size_of::<mslip_element>() == size_of::<Element>() && align_of::<mslip_element>() == align_of::<Element>());
+    assert!(offset_of!(Element, composite_modulus) == 0 && offset_of!(Element, friction_coefficient) == 8);
+    assert!(offset_of!(Element, normal_force) == 16 && offset_of!(Element, half_width) == 24);
+    assert!(offset_of!(Element, approach) == 32 && offset_of!(Element, normal_stiffness) == 40);
+    assert!(offset_of!(Element, tangential_stiffness) == 48 && offset_of!(Element, directions) == 56);
+    assert!(offset_of!(Element, normal_input) == 60);
     assert!(size_of::<mslip_contact>() == size_of::<Contact>() && align_of::<mslip_contact>() == align_of::<Contact>());
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);

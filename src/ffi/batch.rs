@@ -3,49 +3,71 @@
 use super::cycle::write_complex_stiffness;
 use super::hbm::harmonic_force_dispatched;
 use super::history;
-use super::mslip_contact;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
+use super::{element, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput};
+use crate::varying_load::element::Element;
+use crate::varying_load::state as element_state;
 use libc::size_t;
 
-/// Items of a batch: their contacts, and the flags of the active items.
-#[derive(Clone, Copy)]
-struct Items<'a> {
+/// A contact or an element.
+trait Law {
+    fn check(&self) -> Result<(), Error>;
+}
+
+impl Law for Contact {
+    #[inline(always)]
+    fn check(&self) -> Result<(), Error> {
+        if self.is_initialised() { Ok(()) } else { Err(Error::BadContact) }
+    }
+}
+
+impl Law for Element {
+    #[inline(always)]
+    fn check(&self) -> Result<(), Error> {
+        if self.is_initialised() { Ok(()) } else { Err(Error::BadElement) }
+    }
+}
+
+/// Items of a batch: their contacts or elements, and the flags of the active items.
+struct Items<'a, L> {
     n: usize,
-    contacts: &'a [Contact],
+    laws: &'a [L],
     index: Option<&'a [i32]>,
     active: Option<&'a [i32]>,
 }
 
-impl<'a> Items<'a> {
-    /// Checks the contacts of all active items.
+impl<L> Clone for Items<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for Items<'_, L> {}
+
+impl<'a, L: Law> Items<'a, L> {
+    /// Checks the contacts or elements of all active items.
     ///
     /// # Safety
-    /// `contacts` is NULL or valid for n_contacts contacts, `index` and `active` are NULL or valid for n integers.
+    /// `laws` is NULL or valid for n_laws of them, which any bytes are; `index` and `active` are NULL or valid for n integers.
     #[inline(never)]
     unsafe fn new(
         n: usize,
-        n_contacts: usize,
-        contacts: *const mslip_contact,
+        n_laws: usize,
+        laws: *const L,
         index: *const i32,
         active: *const i32,
-    ) -> Result<Items<'a>, Error> {
-        // SAFETY: by the function's contract; all bit patterns are valid for a contact.
-        let (contacts, index, active) = unsafe {
-            let contacts = input(contacts.cast::<Contact>(), n_contacts)?;
-            (contacts, optional_input(index, n)?, optional_input(active, n)?)
-        };
+    ) -> Result<Items<'a, L>, Error> {
+        // SAFETY: by the function's contract.
+        let (laws, index, active) =
+            unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
         check_length::<f64>(n)?;
-        let items = Items { n, contacts, index, active };
-        for i in items.active() {
-            if !items.contact(i).ok_or(Error::BadIndex)?.is_initialised() {
-                return Err(Error::BadContact);
-            }
-        }
+        let items = Items { n, laws, index, active };
+        items.active().try_for_each(|i| items.law(i).ok_or(Error::BadIndex)?.check())?;
         Ok(items)
     }
 
@@ -56,17 +78,17 @@ impl<'a> Items<'a> {
     }
 
     #[inline(always)]
-    fn contact(&self, i: usize) -> Option<&'a Contact> {
+    fn law(&self, i: usize) -> Option<&'a L> {
         match self.index {
-            None => self.contacts.get(i),
-            Some(index) => self.contacts.get(usize::try_from(*index.get(i)?).ok()?),
+            None => self.laws.get(i),
+            Some(index) => self.laws.get(usize::try_from(*index.get(i)?).ok()?),
         }
     }
 
-    /// Active items: index, contact, and the part of an input of `length` values per item.
+    /// Active items: index, contact or element, and the part of an input of `length` values per item.
     #[inline(always)]
-    fn with<'d>(self, values: &'d [f64], length: usize) -> impl Iterator<Item = (usize, &'a Contact, &'d [f64])> {
-        self.active().filter_map(move |i| Some((i, self.contact(i)?, values.get(i * length..(i + 1) * length)?)))
+    fn with<'d>(self, values: &'d [f64], length: usize) -> impl Iterator<Item = (usize, &'a L, &'d [f64])> {
+        self.active().filter_map(move |i| Some((i, self.law(i)?, values.get(i * length..(i + 1) * length)?)))
     }
 }
 
@@ -95,7 +117,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
         // SAFETY: by the function's contract.
         let (items, amplitude, mut outputs) = unsafe {
             let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (Items::new(n, n_contacts, contacts, index, active)?, input(amplitude, n)?, outputs?)
+            (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(amplitude, n)?, outputs?)
         };
         items.with(amplitude, 1).flat_map(|(_, _, amplitude)| amplitude).try_for_each(|a| check_amplitude(*a))?;
         for (i, contact, amplitude) in items.with(amplitude, 1) {
@@ -133,7 +155,7 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     let update = || {
         // SAFETY: by the function's contract.
         let (items, displacement) =
-            unsafe { (Items::new(n, n_contacts, contacts, index, active)?, input(displacement, n)?) };
+            unsafe { (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(displacement, n)?) };
         [states_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
         let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
         if n > 0 && state_length < state::state_length(0) {
@@ -187,8 +209,9 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
-        let (items, mut workspace) =
-            unsafe { (Items::new(n, n_contacts, contacts, index, active)?, pointers::workspace(workspace)?) };
+        let (items, mut workspace) = unsafe {
+            (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, pointers::workspace(workspace)?)
+        };
         let one = workspace.coefficients();
         let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
         let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
@@ -208,6 +231,67 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         Ok(())
     };
     status(compute())
+}
+
+/// mslip_element_update for n items: states hold state_length doubles per item, contiguously; displacement and force two, tangent four,
+/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is
+/// not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
+///
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_element_update; all outputs are unchanged then.
+///
+/// # Safety
+/// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
+/// like the outputs, does not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_batch_element_update(
+    n: size_t,
+    n_elements: size_t,
+    elements: *const mslip_element,
+    index: *const i32,
+    active: *const i32,
+    state_length: size_t,
+    states_old: *const f64,
+    displacement: *const f64,
+    states_new: *mut f64,
+    force: *mut f64,
+    tangent: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let update = || {
+        let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
+        let components = n.checked_mul(2).ok_or(Error::BadArraySize)?;
+        check_length::<[f64; 4]>(n)?;
+        // SAFETY: by the function's contract; an element consists of doubles and integers.
+        let (items, displacement) = unsafe {
+            let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+            (items, input(displacement, components)?)
+        };
+        [states_new, force, tangent, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
+        if n > 0 && state_length < element_state::state_length(0) {
+            return Err(Error::StateTooShort);
+        }
+        {
+            // SAFETY: by the function's contract.
+            let states = unsafe { input(states_old, length) }?;
+            for (i, element, displacement) in items.with(displacement, 2) {
+                let tag = states.get(i * state_length).ok_or(Error::BadArraySize)?;
+                element_state::check_tag(*tag, state_length)?;
+                element_state::check_step(element, displacement.first_chunk().ok_or(Error::BadArraySize)?)?;
+            }
+        }
+        let at =
+            |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
+        for (i, element, displacement) in items.with(displacement, 2) {
+            let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
+            let outputs = [at(force, 2 * i), at(tangent, 4 * i), at(dissipated, i)];
+            if let Some(displacement) = displacement.first_chunk() {
+                // SAFETY: checked, aligned; those of item i are valid by the function's contract.
+                unsafe { element::update(element, state_length, state_old, displacement, state_new, outputs) };
+            }
+        }
+        Ok(())
+    };
+    status(update())
 }
 
 /// Outputs of a batch of harmonic forces.

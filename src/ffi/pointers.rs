@@ -1,9 +1,10 @@
 //! Conversion of pointers to slices, and of results to status codes.
 
-use super::{MSLIP_OK, mslip_contact};
+use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::hbm::{self, Workspace};
+use crate::varying_load::element::Element;
 use core::{mem, ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
@@ -118,24 +119,53 @@ pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, 
 
 /// Rejects a contact that was modified after its initialisation.
 pub fn check_contact(contact: &Contact) -> Result<(), Error> {
-    if sum(contact) == 0 { Ok(()) } else { Err(Error::BadContact) }
+    // SAFETY: a contact consists of doubles and 64-bit words, without padding.
+    if unsafe { sum(contact) } == 0 { Ok(()) } else { Err(Error::BadContact) }
+}
+
+/// Rejects an element that was modified after its initialisation.
+pub fn check_element(element: &Element) -> Result<(), Error> {
+    // SAFETY: an element consists of doubles, 64-bit words and two 32-bit words, without padding.
+    if unsafe { sum(element) } == 0 { Ok(()) } else { Err(Error::BadElement) }
+}
+
+/// Sets the checksum of an element: the sum of all words is 0.
+pub fn set_checksum(element: &mut Element) {
+    element.checksum = 0;
+    // SAFETY: as in `check_element`.
+    element.checksum = unsafe { sum(element) }.wrapping_neg();
 }
 
 /// The C type of a contact, with its checksum: the sum of all words is 0.
 impl From<Contact> for mslip_contact {
     fn from(mut contact: Contact) -> mslip_contact {
         contact.checksum = 0;
-        contact.checksum = sum(&contact).wrapping_neg();
+        // SAFETY: as in `check_contact`.
+        contact.checksum = unsafe { sum(&contact) }.wrapping_neg();
         // SAFETY: both types consist of the same doubles and 64-bit words.
         unsafe { mem::transmute(contact) }
     }
 }
 
-/// Sum of all 64-bit words of a contact.
-fn sum(contact: &Contact) -> u64 {
-    // SAFETY: a contact consists of doubles and 64-bit words, without padding.
-    let words = unsafe { &*ptr::from_ref(contact).cast::<[u64; size_of::<Contact>() / size_of::<u64>()]>() };
+/// Sum of all 64-bit words.
+///
+/// # Safety
+/// The type has the alignment of a double and no padding.
+unsafe fn sum<T>(value: &T) -> u64 {
+    // SAFETY: by the function's contract.
+    let words = unsafe { slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>()) };
     words.iter().fold(0, |sum, word| sum.wrapping_add(*word))
+}
+
+/// An initialised element.
+///
+/// # Safety
+/// `pointer` is NULL or valid for an element.
+#[inline(always)]
+pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, Error> {
+    // SAFETY: by the function's contract; both types consist of the same doubles and integers, for which all bit patterns are valid.
+    let element = unsafe { item(pointer.cast::<Element>()) }?;
+    if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
 }
 
 /// Sets element i of an output, if requested.

@@ -69,67 +69,78 @@ pub(crate) struct Response {
     pub by_input: f64,
 }
 
-/// What replaces the outer part of a diagram: the knots that stay, and up to two new ones.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Change {
-    /// Number of knots that stay.
-    pub kept: usize,
-    /// New knots; the first only if there is a slip zone.
-    pub cut: Option<Knot>,
-    pub end: Knot,
-    /// The new centre in gross slip.
-    pub centre: Option<Knot>,
-    pub response: Response,
+/// A diagram that a step changes.
+pub(crate) trait Diagram {
+    /// Knots from the centre outwards, at least one.
+    fn knots(&self) -> &[[f64; 4]];
+
+    /// Keeps the given number of knots from the centre outwards, and appends others.
+    fn replace(&mut self, kept: usize, new: &[Knot]);
 }
 
-/// The step to a closed contact with the given normal state at the displacement u: `knots` is not empty, from the centre outwards.
+/// A diagram that is read only: its changes are discarded.
+impl Diagram for &[[f64; 4]] {
+    #[inline(always)]
+    fn knots(&self) -> &[[f64; 4]] {
+        self
+    }
+
+    #[inline(always)]
+    fn replace(&mut self, _: usize, _: &[Knot]) {}
+}
+
+/// The step to a closed contact with the given normal state at the displacement u.
 #[inline(always)]
-pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, normal: &Normal) -> Change {
+pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> Response {
     let mu = element.friction_coefficient;
     let Normal { load, shift, load_slope, shift_slope } = *normal;
     let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
-    let stiffness = normal.tangential_stiffness();
-    let knot = |index: usize| knots.get(index).copied().map(Knot::from);
     let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
+    let knots = diagram.knots();
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
-    let Some(inner) = kept.checked_sub(1).and_then(knot) else {
-        let centre = knot(0).map_or(displacement, |centre| centre.xi);
+    let (stays, beyond) = knots.split_at_checked(kept).unwrap_or((knots, &[]));
+    let Some(inner) = stays.last().copied().map(Knot::from) else {
+        let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
         let (sign, origin) = if centre <= xi { (mu, xi) } else { (-mu, eta) };
-        let response = Response { force: sign * load, by_displacement: 0.0, by_input: sign * load_slope };
-        let end = Knot { xi, eta, load, force: response.force };
-        return Change { kept: 0, cut: None, end, centre: Some(Knot::centre(origin)), response };
+        let force = sign * load;
+        diagram.replace(0, &[Knot::centre(origin), Knot { xi, eta, load, force }]);
+        return Response { force, by_displacement: 0.0, by_input: sign * load_slope };
     };
-    let Some(outer) = knot(kept) else {
+    let Some(outer) = beyond.first().copied().map(Knot::from) else {
         // Everything sticks: a piece with D = Δu/ΔS.
         let (falling, rising) = (inner.xi - xi, eta - inner.eta);
-        let slope = mu * ((rising - falling) / (rising + falling));
-        let secant = (load - inner.load) * (2.0 * mu / (rising + falling));
+        let per_shift = 1.0 / (rising + falling);
+        let slope = mu * ((rising - falling) * per_shift);
+        let secant = (load - inner.load) * (2.0 * mu * per_shift);
         let force = inner.force + slope * (load - inner.load);
-        let by_input = slope * (stiffness - secant) * shift_slope;
-        let response = Response { force, by_displacement: secant, by_input };
-        return Change { kept, cut: None, end: Knot { xi, eta, load, force }, centre: None, response };
+        diagram.replace(kept, &[Knot { xi, eta, load, force }]);
+        return Response { force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) };
     };
     // The piece from `inner` to `outer` leaves the quadrant through one of its sides.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let forward = falling * to_eta >= rising * to_xi;
-    let (cut_xi, cut_eta, sign) = if forward {
+    let (cut_xi, cut_eta, sign) = if falling * to_eta >= rising * to_xi {
         // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
-        (xi, inner.eta + rising * (to_xi / falling), mu)
+        (xi, inner.eta + along(to_xi, falling, rising), mu)
     } else {
-        (inner.xi - falling * (to_eta / rising), eta, -mu)
+        (inner.xi - along(to_eta, rising, falling), eta, -mu)
     };
-    let (cut_load, cut_stiffness) = element.load_at_shift((0.5 * (cut_eta - cut_xi) / mu).max(0.0));
-    let slope = outer.slope_from(&inner, mu);
-    let cut_force = inner.force + slope * (cut_load - inner.load);
+    let (cut_load, cut_stiffness) = element.load_at_shift((element.per_two_mu * (cut_eta - cut_xi)).max(0.0));
+    let cut_force = inner.force + outer.slope_from(&inner, mu) * (cut_load - inner.load);
     let force = cut_force + sign * (load - cut_load);
-    let response =
-        Response { force, by_displacement: cut_stiffness, by_input: sign * (stiffness - cut_stiffness) * shift_slope };
-    Change {
-        kept,
-        cut: Some(Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force: cut_force }),
-        end: Knot { xi, eta, load, force },
-        centre: None,
-        response,
+    let cut = Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force: cut_force };
+    diagram.replace(kept, &[cut, Knot { xi, eta, load, force }]);
+    let by_input = sign * (load_slope - cut_stiffness * shift_slope);
+    Response { force, by_displacement: cut_stiffness, by_input }
+}
+
+/// The other coordinate along a piece that covers `whole` and `other`, at a part of the first one. A slip zone, the common case, covers
+/// nothing in the other one, and there the table that follows need not wait for a division.
+#[inline(always)]
+fn along(part: f64, whole: f64, other: f64) -> f64 {
+    #[cold]
+    fn proportion(part: f64, whole: f64, other: f64) -> f64 {
+        other * (part / whole)
     }
+    if other > 0.0 { proportion(part, whole, other) } else { 0.0 }
 }

@@ -44,6 +44,8 @@ pub struct Element {
     tag: u64,
     /// Set by the C interface.
     pub(crate) checksum: u64,
+    /// 1/(2 mu); 0 without friction.
+    pub(crate) per_two_mu: f64,
     /// The largest normal force and approach for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
@@ -84,11 +86,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\].
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
@@ -175,6 +172,7 @@ impl Element {
         }
         (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
         self.friction_coefficient = friction_coefficient;
+        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
         self.approach = approach;
@@ -206,37 +204,30 @@ impl Element {
         self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG
     }
 
-    /// The normal force at an approach \[m\]; 0 for an approach <= 0, an open contact.
-    ///
-    /// # Errors
-    /// `BadDisplacement` unless the approach is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
-    /// too wide for its length.
+    /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[must_use]
     #[inline(always)]
-    pub fn normal_force_at(&self, approach: f64) -> Result<NormalPoint, Error> {
-        self.check_approach(approach)?;
+    pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let position = if self.by_approach() { self.of_input.position(approach) } else { None };
         let (value, slope) = match position {
             Some(at) => self.of_input.value_and_slope(approach, at),
             None if approach <= 0.0 => (0.0, 0.0),
             None => self.load_of_approach_outside(approach),
         };
-        Ok(NormalPoint { value, slope })
+        NormalPoint { value, slope }
     }
 
-    /// The approach under a normal force \[N\]. Its derivative at 0 is infinite for a cylinder or an ellipse.
-    ///
-    /// # Errors
-    /// `BadNormalForce` unless the force is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too
-    /// wide for its length.
+    /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
+    /// cylinder or an ellipse.
+    #[must_use]
     #[inline(always)]
-    pub fn approach_under(&self, normal_force: f64) -> Result<NormalPoint, Error> {
-        self.check_normal_force(normal_force)?;
+    pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
-        let Some(at) = position else { return Ok(self.approach_outside(normal_force)) };
+        let Some(at) = position else { return self.approach_outside(normal_force) };
         let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
-        Ok(NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) })
+        NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
     }
 
     #[inline(never)]
@@ -287,12 +278,24 @@ impl Element {
         if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
     }
 
-    fn check_approach(&self, approach: f64) -> Result<(), Error> {
+    /// Checks a normal approach.
+    ///
+    /// # Errors
+    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
         if approach <= self.largest_approach { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
-    fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
+    /// Checks a normal force.
+    ///
+    /// # Errors
+    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         if !in_0_to(1e150, normal_force) {
             return Err(Error::BadNormalForce);
         }
@@ -358,29 +361,36 @@ impl Element {
         if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
     }
 
-    /// N, N', N'' and M at a shift S >= 0.
-    pub(crate) fn potential_at_shift(&self, shift: f64) -> [f64; 4] {
+    /// N'' at a shift S > 0.
+    #[inline(always)]
+    pub(crate) fn curvature_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
-            Some(at) => {
-                let (load, slope) = self.load_of_shift.value_and_slope(shift, at);
-                let (_, curvature) = self.load_of_shift.slope_and_curvature(at);
-                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
-                let potential = middle + self.load_of_shift.integral_from_middle(shift, at);
-                [load, slope, curvature / shift, potential]
-            }
-            None => self.potential_outside(shift),
+            Some(at) => self.load_of_shift.curvature(shift, at),
+            None => self.curvature_outside(shift),
         }
     }
 
     #[inline(never)]
-    fn potential_outside(&self, shift: f64) -> [f64; 4] {
+    fn curvature_outside(&self, shift: f64) -> f64 {
         let shape = self.shape();
         let w = shape.at_shift(shift);
-        if w <= 0.0 {
-            return [0.0, self.touching_stiffness(), 0.0, 0.0];
+        let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
+        if w > 0.0 { 2.0 * curvature / (shift * shift) } else { 0.0 }
+    }
+
+    /// M at a shift S >= 0.
+    pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
+        match self.load_of_shift.position(shift) {
+            Some(at) => {
+                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
+                middle + self.load_of_shift.integral_from_middle(shift, at)
+            }
+            None => {
+                let shape = self.shape();
+                let w = shape.at_shift(shift);
+                if w > 0.0 { shape.potential(w) } else { 0.0 }
+            }
         }
-        let [load, slope, curvature, ..] = shape.series(w, Relation::LoadOfShift);
-        [load, slope / shift, 2.0 * curvature / (shift * shift), shape.potential(w)]
     }
 }
 
@@ -397,6 +407,7 @@ const EMPTY: Element = Element {
     normal_input: 0,
     tag: 0,
     checksum: 0,
+    per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
     shift_per_approach: 0.0,

@@ -32,6 +32,7 @@ struct Slip {
 }
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
+#[inline(never)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
@@ -112,12 +113,13 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * contact_rate) * sign.signum();
     // Mean of N along the rest of the path.
-    let at = |s: f64| element.potential_at_shift(s.max(0.0));
-    let width = path.shift[1] - outer;
-    let mean: f64 = if width.abs() < 0.25 * outer.max(path.shift[1]) {
-        gauss_nodes(2).map(|(node, weight)| weight * at(outer + node * width)[0]).sum()
-    } else {
-        (at(path.shift[1])[3] - at(outer)[3]) / width
+    let (width, largest) = (path.shift[1] - outer, outer.max(path.shift[1]));
+    let mean: f64 = match nodes_for(width.abs(), largest) {
+        Some(nodes) => nodes.map(|(node, part)| part * element.load_at_shift(outer + node * width).0).sum(),
+        None => {
+            let potential = |s: f64| element.potential_at_shift(s.max(0.0));
+            (potential(path.shift[1]) - potential(outer)) / width
+        }
     };
     mu * slip.max(0.0) * (1.0 - fraction) * mean
 }
@@ -146,34 +148,39 @@ impl Slip {
         // inner_end is the smallest and inner_start <= outer_start; outer_end may lie anywhere above inner_end.
         let (low, high) = (outer_start.min(outer_end), outer_start.max(outer_end));
         let (first, second) = (inner_start.min(low), inner_start.max(low));
-        [[inner_end, first], [first, second], [second, high]]
-            .iter()
-            .map(|[low, high]| integral_between(element, *low, *high, weight))
-            .sum()
+        // Between the boundaries of the slip zone and of the contact the weight is linear.
+        integral_between(element, [inner_end, first], false, weight)
+            + integral_between(element, [first, second], inner_start <= low, weight)
+            + integral_between(element, [second, high], false, weight)
     }
 }
 
-/// `∫ W N'' dS` for a quadratic W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the
+/// `∫ W N'' dS` for a quadratic or linear W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the
 /// positive integrand.
-fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64) -> f64) -> f64 {
+#[inline(never)]
+fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weight: impl Fn(f64) -> f64) -> f64 {
     let width = high - low;
     if width <= 0.0 {
         return 0.0;
     }
-    if width < 0.25 * high {
-        return gauss_nodes(2)
-            .map(|(node, part)| {
-                let s = low + node * width;
-                part * width * weight(s) * element.potential_at_shift(s)[2]
-            })
-            .sum();
+    if let Some(nodes) = nodes_for(width, high) {
+        let integrand = |s: f64| weight(s) * element.curvature_at_shift(s);
+        return width * nodes.map(|(node, part)| part * integrand(low + node * width)).sum::<f64>();
     }
-    let (first, middle, last) = (weight(low), weight(low + 0.5 * width), weight(high));
-    let second = 4.0 * (first - 2.0 * middle + last) / (width * width);
+    let (first, last) = (weight(low), weight(high));
+    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / (width * width) };
     let slope = (last - first) / width;
     let at = |s: f64, value: f64, slope: f64| {
-        let [load, load_slope, _, potential] = element.potential_at_shift(s);
+        let (load, load_slope) = element.load_at_shift(s);
+        let potential = if linear { 0.0 } else { element.potential_at_shift(s) };
         load_slope * value - load * slope + potential * second
     };
     (at(high, last, slope + 0.5 * second * width) - at(low, first, slope - 0.5 * second * width)).max(0.0)
+}
+
+/// Nodes and weights for an integrand that is singular at S = 0 only, over an interval of the given width below (or above) a largest S;
+/// `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 for a quarter of the largest S and 62
+/// for a sixteenth: below the rounding of the sum.
+fn nodes_for(width: f64, largest: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
+    (width < 0.25 * largest).then(|| gauss_nodes(if width < 0.0625 * largest { 1 } else { 2 }))
 }

@@ -9,7 +9,7 @@ use crate::constant_load::contact::check_displacement;
 use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
-use crate::varying_load::diagram::{self, Knot, Response};
+use crate::varying_load::diagram::{self, Diagram, Knot, Response};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{self, Path};
 
@@ -35,6 +35,10 @@ pub struct Step {
     pub tangent: [f64; 4],
     /// \[J\]; 0 unless requested.
     pub dissipated: f64,
+}
+
+impl Step {
+    const NONE: Step = Step { force: [0.0; 2], tangent: [0.0; 4], dissipated: 0.0 };
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
@@ -65,8 +69,14 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
     }
-    match Kind::ElementState.count(state.first().copied().unwrap_or(0.0)) {
-        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state.len() => Ok(()),
+    check_tag(state.first().copied().unwrap_or(0.0), state.len())
+}
+
+/// Rejects the tag of what is no state of that length.
+#[inline(always)]
+pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
+    match Kind::ElementState.count(tag) {
+        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
         _ => Err(Error::BadState),
     }
 }
@@ -79,169 +89,217 @@ pub fn force_error(state: &[f64]) -> f64 {
 
 const ERROR: usize = 7;
 
-/// A state whose header was checked.
+/// Values in the header of a state.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    displacement: f64,
+    input: f64,
+    normal: Normal,
+    error: f64,
+}
+
+impl Point {
+    #[inline(always)]
+    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Point {
+        Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
+    }
+
+    #[inline(always)]
+    fn write(&self, used: usize, header: &mut [f64; HEADER]) {
+        let Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
+        let tag = Kind::ElementState.tag(used);
+        *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
+    }
+}
+
+/// A state whose header was checked: the tangential displacement, the normal force, and the knots.
 pub(crate) struct View<'a> {
     pub displacement: f64,
-    input: f64,
-    pub normal: Normal,
-    error: f64,
+    pub load: f64,
     pub knots: &'a [[f64; PER_KNOT]],
 }
 
 pub(crate) fn view(state: &[f64]) -> View<'_> {
-    let (&[tag, displacement, input, load, shift, load_slope, shift_slope, error], knots) =
-        state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
-    let used = Kind::ElementState.count(tag).unwrap_or(0);
+    let (header, knots) = parts(state);
+    let Point { displacement, normal, .. } = Point::read(header);
+    View { displacement, load: normal.load, knots }
+}
+
+/// Header and knots in use of a state whose header was checked.
+#[inline(always)]
+fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
+    let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
+    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
     let knots = knots.as_chunks().0;
-    View {
-        displacement,
-        input,
-        normal: Normal { load, shift, load_slope, shift_slope },
-        error,
-        knots: knots.get(..used).unwrap_or(knots),
-    }
+    (header, knots.get(..used).unwrap_or(knots))
 }
 
-/// A step, with what it changes in the state.
-pub(crate) struct Update {
-    pub step: Step,
-    header: [f64; HEADER - 1],
-    /// Knots of the old state that stay, and the new ones.
-    kept: usize,
-    new: [Knot; 3],
-    count: usize,
-    friction_coefficient: f64,
-}
-
-/// Computes a step from a state whose header was checked.
-///
-/// # Errors
-/// `BadDisplacement` or `BadNormalForce` for a component that is not allowed.
-pub(crate) fn update(
+/// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
+#[inline(always)]
+fn step(
     element: &Element,
-    state: &[f64],
+    from: &Point,
+    diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> Result<Update, Error> {
-    check_step(element, &[displacement, input])?;
-    let old = view(state);
-    let closed = input > 0.0;
-    let normal = if !closed {
-        Normal::OPEN
-    } else if input.to_bits() == old.input.to_bits() {
-        old.normal
-    } else {
-        element.normal(input)
-    };
-    let header = |error| {
-        let Normal { load, shift, load_slope, shift_slope } = normal;
-        [displacement, input, load, shift, load_slope, shift_slope, error]
-    };
-    let friction_coefficient = element.friction_coefficient;
-    let without_friction = friction_coefficient == 0.0;
-    let crossing = |start: f64| {
-        // The straight path passes N = 0 at this displacement.
-        let fraction = if element.by_approach() { old.input / (old.input - input) } else { start };
-        old.displacement + fraction * (displacement - old.displacement)
-    };
-    if !closed || without_friction {
-        let dissipated = if with_energy && old.normal.load > 0.0 && !without_friction {
-            let path = Path { shift: [old.normal.shift, 0.0], displacement: crossing(1.0) - old.displacement };
-            energy::dissipated(element, old.knots, &path)
-        } else {
-            0.0
-        };
-        let step = Step {
-            force: [0.0, normal.load],
-            tangent: [0.0, 0.0, 0.0, if closed { normal.load_slope } else { 0.0 }],
-            dissipated,
-        };
-        let new = [Knot::centre(displacement); 3];
-        return Ok(Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient });
+) -> (Step, Point) {
+    if !(input > 0.0 && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
+        return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
-    let closing = old.normal.load <= 0.0;
-    let touch: [f64; PER_KNOT];
-    let touching: [[f64; PER_KNOT]; 1];
-    let (knots, start) = if closing {
-        let start = crossing(0.0);
-        touch = Knot::centre(start).into();
-        touching = [touch];
-        (&touching[..], start)
-    } else {
-        (old.knots, old.displacement)
-    };
-    let change = diagram::step(element, knots, displacement, &normal);
-    let Response { force, by_displacement, mut by_input } = change.response;
-    let mut by_displacement = by_displacement;
-    if closing && change.kept > 0 && element.by_approach() {
-        // The start of the path moves with its end.
-        let distance = input - old.input;
-        by_input += by_displacement * (displacement - old.displacement) * -old.input / (distance * distance);
-        by_displacement *= input / distance;
-    }
+    let normal = if input.to_bits() == from.input.to_bits() { from.normal } else { element.normal(input) };
     let dissipated = if with_energy {
-        let path = Path {
-            shift: [if closing { 0.0 } else { old.normal.shift }, normal.shift],
-            displacement: displacement - start,
-        };
-        energy::dissipated(element, knots, &path)
+        let shift = [from.normal.shift, normal.shift];
+        energy::dissipated(element, diagram.knots(), &Path { shift, displacement: displacement - from.displacement })
     } else {
         0.0
     };
-    let step =
-        Step { force: [force, normal.load], tangent: [by_displacement, 0.0, by_input, normal.load_slope], dissipated };
-    let first = change.centre.or((closing).then_some(Knot::centre(start)));
-    let kept = if first.is_some() { 0 } else { change.kept };
-    let mut new = [change.end; 3];
-    let mut count = 0;
-    for knot in [first, change.cut, Some(change.end)].into_iter().flatten() {
-        if let Some(place) = new.get_mut(count) {
-            *place = knot;
-            count += 1;
-        }
-    }
-    Ok(Update { step, header: header(if kept == 0 { 0.0 } else { old.error }), kept, new, count, friction_coefficient })
+    let Response { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
+    let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
+    let step = Step { force: [force, normal.load], tangent, dissipated };
+    (step, Point { displacement, input, normal, error: from.error })
 }
 
-impl Update {
-    /// Writes the new state; `old` is the state that the step started from, of the same length, or `None` if it is in `new`
-    /// already.
-    #[inline(always)]
-    pub fn write(self, old: Option<&[f64]>, new: &mut [f64]) {
-        if let Some(old) = old {
-            let used = HEADER + PER_KNOT * self.kept;
-            if let (Some(new), Some(old)) = (new.get_mut(HEADER..used), old.get(HEADER..used)) {
-                new.copy_from_slice(old);
-            }
+/// A step from or to an open contact, and every step without friction: the diagram starts anew.
+#[inline(never)]
+fn opening_or_closing(
+    element: &Element,
+    from: &Point,
+    diagram: &mut impl Diagram,
+    [displacement, input]: [f64; 2],
+    with_energy: bool,
+) -> (Step, Point) {
+    let friction = element.friction_coefficient > 0.0;
+    let (was_closed, closed) = (from.normal.load > 0.0, input > 0.0);
+    let normal = if closed { element.normal(input) } else { Normal::OPEN };
+    let to = Point { displacement, input, normal, error: 0.0 };
+    // The straight path passes N = 0 at this fraction; with the force as input at its open end.
+    let fraction = match (was_closed, closed) {
+        (true, false) | (false, true) if element.by_approach() => from.input / (from.input - input),
+        (true, false) => 1.0,
+        _ => 0.0,
+    };
+    let crossing = from.displacement + fraction * (displacement - from.displacement);
+    let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
+    if !closed || !friction {
+        if with_energy && was_closed && friction {
+            let path = Path { shift: [from.normal.shift, 0.0], displacement: crossing - from.displacement };
+            step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
-        let Some((header, knots)) = new.split_first_chunk_mut::<HEADER>() else { return };
-        let mut polygon = Polygon::new(self.friction_coefficient, knots, self.kept);
-        self.new.into_iter().take(self.count).for_each(|knot| polygon.push(knot));
-        let [tag, rest @ ..] = header;
-        *tag = Kind::ElementState.tag(polygon.used);
-        *rest = self.header;
-        rest[HEADER - 2] += polygon.error;
+        diagram.replace(0, &[Knot::centre(displacement)]);
+        return (step, to);
+    }
+    let centre = Knot::centre(crossing);
+    let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
+    if with_energy {
+        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing };
+        step.dissipated = energy::dissipated(element, &touching.knots, &path);
+    }
+    let Response { force, mut by_displacement, mut by_input } =
+        diagram::step(element, &mut touching, displacement, &normal);
+    if touching.sticks && element.by_approach() {
+        // The start of the path moves with its end.
+        let distance = input - from.input;
+        by_input += by_displacement * (displacement - from.displacement) * -from.input / (distance * distance);
+        by_displacement *= input / distance;
+    }
+    step.force[0] = force;
+    (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);
+    (step, to)
+}
+
+/// The diagram at first touch: its centre, not yet in the diagram that it replaces.
+struct Touching<'a, D> {
+    knots: [[f64; PER_KNOT]; 1],
+    /// Whether the contact sticks to the displacement at which it closed.
+    sticks: bool,
+    diagram: &'a mut D,
+}
+
+impl<D: Diagram> Diagram for Touching<'_, D> {
+    fn knots(&self) -> &[[f64; PER_KNOT]] {
+        &self.knots
+    }
+
+    fn replace(&mut self, kept: usize, new: &[Knot]) {
+        self.sticks = kept > 0;
+        match new {
+            [end] if self.sticks => self.diagram.replace(0, &[self.knots[0].into(), *end]),
+            _ => self.diagram.replace(0, new),
+        }
     }
 }
 
-/// The knots of a state, while some are appended.
+/// A step in place, with a state and a displacement that were checked.
+#[inline(always)]
+pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
+    let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
+    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
+    let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
+    let (step, mut to) = step(element, &Point::read(header), &mut polygon, displacement, with_energy);
+    to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
+    to.write(polygon.used, header);
+    step
+}
+
+/// A step whose new state is discarded, with a state and a displacement that were checked.
+#[inline(always)]
+pub(crate) fn trial(element: &Element, state: &[f64], displacement: [f64; 2], with_energy: bool) -> Step {
+    let (header, mut knots) = parts(state);
+    step(element, &Point::read(header), &mut knots, displacement, with_energy).0
+}
+
+/// Copies what is in use of a state whose header was checked to one of the same length.
+#[inline(always)]
+pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
+    let used = HEADER + PER_KNOT * parts(from).1.len();
+    if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
+        to.copy_from_slice(from);
+    }
+}
+
+/// The diagram in a state.
 struct Polygon<'a> {
     friction_coefficient: f64,
     knots: &'a mut [[f64; PER_KNOT]],
     used: usize,
+    /// Whether no piece of the old diagram is left.
+    anew: bool,
     /// Change of the force beyond merged pieces.
     change: f64,
     /// Sum of the magnitudes of these changes.
     error: f64,
 }
 
-impl Polygon<'_> {
-    fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
-        Polygon { friction_coefficient, knots: knots.as_chunks_mut().0, used, change: 0.0, error: 0.0 }
+impl Diagram for Polygon<'_> {
+    #[inline(always)]
+    fn knots(&self) -> &[[f64; PER_KNOT]] {
+        self.knots.get(..self.used).unwrap_or(&[])
     }
 
-    /// Appends a knot, in place of another one if there is no room.
     #[inline(always)]
+    fn replace(&mut self, kept: usize, new: &[Knot]) {
+        self.anew = kept == 0;
+        self.used = kept;
+        match self.knots.get_mut(kept..kept + new.len()) {
+            Some(places) => {
+                places.iter_mut().zip(new).for_each(|(place, knot)| *place = (*knot).into());
+                self.used += new.len();
+            }
+            None => new.iter().for_each(|knot| self.push(*knot)),
+        }
+    }
+}
+
+impl Polygon<'_> {
+    #[inline(always)]
+    fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
+        let knots = knots.as_chunks_mut().0;
+        Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }
+    }
+
+    /// Appends a knot; if there is no room, two pieces are merged.
+    #[cold]
+    #[inline(never)]
     fn push(&mut self, mut knot: Knot) {
         knot.force += self.change;
         if self.used == self.knots.len() {
@@ -263,8 +321,6 @@ impl Polygon<'_> {
     /// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
     /// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
     /// direction.
-    #[cold]
-    #[inline(never)]
     fn merge(&mut self, next: Knot) -> f64 {
         let knot = |index: usize| {
             if index < self.used { self.knots.get(index).copied().map_or(next, Knot::from) } else { next }
@@ -300,13 +356,11 @@ impl Polygon<'_> {
 /// A step in place.
 ///
 /// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement` or `BadNormalForce`.
+/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
     check_header(state)?;
-    let update = update(element, state, displacement, with_energy)?;
-    let step = update.step;
-    update.write(None, state);
-    Ok(step)
+    check_step(element, &displacement)?;
+    Ok(advance_checked(element, state, displacement, with_energy))
 }
 
 /// Copies a state whose header was checked into one that may hold fewer pieces.
@@ -316,7 +370,7 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
         return;
     };
     let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
-    view(from).knots.iter().for_each(|knot| polygon.push((*knot).into()));
+    parts(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
     *header = *source;
     header[0] = Kind::ElementState.tag(polygon.used);
     header[ERROR] += polygon.error;
@@ -329,11 +383,11 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
 /// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
-    let View { displacement, input, normal, error, knots } = view(state);
+    let (header, knots) = parts(state);
+    let Point { displacement, normal, error, .. } = Point::read(header);
     let Normal { load, shift, load_slope, shift_slope } = normal;
     let finite =
-        [displacement, input, load, shift, load_slope, shift_slope, error].iter().all(|value| is_finite(*value))
-            && knots.as_flattened().iter().all(|value| is_finite(*value));
+        header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));
     if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
         return Err(Error::BadState);
     }
@@ -393,7 +447,7 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
     let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
     for displacement in path.as_chunks().0 {
-        let step = advance(element, state, *displacement, with_energy)?;
+        let step = advance_checked(element, state, *displacement, with_energy);
         forces.next().into_iter().for_each(|force| *force = step.force);
         tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
         energies.next().into_iter().for_each(|energy| *energy = step.dissipated);

@@ -25,7 +25,7 @@ pub fn tractions(
     let shape = element.shape();
     let state = view(state);
     if let Some(pressure) = pressure {
-        let w = shape.at_load(state.normal.load.max(0.0));
+        let w = shape.at_load(state.load.max(0.0));
         pressure.iter_mut().zip(x).for_each(|(pressure, x)| *pressure = shape.pressure_between(0.0, w, *x));
     }
     if let Some(shear) = shear {
