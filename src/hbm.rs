@@ -16,14 +16,15 @@
 //! by the coefficients of the displacement, with k the tangent stiffness; `dT_r` is stored when the reversal is passed.
 
 mod event_driven;
-mod fourier;
+pub(crate) mod folded_fourier;
+pub(crate) mod fourier;
 mod fourier_sums;
 mod jacobian;
 mod motion;
 mod sampled_gradients;
 mod segments;
 mod uniform_sampling;
-mod workspace;
+pub(crate) mod workspace;
 
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::steady_state::SteadyState;

@@ -14,6 +14,7 @@ pub(crate) enum Kind {
     ElementState = 0x4d45,
     UniformSampling = 0x4d55,
     EventDriven = 0x4d3a,
+    ElementSampling = 0x4d46,
     Samples = 0x4d4e,
 }
 
@@ -43,7 +44,14 @@ impl Kind {
 mod tests {
     use super::*;
 
-    const KINDS: [Kind; 5] = [Kind::State, Kind::ElementState, Kind::UniformSampling, Kind::EventDriven, Kind::Samples];
+    const KINDS: [Kind; 6] = [
+        Kind::State,
+        Kind::ElementState,
+        Kind::UniformSampling,
+        Kind::EventDriven,
+        Kind::ElementSampling,
+        Kind::Samples,
+    ];
 
     #[test]
     fn a_tag_preserves_its_count_and_is_preserved_as_text() {

@@ -9,9 +9,11 @@
 //! - `diagram`: a step, in characteristic coordinates;
 //! - `energy`: the energy dissipated in it;
 //! - [`state`]: the caller's array that holds a diagram;
-//! - [`tractions`]: pressure and shear traction of a diagram.
+//! - [`tractions`]: pressure and shear traction of a diagram;
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
 pub mod element;
+pub mod harmonic_force;
 pub mod state;
 pub mod tractions;
 

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 /// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.
-pub(super) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
+pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     let fraction = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;
     2.0 * PI * fraction
 }
@@ -66,7 +66,7 @@ pub(super) fn synthesise(columns: &[f64], half: usize, values: &mut [f64], coeff
 
 /// Scales Fourier sums to coefficients: the constant by `weight`, harmonics by twice that.
 #[inline(always)]
-pub(super) fn normalise(sums: &mut [f64], weight: f64) {
+pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
     sums.iter_mut().for_each(|sum| *sum *= 2.0 * weight);
     if let Some(constant) = sums.first_mut() {
         *constant *= 0.5;

@@ -10,17 +10,17 @@ use crate::error::Error;
 use crate::tag::Kind;
 
 /// Tags at the beginning.
-pub(super) const TAGS: usize = 2;
+pub(crate) const TAGS: usize = 2;
 
 /// Doubles before the tables: the tags, padded so that the tables keep the alignment of the workspace.
-pub(super) const HEADER: usize = 4;
+pub(crate) const HEADER: usize = 4;
 
 /// Doubles in blocks of four.
-pub(super) type Blocks = [[f64; 4]];
+pub(crate) type Blocks = [[f64; 4]];
 
 /// Number of harmonics H, and of samples or nodes per period.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Size {
+pub(crate) struct Size {
     pub harmonics: usize,
     pub samples: usize,
 }
@@ -33,7 +33,7 @@ impl Size {
 }
 
 /// Layout of the workspace of a quadrature rule.
-pub(super) trait WorkspaceLayout: Sized {
+pub(crate) trait WorkspaceLayout: Sized {
     /// Kind of the tag, which distinguishes the rules.
     const KIND: Kind;
 
@@ -115,14 +115,19 @@ pub(super) trait WorkspaceLayout: Sized {
 }
 
 /// Length of a part of a workspace, rounded up to keep the next part aligned to vector registers.
-pub(super) fn padded(length: usize) -> usize {
+pub(crate) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
 /// Splits [`padded`] parts off the front of a slice.
-pub(super) struct Parts<'a>(&'a mut [f64]);
+pub(crate) struct Parts<'a>(&'a mut [f64]);
 
 impl<'a> Parts<'a> {
+    #[cfg(test)]
+    pub fn new(memory: &'a mut [f64]) -> Parts<'a> {
+        Parts(memory)
+    }
+
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {

@@ -3,7 +3,7 @@
 
 use crate::constant_load::contact::{check_displacement, check_moduli};
 use crate::error::Error;
-use crate::numerics::fp_class::in_0_to;
+use crate::numerics::fp_class::{in_0_to, le};
 use crate::parameters::{EllipticParameters, Pair, Parameters};
 use crate::range::in_range;
 use crate::shape::{HertzEllipse, Relation, RoundedFlat, Shape};
@@ -86,6 +86,11 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
+
+    /// 1/K_t of the whole contact \[N/m\], which is closed.
+    pub fn tangential_stiffness(&self) -> f64 {
+        self.load_slope / self.shift_slope
+    }
 }
 
 impl Element {
@@ -144,8 +149,14 @@ impl Element {
             return Err(Error::BadNormalForce);
         }
         let ellipse = HertzEllipse::new(parameters)?;
+        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        in_range(&[normal_force], &[])?;
+        // The approach, free of overflow.
+        for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
+            in_range(&[normal_force], &[axis, composite_modulus])?;
+        }
         self.init(&ellipse, [normal_force, friction_coefficient], input, ELLIPTIC)?;
-        self.composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
         Ok(())
@@ -286,7 +297,7 @@ impl Element {
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
-        if approach <= self.largest_approach { Ok(()) } else { Err(Error::LengthTooShort) }
+        if le(approach, self.largest_approach) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
     /// Checks a normal force.
@@ -299,7 +310,7 @@ impl Element {
         if !in_0_to(1e150, normal_force) {
             return Err(Error::BadNormalForce);
         }
-        if normal_force <= self.largest_load { Ok(()) } else { Err(Error::LengthTooShort) }
+        if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
     /// The normal state at an input > 0.

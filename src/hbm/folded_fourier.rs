@@ -1,0 +1,319 @@
+//! Fourier synthesis and sums over uniformly spaced samples, folded by symmetry.
+//!
+//! With `t = 2π n/N`, cosines keep and sines change their sign under n -> N - n. If N is even, moreover, even orders keep and odd
+//! orders change their sign under n -> n + N/2. So four (two if N is odd) partial series over the positions 0 <= n <= N/4 (N/2)
+//! give all samples, and four folded sums of the samples give all Fourier sums.
+//!
+//! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
+
+use super::fourier::angle;
+use super::workspace::{Blocks, Parts, padded};
+use crate::error::Error;
+
+/// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
+pub(crate) fn sample_length(samples: usize) -> usize {
+    padded(samples + 1)
+}
+
+/// Blocks of four positions.
+fn position_blocks(samples: usize) -> usize {
+    let positions = if samples.is_multiple_of(2) { samples / 4 + 1 } else { samples / 2 + 1 };
+    positions.div_ceil(4)
+}
+
+/// Number of doubles in the table for orders up to `orders`.
+pub(crate) fn table_length(samples: usize, orders: usize) -> usize {
+    4 * position_blocks(samples) * (1 + 2 * orders)
+}
+
+/// Number of doubles of scratch memory.
+pub(crate) fn scratch_length(samples: usize) -> usize {
+    4 * SYMMETRIES * position_blocks(samples)
+}
+
+/// Cosines of odd orders, sines of odd orders, cosines of even orders, sines of even orders.
+const SYMMETRIES: usize = 4;
+
+/// Fills the table: in each block of positions their weights, then cos and sin of the orders 1, 2, ...
+pub(crate) fn fill_table(table: &mut [f64], samples: usize, orders: usize) {
+    let rows = table.as_chunks_mut::<4>().0.chunks_exact_mut((1 + 2 * orders).max(1));
+    for (first, rows) in (0..).step_by(4).zip(rows) {
+        let positions = [first, first + 1, first + 2, first + 3];
+        let Some((weights, pairs)) = rows.split_first_mut() else { return };
+        *weights = positions.map(|n| weight(n, samples));
+        for (order, [cosines, sines]) in (1..).zip(pairs.as_chunks_mut::<2>().0) {
+            *cosines = positions.map(|n| angle(order, n, samples).cos());
+            *sines = positions.map(|n| angle(order, n, samples).sin());
+        }
+    }
+}
+
+/// Weight of a position in the folded sums: 1/2 if a fold maps its samples onto themselves, 0 beyond the last position.
+fn weight(n: usize, samples: usize) -> f64 {
+    let (is_even, twice) = (samples.is_multiple_of(2), 4 * n);
+    if n == 0 || (is_even && twice == samples) {
+        0.5
+    } else if (is_even && twice > samples) || 2 * n > samples {
+        0.0
+    } else {
+        1.0
+    }
+}
+
+/// Tables and scratch memory for a number of samples.
+#[derive(Debug)]
+pub(crate) struct FoldedFourier<'a> {
+    samples: usize,
+    orders: usize,
+    table: &'a Blocks,
+    scratch: &'a mut Blocks,
+}
+
+impl<'a> FoldedFourier<'a> {
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
+        let table = parts.take(table_length(samples, orders))?;
+        Ok(FoldedFourier { samples, orders, table: table.as_chunks().0, scratch: &mut [] })
+    }
+
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take_scratch(&mut self, parts: &mut Parts<'a>) -> Result<(), Error> {
+        self.scratch = parts.take(scratch_length(self.samples))?.as_chunks_mut().0;
+        Ok(())
+    }
+
+    fn rows(&self) -> impl Iterator<Item = &'a Blocks> {
+        self.table.chunks_exact((1 + 2 * self.orders).max(1))
+    }
+
+    /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
+    #[inline(always)]
+    pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
+        let Some((&constant, pairs)) = coefficients.split_first() else { return };
+        let (quads, last) = pairs.as_chunks::<4>();
+        let (samples, half) = (self.samples, self.samples / 2);
+        for (first, rows) in (0..).step_by(4).zip(self.rows()) {
+            let mut sums = [[0.0; 4], [0.0; 4], [constant; 4], [0.0; 4]];
+            let (row_quads, last_rows) = rows.get(1..=pairs.len()).unwrap_or(&[]).as_chunks::<4>();
+            for (coefficients, rows) in quads.iter().zip(row_quads) {
+                for symmetry in 0..4 {
+                    for k in 0..4 {
+                        sums[symmetry][k] += coefficients[symmetry] * rows[symmetry][k];
+                    }
+                }
+            }
+            for ((sum, coefficient), row) in sums.iter_mut().zip(last).zip(last_rows) {
+                for k in 0..4 {
+                    sum[k] += coefficient * row[k];
+                }
+            }
+            let [odd_cosines, odd_sines, even_cosines, even_sines] = sums;
+            if samples.is_multiple_of(2) {
+                let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
+                let (even_mirrored, odd_mirrored) =
+                    (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
+                store(values, first, add(even, odd));
+                store(values, half + first, subtract(even, odd));
+                store_reversed(values, half.checked_sub(first), subtract(even_mirrored, odd_mirrored));
+                store_reversed(values, samples.checked_sub(first), add(even_mirrored, odd_mirrored));
+            } else {
+                let (cosines, sines) = (add(even_cosines, odd_cosines), add(even_sines, odd_sines));
+                store(values, first, add(cosines, sines));
+                store_reversed(values, samples.checked_sub(first), subtract(cosines, sines));
+            }
+        }
+        continue_periodically(values, samples);
+    }
+
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`. Continues the values periodically.
+    #[inline(always)]
+    pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
+        continue_periodically(values, self.samples);
+        self.fold(values);
+        let blocks = self.scratch.len() / SYMMETRIES;
+        let (odd, even) = self.scratch.split_at_checked(2 * blocks).unwrap_or((&[], &[]));
+        let Some((constant, pairs)) = sums.split_first_mut() else { return };
+        let mut total = [0.0; 4];
+        for [even_cosines, _] in even.as_chunks::<2>().0 {
+            total = add(total, *even_cosines);
+        }
+        *constant = sum_of(total);
+        let (odd, even) = (odd.as_chunks::<2>().0, even.as_chunks::<2>().0);
+        for (first, sums) in (1..).step_by(4).zip(pairs.chunks_mut(4)) {
+            let mut totals = [[0.0; 4]; 4];
+            for ((rows, [odd_cosines, odd_sines]), [even_cosines, even_sines]) in self.rows().zip(odd).zip(even) {
+                let folded = [odd_cosines, odd_sines, even_cosines, even_sines];
+                match rows.get(first..).unwrap_or(&[]) {
+                    [one, two, three, four, ..] => {
+                        let rows = [one, two, three, four];
+                        for symmetry in 0..4 {
+                            for k in 0..4 {
+                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
+                            }
+                        }
+                    }
+                    [one, two, ..] => {
+                        let rows = [one, two];
+                        for symmetry in 0..2 {
+                            for k in 0..4 {
+                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
+                            }
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            for (sum, total) in sums.iter_mut().zip(totals) {
+                *sum = sum_of(total);
+            }
+        }
+    }
+
+    /// The folded sums of the samples at each position: two for the odd orders at the front of the scratch memory, two for the
+    /// even orders behind.
+    #[inline(always)]
+    fn fold(&mut self, values: &[f64]) {
+        let (samples, half) = (self.samples, self.samples / 2);
+        let blocks = self.scratch.len() / SYMMETRIES;
+        let rows = self.table.chunks_exact((1 + 2 * self.orders).max(1));
+        let (odd, even) = self.scratch.split_at_mut_checked(2 * blocks).unwrap_or((&mut [], &mut []));
+        let (odd, even) = (odd.as_chunks_mut::<2>().0, even.as_chunks_mut::<2>().0);
+        for (((first, rows), odd), even) in (0..).step_by(4).zip(rows).zip(odd).zip(even) {
+            let &[weights, ..] = rows else { return };
+            let here = load(values, first);
+            let mirrored = load_reversed(values, samples.checked_sub(first));
+            if samples.is_multiple_of(2) {
+                let opposite = load(values, half + first);
+                let mirrored_opposite = load_reversed(values, half.checked_sub(first));
+                let (e, o) = (add(here, opposite), subtract(here, opposite));
+                let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
+                *odd = [times(weights, add(o, om)), times(weights, subtract(o, om))];
+                *even = [times(weights, add(e, em)), times(weights, subtract(e, em))];
+            } else {
+                let (cosines, sines) = (times(weights, add(here, mirrored)), times(weights, subtract(here, mirrored)));
+                (*odd, *even) = ([cosines, sines], [cosines, sines]);
+            }
+        }
+    }
+}
+
+/// Fills the values beyond the period.
+#[inline(always)]
+pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
+    if let Some((period, beyond)) = values.split_at_mut_checked(samples) {
+        beyond.iter_mut().zip(period.iter().cycle()).for_each(|(value, continued)| *value = *continued);
+    }
+}
+
+#[inline(always)]
+fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
+}
+
+#[inline(always)]
+fn subtract(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
+}
+
+#[inline(always)]
+fn times(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
+}
+
+#[inline(always)]
+fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
+    (a + c) + (b + d)
+}
+
+/// Four consecutive values; those outside the array are 0.
+#[inline(always)]
+fn load(values: &[f64], first: usize) -> [f64; 4] {
+    match values.get(first..).and_then(<[f64]>::first_chunk) {
+        Some(block) => *block,
+        None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(0.0)),
+    }
+}
+
+/// Four consecutive values downwards from `first`.
+#[inline(always)]
+fn load_reversed(values: &[f64], first: Option<usize>) -> [f64; 4] {
+    let Some(first) = first else { return [0.0; 4] };
+    match first.checked_sub(3).and_then(|last| values.get(last..)).and_then(<[f64]>::first_chunk) {
+        Some(&[a, b, c, d]) => [d, c, b, a],
+        None => [0, 1, 2, 3].map(|k| first.checked_sub(k).and_then(|at| values.get(at)).copied().unwrap_or(0.0)),
+    }
+}
+
+#[inline(always)]
+fn store(values: &mut [f64], first: usize, block: [f64; 4]) {
+    match values.get_mut(first..).and_then(<[f64]>::first_chunk_mut) {
+        Some(place) => *place = block,
+        None => values.iter_mut().skip(first).zip(block).for_each(|(place, value)| *place = value),
+    }
+}
+
+#[inline(always)]
+fn store_reversed(values: &mut [f64], first: Option<usize>, block: [f64; 4]) {
+    let Some(first) = first else { return };
+    match first.checked_sub(3).and_then(|last| values.get_mut(last..)).and_then(<[f64]>::first_chunk_mut) {
+        Some(place) => *place = [block[3], block[2], block[1], block[0]],
+        None => {
+            for (place, value) in values.iter_mut().take(first + 1).rev().zip(block) {
+                *place = value;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn series_and_sums_are_those_of_the_definition() {
+        for samples in (3..40).chain([63, 64, 66, 100]) {
+            for harmonics in [1, 2, 3, 5, 9].into_iter().filter(|h| 2 * h < samples) {
+                let orders = 2 * harmonics;
+                let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples)];
+                fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
+                let mut parts = Parts::new(&mut memory);
+                let mut fourier = FoldedFourier::take(&mut parts, samples, orders).unwrap();
+                fourier.take_scratch(&mut parts).unwrap();
+                let function = |c: usize, n: usize| {
+                    let angle = angle(c.div_ceil(2), n, samples);
+                    if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+                };
+                let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
+                let mut values = vec![f64::NAN; sample_length(samples)];
+                fourier.synthesise(&coefficients, &mut values);
+                for (n, value) in values.iter().enumerate() {
+                    let exact: f64 = (0..).zip(&coefficients).map(|(c, a)| a * function(c, n % samples)).sum();
+                    assert!((value - exact).abs() < 1e-14, "{samples} {harmonics} {n}: {value} {exact}");
+                }
+                for last in [2 * harmonics, 2 * orders] {
+                    let mut sums = vec![f64::NAN; last + 1];
+                    fourier.sum(&mut values, &mut sums);
+                    for (c, sum) in sums.iter().enumerate() {
+                        let exact: f64 = (0..samples).map(|n| values[n] * function(c, n)).sum();
+                        assert!((sum - exact).abs() < 1e-13, "{samples} {harmonics} {c}: {sum} {exact}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
+        let (samples, orders) = (22, 5);
+        let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples)];
+        fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
+        let fourier = FoldedFourier::take(&mut Parts::new(&mut memory), samples, orders).unwrap();
+        let mut values = vec![0.0; sample_length(samples)];
+        fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);
+        assert!((0..11).all(|n| values[n] == -values[n + 11]));
+    }
+}

@@ -1,0 +1,460 @@
+//! Harmonic force of a periodic motion with varying normal force and separation, by uniform sampling.
+//!
+//! The motion is u and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
+//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
+//! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
+//! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts. It is known
+//! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
+//!
+//! - `samples`: normal states, characteristic coordinates, entry into the steady state;
+//! - `walk`: the memory diagram along the period, without evaluating any force;
+//! - `tractions`: the forces;
+//! - `sensitivity`: their exact derivatives; `jacobian`: its Fourier coefficients;
+//! - `energy`: dissipation.
+
+mod energy;
+mod jacobian;
+mod samples;
+mod sensitivity;
+mod tractions;
+mod walk;
+
+pub use crate::hbm::HarmonicOutput;
+
+use crate::error::Error;
+use crate::hbm::check_coefficients;
+use crate::hbm::folded_fourier::{self, FoldedFourier, sample_length};
+use crate::hbm::fourier::normalise;
+use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
+use crate::tag::Kind;
+use crate::varying_load::element::Element;
+use jacobian::Assembly;
+use samples::{Part, Samples, continue_half_wave};
+use sensitivity::{Context, PIECE, Sensitivity, row_blocks};
+use tractions::Tractions;
+use walk::{KNOT, RUN, Walk};
+
+/// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
+#[must_use]
+pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
+    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+}
+
+/// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
+///
+/// # Errors
+/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
+    Layout::init(harmonics, samples, workspace)
+}
+
+/// Number of doubles in an initialised workspace, from its header.
+///
+/// # Errors
+/// `BadWorkspace` if uninitialised.
+pub fn workspace_extent(header: &[f64; TAGS]) -> Result<usize, Error> {
+    Layout::read(header).map(|layout| layout.length())
+}
+
+/// Harmonics and samples of an initialised workspace, from its header.
+///
+/// # Errors
+/// `BadWorkspace` if uninitialised.
+pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize), Error> {
+    Layout::read(header).map(|Layout(size)| (size.harmonics, size.samples))
+}
+
+/// Lengths of the parts of a workspace.
+struct Layout(Size);
+
+/// Arrays over the samples.
+const SAMPLE_ARRAYS: usize = 20;
+
+impl Layout {
+    /// Doubles of the rows over the coefficients of all samples.
+    fn rows_length(&self) -> usize {
+        4 * row_blocks(self.0.harmonics) * self.0.samples
+    }
+
+    /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
+    fn capacity(&self) -> usize {
+        self.0.samples + 4
+    }
+
+    fn pieces_length(&self) -> usize {
+        4 * row_blocks(self.0.harmonics) * self.capacity()
+    }
+}
+
+impl WorkspaceLayout for Layout {
+    const KIND: Kind = Kind::ElementSampling;
+
+    fn of(size: Size) -> Layout {
+        Layout(size)
+    }
+
+    fn size(&self) -> Size {
+        self.0
+    }
+
+    fn max_rows(&self) -> usize {
+        2 * self.0.samples + 16
+    }
+
+    fn tables_length(&self) -> usize {
+        folded_fourier::table_length(self.0.samples, 2 * self.0.harmonics) + 2 * self.rows_length()
+    }
+
+    fn length(&self) -> usize {
+        let Size { harmonics, samples } = self.0;
+        let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
+        HEADER
+            + self.tables_length()
+            + folded_fourier::scratch_length(samples)
+            + SAMPLE_ARRAYS * sample_length(samples)
+            + walk
+            + 2 * self.pieces_length()
+            + 2 * self.rows_length()
+            + jacobian::memory_length(harmonics)
+    }
+
+    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
+        let Size { harmonics, samples } = self.0;
+        let table = tables.take(folded_fourier::table_length(samples, 2 * harmonics))?;
+        folded_fourier::fill_table(table, samples, 2 * harmonics);
+        let (rows, antiderivatives) = (tables.take(self.rows_length())?, tables.take(self.rows_length())?);
+        sensitivity::fill_rows(rows, antiderivatives, harmonics, samples);
+        Ok(())
+    }
+}
+
+/// An opened workspace.
+#[derive(Debug)]
+pub struct Workspace<'a> {
+    size: Size,
+    fourier: FoldedFourier<'a>,
+    samples: Samples<'a>,
+    walk: Walk<'a>,
+    tractions: Tractions<'a>,
+    sensitivity: Sensitivity<'a>,
+    assembly: Assembly<'a>,
+}
+
+impl<'a> Workspace<'a> {
+    /// Opens an initialised workspace.
+    ///
+    /// # Errors
+    /// `BadWorkspace` if uninitialised or too short.
+    #[inline(always)]
+    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        let (layout, mut parts) = Layout::open(memory)?;
+        let size = layout.0;
+        let Size { harmonics, samples: count } = size;
+        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
+        let rows = parts.take(layout.rows_length())?.as_chunks().0;
+        let antiderivatives = parts.take(layout.rows_length())?.as_chunks().0;
+        fourier.take_scratch(&mut parts)?;
+        let mut array = || parts.take(sample_length(count));
+        let samples = Samples {
+            count,
+            displacement: array()?,
+            input: array()?,
+            load: array()?,
+            shift: array()?,
+            load_slope: array()?,
+            shift_slope: array()?,
+            stiffness: array()?,
+            xi: array()?,
+            eta: array()?,
+        };
+        let cut_shift = array()?;
+        let tractions = Tractions {
+            force: array()?,
+            cut_load: array()?,
+            cut_stiffness: array()?,
+            slope: array()?,
+            last_cut_force: array()?,
+            last_cut_load: array()?,
+        };
+        let (own, places, touched) = ([array()?, array()?], array()?, array()?);
+        let walk = Walk {
+            knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
+            runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
+            cut_shift,
+        };
+        let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
+        let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
+        let gathered = [blocks(layout.pieces_length())?, blocks(layout.pieces_length())?];
+        let (by_displacement, by_input) = (blocks(layout.rows_length())?, blocks(layout.rows_length())?);
+        let assembly = Assembly::take(&mut parts, size)?;
+        let sensitivity = Sensitivity {
+            row_blocks: row_blocks(harmonics),
+            rows,
+            antiderivatives,
+            pieces,
+            gathered,
+            places,
+            touched,
+            touched_count: 0,
+            by_displacement,
+            by_input,
+            own,
+        };
+        Ok(Workspace { size, fourier, samples, walk, tractions, sensitivity, assembly })
+    }
+
+    /// 2H + 1.
+    #[must_use]
+    #[inline(always)]
+    pub fn coefficients(&self) -> usize {
+        self.size.coefficients()
+    }
+}
+
+/// Properties of a motion.
+#[derive(Debug, Clone, Copy)]
+struct Motion {
+    /// The normal component is constant.
+    constant: bool,
+    /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
+    /// have changed places, and the tangential force its sign.
+    half_wave: bool,
+    /// The contact is open at all samples.
+    open: bool,
+}
+
+/// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
+const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Harmonic force of a periodic motion, given by its 2 (2H + 1) coefficients: those of u \[m\], then those of the normal component,
+/// the approach \[m\] or the normal force \[N\].
+///
+/// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
+/// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners.
+///
+/// # Errors
+/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
+/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would be too wide
+/// for its length at a sample.
+#[inline(always)]
+pub fn harmonic_force(
+    element: &Element,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    let coefficients = workspace.coefficients();
+    let HarmonicOutput { force, jacobian, dissipated } = output;
+    let n = 2 * coefficients;
+    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+    if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
+        return Err(Error::BadArraySize);
+    }
+    check_coefficients(displacement)?;
+    let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
+    let motion = workspace.press(element, tangential, input)?;
+    let has_friction = !motion.open && element.friction_coefficient > 0.0;
+    let needs_forces = force.is_some() || jacobian.is_some();
+    let mut part = None;
+    if has_friction && (needs_forces || dissipated.is_some()) {
+        let Workspace { fourier, samples, walk, tractions, sensitivity, .. } = workspace;
+        fourier.synthesise(tangential, samples.displacement);
+        let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
+        if needs_forces {
+            let runs = evaluate_forces(element, samples, part, walk, tractions, jacobian.is_some());
+            if jacobian.is_some() {
+                let context = Context { element, samples, part };
+                sensitivity.gather(&context, tractions, walk.cut_shift, walk.runs.get(..runs).unwrap_or(&[]));
+            }
+        }
+    }
+    if let Some(dissipated) = dissipated {
+        let Workspace { samples, walk, .. } = workspace;
+        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, walk.diagram()));
+        *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
+    }
+    if let Some(force) = force {
+        workspace.write_force(element, input, motion, part.as_ref(), force);
+    }
+    if let Some(jacobian) = jacobian {
+        workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
+    }
+    Ok(())
+}
+
+/// Rows of T in a column of the Jacobian.
+fn upper(column: &mut [f64], coefficients: usize) -> &mut [f64] {
+    column.get_mut(..coefficients).unwrap_or(&mut [])
+}
+
+/// Rows of N.
+fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
+    column.get_mut(coefficients..).unwrap_or(&mut [])
+}
+
+/// Evaluates the tangential forces of a part of the period; returns the number of runs.
+#[inline(always)]
+fn evaluate_forces(
+    element: &Element,
+    samples: &Samples,
+    part: &Part,
+    walk: &mut Walk,
+    tractions: &mut Tractions,
+    with_stiffness: bool,
+) -> usize {
+    let extent = walk.evaluate(element.friction_coefficient, element.by_approach(), samples, part);
+    let cut_shift = walk.cut_shift.get(..extent.cuts).unwrap_or(&[]);
+    tractions.evaluate_cuts(element, cut_shift, with_stiffness);
+    tractions.evaluate(element.friction_coefficient, samples, walk.runs.get(..extent.runs).unwrap_or(&[]));
+    extent.runs
+}
+
+impl Workspace<'_> {
+    /// Checks a motion: all of a batch are checked before the first output is written.
+    ///
+    /// # Errors
+    /// Those of [`harmonic_force`].
+    pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+        check_coefficients(displacement)?;
+        let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
+        let mean = input.first().copied().unwrap_or(0.0);
+        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+            return Ok(());
+        }
+        self.press(element, tangential, input).map(|_| ())
+    }
+
+    /// Evaluates the normal states of the samples.
+    ///
+    /// # Errors
+    /// `BadNormalForce`, `LengthTooShort`.
+    #[inline(always)]
+    fn press(&mut self, element: &Element, tangential: &[f64], input: &[f64]) -> Result<Motion, Error> {
+        let Workspace { fourier, samples, .. } = self;
+        let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
+        let has = |coefficients: &[f64], parity: usize| {
+            coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
+        };
+        let swing: f64 = harmonics.iter().map(|value| value.abs()).sum();
+        let mut motion = Motion {
+            constant: swing == 0.0,
+            half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
+            open: false,
+        };
+        if element.by_approach() {
+            motion.open = mean + swing <= 0.0;
+        } else {
+            let rounding = NORMAL_FORCE_ROUNDING * (mean.abs() + swing);
+            if mean < -rounding {
+                return Err(Error::BadNormalForce);
+            }
+            motion.open = motion.constant && mean <= 0.0;
+            if !motion.constant {
+                fourier.synthesise(input, samples.input);
+                let least = samples.input.iter().copied().fold(f64::MAX, f64::min);
+                if least < -rounding {
+                    return Err(Error::BadNormalForce);
+                }
+                samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
+            }
+        }
+        if motion.open {
+            return Ok(motion);
+        }
+        if motion.constant {
+            element.check_input(mean)?;
+            samples.input.fill(mean);
+            samples.press_constantly(&element.normal(mean));
+        } else {
+            if element.by_approach() {
+                fourier.synthesise(input, samples.input);
+            }
+            if element.check_input(mean.abs() + swing).is_err() {
+                samples.input.iter().try_for_each(|input| element.check_input(*input))?;
+            }
+            motion.open = samples.input.iter().all(|input| *input <= 0.0);
+            if !motion.open {
+                samples.press(element);
+            }
+        }
+        Ok(motion)
+    }
+
+    #[inline(always)]
+    fn write_force(
+        &mut self,
+        element: &Element,
+        input: &[f64],
+        motion: Motion,
+        part: Option<&Part>,
+        force: &mut [f64],
+    ) {
+        let Workspace { size, fourier, samples, tractions, .. } = self;
+        let weight = 1.0 / samples.count as f64;
+        let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
+        if let Some(part) = part {
+            if motion.half_wave {
+                continue_half_wave(tractions.force, part, samples.count, -1.0);
+            }
+            fourier.sum(tractions.force, tangential);
+            normalise(tangential, weight);
+        } else {
+            tangential.fill(0.0);
+        }
+        if !element.by_approach() && !motion.open {
+            // Rounding below 0 counts as 0.
+            normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
+        } else if motion.constant || motion.open {
+            normal.fill(0.0);
+            if let (Some(constant), false, Some(load)) = (normal.first_mut(), motion.open, samples.load.first()) {
+                *constant = *load;
+            }
+        } else {
+            fourier.sum(samples.load, normal);
+            normalise(normal, weight);
+        }
+    }
+
+    #[inline(always)]
+    fn write_jacobian(&mut self, element: &Element, motion: Motion, part: Option<&Part>, jacobian: &mut [f64]) {
+        let Workspace { size, fourier, samples, sensitivity, assembly, .. } = self;
+        let coefficients = size.coefficients();
+        let (by_displacement, by_input) =
+            jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
+        for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
+            if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
+                if motion.half_wave {
+                    continue_half_wave(own, part, samples.count, sign);
+                }
+                fourier.sum(own, assembly.sums);
+                let symmetry = if motion.half_wave { Some(sign) } else { None };
+                assembly
+                    .write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
+                let columns = columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients));
+                assembly.add_products(sensitivity, index, symmetry, columns);
+            } else {
+                columns.fill(0.0);
+            }
+            for column in columns.chunks_exact_mut(2 * coefficients) {
+                lower(column, coefficients).fill(0.0);
+            }
+        }
+        let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
+        if motion.open {
+            return;
+        }
+        if motion.constant || !element.by_approach() {
+            let slope = if element.by_approach() { samples.load_slope.first().copied().unwrap_or(0.0) } else { 1.0 };
+            for (index, column) in columns.enumerate() {
+                column.iter_mut().skip(index).take(1).for_each(|diagonal| *diagonal = slope);
+            }
+        } else {
+            fourier.sum(samples.load_slope, assembly.sums);
+            assembly.write_sums(columns);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

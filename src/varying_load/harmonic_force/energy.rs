@@ -1,0 +1,107 @@
+//! Energy dissipated along a period: the sum over its steps.
+
+use crate::varying_load::diagram::{self, Diagram as _, Knot};
+use crate::varying_load::element::{Element, Normal};
+use crate::varying_load::energy::{Path, dissipated};
+use crate::varying_load::harmonic_force::samples::{Part, Samples, at, ranges};
+use crate::varying_load::harmonic_force::walk::closing;
+
+/// The diagram, in the memory of the workspace.
+struct Diagram<'a> {
+    knots: &'a mut [[f64; 4]],
+    count: usize,
+}
+
+impl Diagram<'_> {
+    fn restart(&mut self, knots: &[Knot]) {
+        self.count = 0;
+        knots.iter().for_each(|knot| self.push(*knot));
+    }
+
+    fn push(&mut self, knot: Knot) {
+        if let Some(place) = self.knots.get_mut(self.count) {
+            *place = knot.into();
+            self.count += 1;
+        }
+    }
+
+    /// The step to a closed sample.
+    fn step(&mut self, element: &Element, displacement: f64, normal: &Normal) {
+        diagram::step(element, self, displacement, normal);
+    }
+}
+
+impl diagram::Diagram for Diagram<'_> {
+    fn knots(&self) -> &[[f64; 4]] {
+        self.knots.get(..self.count).unwrap_or(self.knots)
+    }
+
+    fn replace(&mut self, kept: usize, new: &[Knot]) {
+        self.count = kept;
+        new.iter().for_each(|knot| self.push(*knot));
+    }
+}
+
+/// Energy \[J\] dissipated in the steps of a part of a period, from the sample at which it starts.
+#[inline(never)]
+pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, knots: &mut [[f64; 4]]) -> f64 {
+    let mu = element.friction_coefficient;
+    let normal = |sample| Normal {
+        load: at(samples.load, sample),
+        shift: at(samples.shift, sample),
+        load_slope: at(samples.load_slope, sample),
+        shift_slope: at(samples.shift_slope, sample),
+    };
+    let mut diagram = Diagram { knots, count: 0 };
+    let [xi, eta] = [at(samples.xi, part.start), at(samples.eta, part.start)];
+    if !part.opens {
+        let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
+        let (load, _) = element.load_at_shift(shift_without_slip);
+        let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
+        // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
+        diagram.restart(&[Knot::centre(0.0), core]);
+        if shift_without_slip == 0.0 {
+            diagram.restart(&[Knot::centre(0.0)]);
+        }
+        diagram.step(element, at(samples.displacement, part.start), &normal(part.start));
+    } else {
+        diagram.restart(&[Knot::centre(at(samples.displacement, part.start))]);
+    }
+    // All steps of the part, the one to its first sample (or its counterpart half a period later) last.
+    let [first, second] = ranges(&Part { start: part.start + 1, ..*part }, samples.count);
+    let mut energy = 0.0;
+    for sample in first.chain(second) {
+        let before = samples.before(sample);
+        let displacement = at(samples.displacement, sample);
+        let (open, was_open) = (samples.is_open(sample), samples.is_open(before));
+        let shift_before = if was_open { 0.0 } else { at(samples.shift, before) };
+        if open {
+            if !was_open {
+                let start = at(samples.displacement, before);
+                let end = opening(element, samples, before, sample);
+                let path = Path { shift: [shift_before, 0.0], displacement: end - start };
+                energy += dissipated(element, diagram.knots(), &path);
+            }
+            diagram.restart(&[Knot::centre(displacement)]);
+            continue;
+        }
+        let start = if was_open {
+            let start = closing(samples, element.by_approach(), sample).displacement;
+            diagram.restart(&[Knot::centre(start)]);
+            start
+        } else {
+            at(samples.displacement, before)
+        };
+        let path = Path { shift: [shift_before, at(samples.shift, sample)], displacement: displacement - start };
+        energy += dissipated(element, diagram.knots(), &path);
+        diagram.step(element, displacement, &normal(sample));
+    }
+    energy
+}
+
+/// Displacement at which the path from a closed to an open sample opens the contact.
+fn opening(element: &Element, samples: &Samples, before: usize, sample: usize) -> f64 {
+    let [u0, u1] = [before, sample].map(|sample| at(samples.displacement, sample));
+    let [w0, w1] = [before, sample].map(|sample| at(samples.input, sample));
+    if element.by_approach() { u0 + w0 / (w0 - w1) * (u1 - u0) } else { u1 }
+}

@@ -1,0 +1,155 @@
+//! Normal states and characteristic coordinates of the samples.
+
+use crate::hbm::folded_fourier::continue_periodically;
+use crate::varying_load::element::{Element, Normal};
+
+/// Arrays over the samples of a period, continued periodically to whole blocks of four.
+#[derive(Debug)]
+pub(super) struct Samples<'a> {
+    pub count: usize,
+    pub displacement: &'a mut [f64],
+    /// Normal approach or force.
+    pub input: &'a mut [f64],
+    /// N, S and their derivatives with respect to the input; 0 if open.
+    pub load: &'a mut [f64],
+    pub shift: &'a mut [f64],
+    pub load_slope: &'a mut [f64],
+    pub shift_slope: &'a mut [f64],
+    /// 1/K_t of the whole contact.
+    pub stiffness: &'a mut [f64],
+    /// u - mu S and u + mu S.
+    pub xi: &'a mut [f64],
+    pub eta: &'a mut [f64],
+}
+
+/// The part of a period that is evaluated.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    /// First sample: one at which the steady state is known.
+    pub start: usize,
+    /// A whole period, or half of it if the motion is half-wave symmetric.
+    pub length: usize,
+    /// Whether some samples are open.
+    pub opens: bool,
+}
+
+/// Samples before and after the end of the arrays.
+pub(super) fn ranges(part: &Part, samples: usize) -> [core::ops::Range<usize>; 2] {
+    let end = part.start + part.length;
+    if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
+}
+
+/// Completes values that were evaluated in half a period and keep (+1) or change (-1) their sign after it.
+#[inline(always)]
+pub(super) fn continue_half_wave(values: &mut [f64], part: &Part, samples: usize, sign: f64) {
+    let half = samples / 2;
+    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
+        return;
+    };
+    // The evaluated half starts in either half of the period.
+    let turn = if part.start < half { part.start } else { part.start - half };
+    let from_first = part.start < half;
+    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
+        if (index >= turn) == from_first {
+            *second = sign * *first;
+        } else {
+            *first = sign * *second;
+        }
+    }
+}
+
+pub(super) fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(0.0)
+}
+
+impl Samples<'_> {
+    pub fn before(&self, sample: usize) -> usize {
+        sample.checked_sub(1).unwrap_or(self.count.saturating_sub(1))
+    }
+
+    pub fn is_open(&self, sample: usize) -> bool {
+        at(self.input, sample) <= 0.0
+    }
+
+    /// The normal state of all samples under a constant input > 0.
+    #[inline(always)]
+    pub fn press_constantly(&mut self, normal: &Normal) {
+        self.load.fill(normal.load);
+        self.shift.fill(normal.shift);
+        self.load_slope.fill(normal.load_slope);
+        self.shift_slope.fill(normal.shift_slope);
+        self.stiffness.fill(normal.tangential_stiffness());
+    }
+
+    /// The normal states of all samples.
+    #[inline(always)]
+    pub fn press(&mut self, element: &Element) {
+        for ((((((input, load), shift), load_slope), shift_slope), stiffness), _) in self
+            .input
+            .iter()
+            .zip(self.load.iter_mut())
+            .zip(self.shift.iter_mut())
+            .zip(self.load_slope.iter_mut())
+            .zip(self.shift_slope.iter_mut())
+            .zip(self.stiffness.iter_mut())
+            .zip(0..self.count)
+        {
+            let closed = *input > 0.0;
+            let normal = if closed { element.normal(*input) } else { Normal::OPEN };
+            *load = normal.load;
+            *shift = normal.shift;
+            *load_slope = normal.load_slope;
+            *shift_slope = normal.shift_slope;
+            *stiffness = if closed { normal.tangential_stiffness() } else { 0.0 };
+        }
+        continue_periodically(self.load, self.count);
+        continue_periodically(self.shift, self.count);
+    }
+
+    /// Characteristic coordinates, and the part of the period to evaluate.
+    ///
+    /// The definition starts at the sample of largest normal force with D = 0 everywhere and evaluates the second of two periods. With
+    /// X the largest ξ and Y the smallest η, the state is the same at one sample of the first period whatever the history:
+    ///
+    /// - at an open sample: it is empty;
+    /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
+    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
+    ///   At the sample where that is attained everything beyond is slip zone.
+    #[inline(always)]
+    pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
+        let mu = element.friction_coefficient;
+        let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
+        let mut least_input = [f64::MAX; 4];
+        let blocks = self
+            .displacement
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(self.shift.as_chunks::<4>().0)
+            .zip(self.input.as_chunks::<4>().0)
+            .zip(self.xi.as_chunks_mut::<4>().0)
+            .zip(self.eta.as_chunks_mut::<4>().0);
+        for ((((displacement, shift), input), xi), eta) in blocks {
+            for k in 0..4 {
+                let reach = mu * shift[k];
+                xi[k] = displacement[k] - reach;
+                eta[k] = displacement[k] + reach;
+                largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
+                smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
+                least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
+            }
+        }
+        let largest = largest.into_iter().fold(f64::MIN, f64::max);
+        let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
+        let opens = least_input.iter().any(|least| *least <= 0.0);
+        let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
+        let start = if opens {
+            self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
+        } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
+            first(self.xi, largest)
+        } else {
+            first(self.eta, smallest)
+        };
+        Part { start, length: if half_wave_symmetric { self.count / 2 } else { self.count }, opens }
+    }
+}
