@@ -385,8 +385,12 @@ impl Element {
     fn curvature_outside(&self, shift: f64) -> f64 {
         let shape = self.shape();
         let w = shape.at_shift(shift);
-        let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
-        if w > 0.0 { 2.0 * curvature / (shift * shift) } else { 0.0 }
+        // The squares of smaller sizes are not representable.
+        if w < 1e-150 {
+            return 0.0;
+        }
+        let [_, _, curvature, ..] = shape.series(w, Relation::LoadOfShift);
+        2.0 * curvature / (shift * shift)
     }
 
     /// M at a shift S >= 0.
