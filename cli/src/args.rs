@@ -188,15 +188,16 @@ pub struct Loop {
     /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
     pub points: u32,
-    /// Swing of the normal force about normal_force, in phase or not with the displacement: a force, or a percentage of
-    /// normal_force; the contact is open while their sum would be negative
+    /// Amplitude of a harmonic swing of the normal force about normal_force: a force, or a percentage of normal_force; the
+    /// contact is open while the sum is negative
     #[arg(long, value_name = "N|%", value_parser = parse_amount, allow_hyphen_values = true, requires = "phase")]
     pub normal_amplitude: Option<Amount>,
     /// Phases by which the normal force leads the displacement
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
     #[arg(requires = "normal_amplitude")]
     pub phase: Vec<f64>,
-    #[arg(long, help = RELATIVE)]
+    /// Amplitudes are multiples of the slip displacement and of normal_force
+    #[arg(long)]
     pub relative: bool,
 }
 

@@ -26,15 +26,6 @@ pub enum Amount {
     Fraction(f64),
 }
 
-impl Amount {
-    pub fn of(self, whole: f64) -> f64 {
-        match self {
-            Amount::Absolute(value) => value,
-            Amount::Fraction(fraction) => fraction * whole,
-        }
-    }
-}
-
 /// A number, or a percentage: 40%.
 pub fn parse_amount(text: &str) -> Result<Amount, &'static str> {
     match text.trim().strip_suffix('%') {

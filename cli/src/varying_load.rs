@@ -4,7 +4,7 @@ use crate::args::{History, Loop, Normal};
 use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, grid, pairs, panel, parts_of_step, scaled};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
-use crate::number::{format_list, format_number};
+use crate::number::{Amount, format_list, format_number};
 use crate::plot::{Axis, Line, Panel, rounded};
 use crate::table::{InputTable, Table};
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
@@ -17,11 +17,13 @@ const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
     let element = spec.element(NormalInput::Approach)?;
     let at_approach = |option: &str, approach: f64| {
-        let point = element.normal_force_at(approach).map_err(|error| CliError::in_option(option, approach, error))?;
+        element.check_approach(approach).map_err(|error| CliError::in_option(option, approach, error))?;
+        let point = element.normal_force_at(approach);
         Ok(vec![approach, point.value, point.slope, element.half_width_under(point.value)])
     };
     let at_force = |&force: &f64| {
-        let point = element.approach_under(force).map_err(|error| CliError::in_option("--force", force, error))?;
+        element.check_normal_force(force).map_err(|error| CliError::in_option("--force", force, error))?;
+        let point = element.approach_under(force);
         // An open contact has no stiffness.
         let stiffness = if force > 0.0 { 1.0 / point.slope } else { 0.0 };
         Ok(vec![point.value, force, stiffness, element.half_width_under(force)])
@@ -120,9 +122,7 @@ pub fn history(
 fn between(element: &Element, from: [f64; 2], to: [f64; 2], fraction: f64) -> [f64; 2] {
     let displacement = from[0] + (to[0] - from[0]) * fraction;
     let by_approach = element.normal_input == NormalInput::Approach as i32;
-    let load = |input: f64| {
-        if by_approach { element.normal_force_at(input).map_or(0.0, |point| point.value) } else { input }
-    };
+    let load = |input: f64| if by_approach { element.normal_force_at(input).value } else { input };
     // The closed part of the path, between two fractions.
     let crossing = if by_approach { from[1] / (from[1] - to[1]) } else { f64::from(u8::from(from[1] > 0.0)) };
     let (start, end) = match (from[1] > 0.0, to[1] > 0.0) {
@@ -137,8 +137,7 @@ fn between(element: &Element, from: [f64; 2], to: [f64; 2], fraction: f64) -> [f
     let [first, last] = [from[1], to[1]].map(|input| element.shift_under(load(input.max(0.0))));
     let shift = first + (last - first) * (fraction - start) / (end - start);
     let normal_force = element.load_under(shift.max(0.0));
-    let input =
-        if by_approach { element.approach_under(normal_force).map_or(0.0, |point| point.value) } else { normal_force };
+    let input = if by_approach { element.approach_under(normal_force).value } else { normal_force };
     [displacement, input]
 }
 
@@ -149,7 +148,12 @@ const STEPS_OF_PERIOD: usize = 4096;
 pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], repeat: &str) -> Result<Report> {
     let (element, units) = (spec.element(NormalInput::Force)?, spec.units);
     let (mean, n) = (element.normal_force, options.points as usize);
-    let given = options.normal_amplitude.map_or(0.0, |amount| amount.of(mean));
+    let given = match options.normal_amplitude {
+        Some(Amount::Fraction(fraction)) => fraction * mean,
+        Some(Amount::Absolute(multiple)) if options.relative => multiple * mean,
+        Some(Amount::Absolute(force)) => force,
+        None => 0.0,
+    };
     if !(given >= 0.0 && given.is_finite()) {
         return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
     }

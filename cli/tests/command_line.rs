@@ -366,11 +366,11 @@ fn the_normal_law_and_its_inverse_equal_those_of_the_library() {
         let header = format!("approach [{m}],normal_force [N],stiffness [{k}],half_width [{m}]");
         let at_approach = |part: f64| {
             let approach = part * element.approach;
-            let point = element.normal_force_at(approach).unwrap();
+            let point = element.normal_force_at(approach);
             vec![approach, point.value, point.slope, element.half_width_under(point.value)]
         };
         let at_force = |force: f64| {
-            let point = element.approach_under(force).unwrap();
+            let point = element.approach_under(force);
             vec![point.value, force, 1.0 / point.slope, element.half_width_under(force)]
         };
         for (options, expected) in [
@@ -410,8 +410,11 @@ fn a_swinging_load_changes_the_energy_of_a_loop() {
     assert_eq!(in_phase, [210.0, 150.0, 90.0, 150.0, 210.0]);
     assert_eq!(leading, [150.0, 90.0, 150.0, 210.0, 150.0]);
     assert!(least < most, "{least} {most}");
-    // Newtons and per cent are the same load, and so are the two signs of the displacement.
-    assert_eq!(swinging("--normal-amplitude 60 --phase 45"), swinging("--normal-amplitude 40% --phase 45"));
+    // Newtons, per cent and multiples are the same load; the sign of the displacement does not matter.
+    let per_cent = swinging("--normal-amplitude 40% --phase 45");
+    assert_eq!(swinging("--normal-amplitude 0.4 --phase 45"), per_cent);
+    let amplitude = per_cent[0][0];
+    assert_eq!(numbers(&run(&format!("--amplitude {amplitude} --normal-amplitude 60 --phase 45"))), per_cent);
     let mirrored = swinging("--normal-amplitude 40% --phase 180 --points 4");
     assert!((mirrored[0][5] / mirrored[0][6] / least - 1.0).abs() < 1e-9);
     let opened = swinging("--normal-amplitude 120% --phase 90");
@@ -444,6 +447,7 @@ fn the_command_in_a_result_repeats_it() {
             "normal contact.toml --points 5",
             "normal contact.toml --force 7",
             "loop contact.toml --points 4 --normal-amplitude 30% --phase 0,-45 --relative --amplitude 0.7",
+            "loop contact.toml --points 4 --normal-amplitude 0.3 --phase 10 --relative",
         ] {
             let table = shell.stdout(&format!("microslip {command}"));
             assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
