@@ -118,7 +118,7 @@ pub fn history(
     Ok(report.under(spec, &range).with_remark("stiffness: by the displacement; dissipated: energy of each step"))
 }
 
-/// The point at a fraction of the displacement of a step, which is straight in the tangential shift, and in the approach while open.
+/// The point at a fraction of the displacement of a step, which is straight in the tangential shift; while open, in the approach.
 fn between(element: &Element, from: [f64; 2], to: [f64; 2], fraction: f64) -> [f64; 2] {
     let displacement = from[0] + (to[0] - from[0]) * fraction;
     let by_approach = element.normal_input == NormalInput::Approach as i32;
@@ -211,8 +211,8 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
     Ok(report.under(spec, &load).with_remark(remark))
 }
 
-/// The second of two periods, `[displacement, normal force, force]` from the first point to its repetition, and its dissipated energy.
-/// They start at the largest normal force, under which the contact was displaced.
+/// The second of two periods, `[displacement, normal force, force]` from the first point to its repetition, and its dissipated
+/// energy. They start at the largest normal force, under which the contact was displaced.
 fn steady_period(element: &Element, path: &[[f64; 2]]) -> Result<(Vec<[f64; 3]>, f64)> {
     let steps = path.len() - 1;
     let mut state = new_state(2 * steps)?;

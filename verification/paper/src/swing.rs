@@ -8,7 +8,7 @@ use microslip::varying_load::state::{Step, advance, state_init, state_length};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;
-/// Phases of a curve from 0 to 180 degrees: half a cycle later the tangential motion has the other sign, and the energy is the same.
+/// Phases of a curve from 0 to 180 degrees: beyond, the tangential motion has the other sign, and the energy is the same.
 const PHASES: usize = 36;
 const LENGTH: f64 = 20.0;
 
