@@ -91,11 +91,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\], which is closed.
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
