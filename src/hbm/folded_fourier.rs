@@ -21,7 +21,7 @@ fn position_blocks(samples: usize) -> usize {
     positions.div_ceil(4)
 }
 
-/// Number of doubles in the table for orders up to `orders`.
+/// Number of doubles in the table for orders up to `orders`, an even number.
 pub(crate) fn table_length(samples: usize, orders: usize) -> usize {
     4 * position_blocks(samples) * (1 + 2 * orders)
 }
@@ -95,21 +95,23 @@ impl<'a> FoldedFourier<'a> {
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
         for (first, rows) in (0..).step_by(4).zip(self.rows()) {
-            let mut sums = [[0.0; 4], [0.0; 4], [constant; 4], [0.0; 4]];
-            let (row_quads, last_rows) = rows.get(1..=pairs.len()).unwrap_or(&[]).as_chunks::<4>();
-            for (coefficients, rows) in quads.iter().zip(row_quads) {
-                for symmetry in 0..4 {
-                    for k in 0..4 {
-                        sums[symmetry][k] += coefficients[symmetry] * rows[symmetry][k];
-                    }
-                }
-            }
-            for ((sum, coefficient), row) in sums.iter_mut().zip(last).zip(last_rows) {
+            let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
+            let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
+            let row_quads = rows.get(1..).unwrap_or(&[]).as_chunks::<4>().0;
+            for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
                 for k in 0..4 {
-                    sum[k] += coefficient * row[k];
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                    even_cosines[k] += c * rows[2][k];
+                    even_sines[k] += d * rows[3][k];
                 }
             }
-            let [odd_cosines, odd_sines, even_cosines, even_sines] = sums;
+            if let (&[a, b], Some(rows)) = (last, row_quads.get(quads.len())) {
+                for k in 0..4 {
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                }
+            }
             if samples.is_multiple_of(2) {
                 let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
                 let (even_mirrored, odd_mirrored) =
@@ -142,31 +144,22 @@ impl<'a> FoldedFourier<'a> {
         *constant = sum_of(total);
         let (odd, even) = (odd.as_chunks::<2>().0, even.as_chunks::<2>().0);
         for (first, sums) in (1..).step_by(4).zip(pairs.chunks_mut(4)) {
-            let mut totals = [[0.0; 4]; 4];
+            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
             for ((rows, [odd_cosines, odd_sines]), [even_cosines, even_sines]) in self.rows().zip(odd).zip(even) {
-                let folded = [odd_cosines, odd_sines, even_cosines, even_sines];
-                match rows.get(first..).unwrap_or(&[]) {
-                    [one, two, three, four, ..] => {
-                        let rows = [one, two, three, four];
-                        for symmetry in 0..4 {
-                            for k in 0..4 {
-                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
-                            }
-                        }
+                if let Some(rows) = rows.get(first..).and_then(<[_]>::first_chunk::<4>) {
+                    for k in 0..4 {
+                        a[k] += odd_cosines[k] * rows[0][k];
+                        b[k] += odd_sines[k] * rows[1][k];
+                        c[k] += even_cosines[k] * rows[2][k];
+                        d[k] += even_sines[k] * rows[3][k];
                     }
-                    [one, two, ..] => {
-                        let rows = [one, two];
-                        for symmetry in 0..2 {
-                            for k in 0..4 {
-                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
-                            }
-                        }
-                    }
-                    _ => {}
                 }
             }
-            for (sum, total) in sums.iter_mut().zip(totals) {
-                *sum = sum_of(total);
+            let totals = [sum_of(a), sum_of(b), sum_of(c), sum_of(d)];
+            match sums {
+                [a, b, c, d] => [*a, *b, *c, *d] = totals,
+                [a, b, ..] => [*a, *b] = [totals[0], totals[1]],
+                _ => {}
             }
         }
     }
@@ -285,7 +278,7 @@ mod tests {
                 fourier.take_scratch(&mut parts).unwrap();
                 let function = |c: usize, n: usize| {
                     let angle = angle(c.div_ceil(2), n, samples);
-                    if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+                    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
                 };
                 let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
                 let mut values = vec![f64::NAN; sample_length(samples)];
@@ -308,7 +301,7 @@ mod tests {
 
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
-        let (samples, orders) = (22, 5);
+        let (samples, orders) = (22, 6);
         let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples)];
         fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
         let fourier = FoldedFourier::take(&mut Parts::new(&mut memory), samples, orders).unwrap();

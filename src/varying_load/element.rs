@@ -91,11 +91,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\], which is closed.
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
@@ -351,6 +346,69 @@ impl Element {
         } else {
             Normal { load: input, shift: value, load_slope: 1.0, shift_slope: slope }
         }
+    }
+
+    /// The normal states at four inputs; open if not positive. Without slopes these are 0.
+    #[inline(always)]
+    pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        let substitute = self.of_input.smallest();
+        let mut closed = *input;
+        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
+        let (value, slope) = match self.of_input.four::<SLOPES>(&closed) {
+            Some(values) => values,
+            None => self.four_outside(&closed),
+        };
+        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
+        let masked = |k: usize, value: f64| if input[k] > 0.0 { value } else { 0.0 };
+        let mut states = [[0.0; 4]; 4];
+        for k in 0..4 {
+            if self.by_approach() {
+                states[0][k] = masked(k, value[k]);
+                states[1][k] = masked(k, ratio * input[k] + per_load * value[k]);
+                if SLOPES {
+                    states[2][k] = masked(k, slope[k]);
+                    states[3][k] = masked(k, ratio + per_load * slope[k]);
+                }
+            } else {
+                states[0][k] = masked(k, input[k]);
+                states[1][k] = masked(k, value[k]);
+                if SLOPES {
+                    states[2][k] = masked(k, 1.0);
+                    states[3][k] = masked(k, slope[k]);
+                }
+            }
+        }
+        states
+    }
+
+    #[inline(never)]
+    fn four_outside(&self, input: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
+        for ((value, slope), &input) in value.iter_mut().zip(&mut slope).zip(input) {
+            (*value, *slope) = match self.of_input.position(input) {
+                Some(at) => self.of_input.value_and_slope(input, at),
+                None => self.outside(input),
+            };
+        }
+        (value, slope)
+    }
+
+    /// N and, if requested, 1/K_t at four shifts S >= 0.
+    #[inline(always)]
+    pub(crate) fn four_loads<const SLOPES: bool>(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        match self.load_of_shift.four::<SLOPES>(shift) {
+            Some(values) => values,
+            None => self.four_loads_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn four_loads_outside(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut load, mut stiffness) = ([0.0; 4], [0.0; 4]);
+        for ((load, stiffness), &shift) in load.iter_mut().zip(&mut stiffness).zip(shift) {
+            (*load, *stiffness) = self.load_at_shift(shift);
+        }
+        (load, stiffness)
     }
 
     /// N(U) or S(N) and its slope, from the shape.

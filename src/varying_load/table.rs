@@ -75,6 +75,57 @@ impl Table {
         (x * q, q + at.scaled * dq)
     }
 
+    /// The smallest argument inside.
+    #[inline(always)]
+    pub fn smallest(&self) -> f64 {
+        f64::from_bits(self.base << SHIFT)
+    }
+
+    /// Values and, if requested, slopes at four arguments; `None` if one is outside.
+    ///
+    /// The blocks of four coefficients are combined for each argument; the cubics that remain are transposed and evaluated together.
+    #[inline(always)]
+    pub fn four<const SLOPES: bool>(&self, x: &[f64; 4]) -> Option<([f64; 4], [f64; 4])> {
+        let row = |x: f64| self.quarters.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize);
+        let (Some(a), Some(b), Some(c), Some(d)) = (row(x[0]), row(x[1]), row(x[2]), row(x[3])) else { return None };
+        let mantissa = |x: f64, kept: u32| f64::from_bits((x.to_bits() & ((1 << kept) - 1)) | EXPONENT_OF_1);
+        let (mut t, mut t2, mut t4) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            t[k] = POSITION * mantissa(x[k], SHIFT) - (POSITION + 1.0);
+            t2[k] = t[k] * t[k];
+            t4[k] = t2[k] * t2[k];
+        }
+        let (mut cubics, mut derivatives) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+        for (lane, coefficients) in [a, b, c, d].into_iter().enumerate() {
+            let power = t4[lane];
+            for k in 0..4 {
+                let high = coefficients[4 + k] + power * coefficients[8 + k];
+                cubics[lane][k] = coefficients[k] + power * high;
+                if SLOPES {
+                    derivatives[lane][k] = high + power * coefficients[8 + k];
+                }
+            }
+        }
+        let [c0, c1, c2, c3] = transposed(&cubics);
+        let (mut q, mut values) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            q[k] = (c0[k] + c1[k] * t[k]) + t2[k] * (c2[k] + c3[k] * t[k]);
+            values[k] = x[k] * q[k];
+        }
+        let mut slopes = [0.0; 4];
+        if SLOPES {
+            // With P1 and P2 the blocks behind the first, d/dt of P0 + t⁴ P1 + t⁸ P2 is that of the cubic, plus 4t³ (P1 + 2 t⁴ P2).
+            let [d0, d1, d2, d3] = transposed(&derivatives);
+            for k in 0..4 {
+                let by_blocks = (d0[k] + d1[k] * t[k]) + t2[k] * (d2[k] + d3[k] * t[k]);
+                let by_cubic = (c1[k] + 2.0 * c2[k] * t[k]) + 3.0 * (c3[k] * t2[k]);
+                let scaled = POSITION * mantissa(x[k], 52);
+                slopes[k] = q[k] + scaled * (by_cubic + 4.0 * (t[k] * t2[k]) * by_blocks);
+            }
+        }
+        Some((values, slopes))
+    }
+
     /// y''.
     #[inline(always)]
     pub fn curvature(&self, x: f64, at: Position) -> f64 {
@@ -107,6 +158,11 @@ impl Position {
     pub fn index(&self) -> usize {
         self.index
     }
+}
+
+#[inline(always)]
+fn transposed(&[a, b, c, d]: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    [[a[0], b[0], c[0], d[0]], [a[1], b[1], c[1], d[1]], [a[2], b[2], c[2], d[2]], [a[3], b[3], c[3], d[3]]]
 }
 
 /// Middle and half-length of the quarter with this exponent and leading bits.

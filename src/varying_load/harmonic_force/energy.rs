@@ -1,44 +1,36 @@
 //! Energy dissipated along a period: the sum over its steps.
 
-use crate::varying_load::diagram::{self, Diagram as _, Knot};
+use crate::varying_load::diagram::{self, Diagram, Knot};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{Path, dissipated};
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at, ranges};
 use crate::varying_load::harmonic_force::walk::closing;
 
 /// The diagram, in the memory of the workspace.
-struct Diagram<'a> {
+struct Polygon<'a> {
     knots: &'a mut [[f64; 4]],
     count: usize,
 }
 
-impl Diagram<'_> {
+impl Polygon<'_> {
     fn restart(&mut self, knots: &[Knot]) {
-        self.count = 0;
-        knots.iter().for_each(|knot| self.push(*knot));
-    }
-
-    fn push(&mut self, knot: Knot) {
-        if let Some(place) = self.knots.get_mut(self.count) {
-            *place = knot.into();
-            self.count += 1;
-        }
-    }
-
-    /// The step to a closed sample.
-    fn step(&mut self, element: &Element, displacement: f64, normal: &Normal) {
-        diagram::step(element, self, displacement, normal);
+        self.replace(0, knots);
     }
 }
 
-impl diagram::Diagram for Diagram<'_> {
+impl Diagram for Polygon<'_> {
     fn knots(&self) -> &[[f64; 4]] {
         self.knots.get(..self.count).unwrap_or(self.knots)
     }
 
     fn replace(&mut self, kept: usize, new: &[Knot]) {
         self.count = kept;
-        new.iter().for_each(|knot| self.push(*knot));
+        for knot in new {
+            if let Some(place) = self.knots.get_mut(self.count) {
+                *place = (*knot).into();
+                self.count += 1;
+            }
+        }
     }
 }
 
@@ -52,7 +44,7 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
         load_slope: at(samples.load_slope, sample),
         shift_slope: at(samples.shift_slope, sample),
     };
-    let mut diagram = Diagram { knots, count: 0 };
+    let mut diagram = Polygon { knots, count: 0 };
     let [xi, eta] = [at(samples.xi, part.start), at(samples.eta, part.start)];
     if !part.opens {
         let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
@@ -63,7 +55,7 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
         if shift_without_slip == 0.0 {
             diagram.restart(&[Knot::centre(0.0)]);
         }
-        diagram.step(element, at(samples.displacement, part.start), &normal(part.start));
+        diagram::step(element, &mut diagram, at(samples.displacement, part.start), &normal(part.start));
     } else {
         diagram.restart(&[Knot::centre(at(samples.displacement, part.start))]);
     }
@@ -94,7 +86,7 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
         };
         let path = Path { shift: [shift_before, at(samples.shift, sample)], displacement: displacement - start };
         energy += dissipated(element, diagram.knots(), &path);
-        diagram.step(element, displacement, &normal(sample));
+        diagram::step(element, &mut diagram, displacement, &normal(sample));
     }
     energy
 }

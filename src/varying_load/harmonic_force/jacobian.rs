@@ -18,7 +18,7 @@ fn pairs_length(harmonics: usize) -> usize {
 
 /// Doubles of an [`Assembly`].
 pub(super) fn memory_length(harmonics: usize) -> usize {
-    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 1)
+    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 2)
 }
 
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl<'a> Assembly<'a> {
         let sums = parts.take(4 * size.harmonics + 1)?;
         let mut pairs = || parts.take(pairs_length(size.harmonics));
         let pairs = [pairs()?, pairs()?];
-        let products = parts.take_blocks(row_blocks(size.harmonics) * size.coefficients())?;
+        let products = parts.take_blocks(row_blocks(size.harmonics) * (2 * size.harmonics + 2))?;
         Ok(Assembly { size, sums, pairs, products })
     }
 
@@ -93,7 +93,7 @@ impl<'a> Assembly<'a> {
         symmetry: Option<f64>,
         columns: impl Iterator<Item = &'c mut [f64]>,
     ) {
-        if sensitivity.touched_count == 0 {
+        if sensitivity.touched == 0 {
             return;
         }
         sensitivity.products(index, self.products);
