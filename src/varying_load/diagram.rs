@@ -103,7 +103,15 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
         // Everything sticks: a piece with D = Δu/ΔS.
         let (falling, rising) = (inner.xi - xi, eta - inner.eta);
         let slope = mu * ((rising - falling) / (rising + falling));
-        let secant = (load - inner.load) * (2.0 * mu / (rising + falling));
+        let rise = 0.5 * (rising + falling) / mu;
+        // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
+        // relative to the rise: the better one of both.
+        let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) / mu;
+        let secant = if rise * rise * rise < 24.0 * f64::EPSILON * shift * shift * reach {
+            element.load_at_shift(shift - 0.5 * rise).1
+        } else {
+            (load - inner.load) / rise
+        };
         let force = inner.force + slope * (load - inner.load);
         let by_input = slope * (stiffness - secant) * shift_slope;
         let response = Response { force, by_displacement: secant, by_input };

@@ -44,9 +44,10 @@ pub struct Element {
     tag: u64,
     /// Set by the C interface.
     pub(crate) checksum: u64,
-    /// The largest normal force and approach for which the laws hold.
+    /// The largest normal force, approach and shift for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
+    pub(crate) largest_shift: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
     shift_per_load: f64,
@@ -63,6 +64,9 @@ pub struct Element {
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
+
+/// Of the normal force of the parameters, 2^-150: sizes of smaller loads are not distinguished.
+const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -171,7 +175,8 @@ impl Element {
         for value in [approach, shift, normal_force] {
             in_range(&[value], &[])?;
         }
-        (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.largest_load = shape.load(largest);
+        (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
         self.friction_coefficient = friction_coefficient;
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
@@ -181,12 +186,15 @@ impl Element {
         (self.directions, self.normal_input) = (1, input as i32);
         self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
+        // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
+        let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
-        self.load_of_shift.fill(shift, &load_of_shift);
+        self.load_of_shift.fill(regular(shift, self.largest_shift), &load_of_shift);
         match input {
             NormalInput::Approach => {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
-                self.of_input.fill(approach, &load_of_approach);
+                self.of_input.fill(regular(approach, self.largest_approach), &load_of_approach);
             }
             NormalInput::Force => {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
@@ -237,9 +245,20 @@ impl Element {
         Ok(NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) })
     }
 
+    /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are
+    /// proportional to each other, so that no power of a size underflows.
+    fn smallest_size(&self) -> f64 {
+        self.shape().at_load(SMALLEST_LOAD * self.normal_force)
+    }
+
     #[inline(never)]
     fn approach_outside(&self, normal_force: f64) -> NormalPoint {
         let shape = self.shape();
+        if normal_force > 0.0 && normal_force < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.approach(w) / shape.load(w);
+            return NormalPoint { value: slope * normal_force, slope };
+        }
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
         NormalPoint { value: shape.approach(w), slope }
@@ -323,6 +342,11 @@ impl Element {
             return self.load_of_approach_outside(input);
         }
         let shape = self.shape();
+        if input < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.shift(w) / shape.load(w);
+            return (slope * input, slope);
+        }
         let w = shape.at_load(input);
         (shape.shift(w), shape.tangential_compliance(w))
     }
@@ -330,6 +354,14 @@ impl Element {
     #[inline(never)]
     fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
         let shape = self.shape();
+        if approach < self.approach {
+            let w = self.smallest_size();
+            let smallest = shape.approach(w);
+            if approach < smallest {
+                let slope = shape.load(w) / smallest;
+                return (slope * approach, slope);
+            }
+        }
         let w = shape.at_approach(approach);
         (shape.load(w), 1.0 / shape.normal_compliance(w))
     }
@@ -345,9 +377,8 @@ impl Element {
 
     #[inline(never)]
     fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
-        let shape = self.shape();
-        let w = shape.at_shift(shift);
-        if w > 0.0 { (shape.load(w), 1.0 / shape.tangential_compliance(w)) } else { (0.0, self.touching_stiffness()) }
+        let [load, slope, ..] = self.potential_outside(shift);
+        (load, slope)
     }
 
     /// 1/K_t at first touch: 0 unless the contact has a flat.
@@ -373,10 +404,15 @@ impl Element {
     #[inline(never)]
     fn potential_outside(&self, shift: f64) -> [f64; 4] {
         let shape = self.shape();
-        let w = shape.at_shift(shift);
-        if w <= 0.0 {
+        if shift <= 0.0 {
             return [0.0, self.touching_stiffness(), 0.0, 0.0];
         }
+        let smallest = self.smallest_size();
+        if shift < shape.shift(smallest) {
+            let slope = shape.load(smallest) / shape.shift(smallest);
+            return [slope * shift, slope, 0.0, 0.5 * slope * shift * shift];
+        }
+        let w = shape.at_shift(shift);
         let [load, slope, curvature, ..] = shape.series(w, Relation::LoadOfShift);
         [load, slope / shift, 2.0 * curvature / (shift * shift), shape.potential(w)]
     }
@@ -397,6 +433,7 @@ const EMPTY: Element = Element {
     checksum: 0,
     largest_load: 0.0,
     largest_approach: 0.0,
+    largest_shift: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
     flat: RoundedFlat::EMPTY,

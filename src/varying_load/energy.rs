@@ -114,7 +114,8 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     // Mean of N along the rest of the path.
     let at = |s: f64| element.potential_at_shift(s.max(0.0));
     let width = path.shift[1] - outer;
-    let mean: f64 = if width.abs() < 0.25 * outer.max(path.shift[1]) {
+    let (low, high) = (outer.min(path.shift[1]), outer.max(path.shift[1]));
+    let mean: f64 = if high - low <= narrow(element, low, high) {
         gauss_nodes(2).map(|(node, weight)| weight * at(outer + node * width)[0]).sum()
     } else {
         (at(path.shift[1])[3] - at(outer)[3]) / width
@@ -153,6 +154,12 @@ impl Slip {
     }
 }
 
+/// Widths up to which Gauss-Legendre quadrature with eight nodes converges to rounding: N is singular at S = 0, and beyond the largest
+/// size, where the compliance of a short contact vanishes.
+fn narrow(element: &Element, low: f64, high: f64) -> f64 {
+    0.25 * high.min(element.largest_shift - low)
+}
+
 /// `∫ W N'' dS` for a quadratic W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the
 /// positive integrand.
 fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64) -> f64) -> f64 {
@@ -160,11 +167,12 @@ fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64)
     if width <= 0.0 {
         return 0.0;
     }
-    if width < 0.25 * high {
+    if width < narrow(element, low, high) {
         return gauss_nodes(2)
             .map(|(node, part)| {
                 let s = low + node * width;
-                part * width * weight(s) * element.potential_at_shift(s)[2]
+                // Rounding may make N'' of a nearly flat contact negative.
+                part * width * weight(s) * element.potential_at_shift(s)[2].max(0.0)
             })
             .sum();
     }

@@ -44,8 +44,10 @@ pub struct Step {
     pub tangent: [Real; 2],
     pub load_slope: Real,
     pub dissipated: Real,
-    /// The smallest stick zone during the step, of which N is given: the slip zone carries the rest.
+    /// N of the smallest stick zone during the step: the slip zone carries the rest.
     pub stick_load: Real,
+    /// The edge of the slip zone, and |D - σ mu| of the piece in which it lies.
+    pub edge: Option<(Size, Real)>,
 }
 
 /// The state after a history from the open contact at displacement and normal input 0.
@@ -165,6 +167,7 @@ impl Element {
             load_slope: zero,
             dissipated,
             stick_load,
+            edge: None,
         }
     }
 
@@ -186,6 +189,7 @@ impl Element {
             load_slope: load_slope.clone(),
             dissipated: zero(),
             stick_load: zero(),
+            edge: None,
         };
         let old = state.size.clone().unwrap_or_else(|| self.touch());
         let stiffness = 1.0 / &size.tangential_compliance;
@@ -214,12 +218,13 @@ impl Element {
             let rate = (&piece.slope - &sign).abs();
             let most = &rate * (&piece.end.shift - inner);
             if most > left {
-                let edge = self.family.find(Given::Shift, &(&piece.end.shift - left / rate));
+                let edge = self.family.find(Given::Shift, &(&piece.end.shift - left / &rate));
                 let by_displacement = 1.0 / &edge.tangential_compliance;
                 let by_input = &sign * (stiffness - &by_displacement) * shift_slope;
-                state.pieces.push(Piece { end: edge, slope: piece.slope });
+                state.pieces.push(Piece { end: edge.clone(), slope: piece.slope });
                 state.pieces.push(Piece { end: size.clone(), slope: sign });
-                return step(Kind::Slip, self.force(&state.pieces), by_displacement, by_input);
+                let force = self.force(&state.pieces);
+                return Step { edge: Some((edge, rate)), ..step(Kind::Slip, force, by_displacement, by_input) };
             }
             left = left - most;
         }

@@ -176,6 +176,29 @@ impl Family {
         }
     }
 
+    /// d²N/dS², the growth of the stiffness 1/K_t with S.
+    pub fn curvature(&self, size: &Size) -> Real {
+        let cubed = size.tangential_compliance.square() * &size.tangential_compliance;
+        match &self.kind {
+            Kind::Flat { a, load_scale, compliance_scale, .. } => {
+                let rate = 4.0 * size.half_width.square() * angle(a, &size.w) * load_scale;
+                compliance_scale / rate / cubed
+            }
+            Kind::Ellipse { .. } => &size.tangential_compliance / (3.0 * &size.load) / cubed,
+        }
+    }
+
+    /// K = ln(2L/s) less its constant, of the approach and of the shift; 1 for an ellipse. The logarithm is known to rounding only, in
+    /// absolute terms.
+    pub fn log_compliances(&self, size: &Size) -> [f64; 2] {
+        match &self.kind {
+            Kind::Flat { compliance_scale, .. } => {
+                [&size.normal_compliance, &size.tangential_compliance].map(|k| (k / compliance_scale).f64())
+            }
+            Kind::Ellipse { .. } => [1.0, 1.0],
+        }
+    }
+
     /// The size of a positive load, approach or shift: Newton's iteration.
     pub fn find(&self, given: Given, value: &Real) -> Size {
         let (a, length, load_scale, compliance_scale, constants, reference) = match &self.kind {
