@@ -116,7 +116,7 @@ pub const BOUNDS: &[Bound] = &[
     bound("normal_approach", 12.0, "value", "(1 + abs(K_S - K_U))/K_U",
         "element, any load", "S from a polynomial, less the difference of both K"),
     bound("normal_compliance", 1024.0, "value", "(1 + abs(K_S - K_U))/K_U",
-        "element, any load", "as normal_stiffness; for an ellipse, S of the power 2/3, the twelve terms of the polynomial are felt at the ends of its interval"),
+        "element, any load", "as normal_stiffness; for an ellipse, S of the power 2/3, the twelve terms of the polynomial show at the ends of its interval"),
     bound("normal_half_width", 5.0, "value", "0",
         "element, any load", "as half_width"),
     bound("element_normal_force", 12.0, "value", "1/K_U",
