@@ -115,7 +115,8 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
         // relative to the rise: the better one of both.
         let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
-        let secant = if rise * rise * rise < 24.0 * f64::EPSILON * shift * shift * reach {
+        let ratio = rise / shift;
+        let secant = if ratio * ratio * rise < 24.0 * f64::EPSILON * reach {
             element.load_at_shift(shift - 0.5 * rise).1
         } else {
             (load - inner.load) * (2.0 * mu * per_shift)
