@@ -23,8 +23,9 @@ static const struct {
     { MSLIP_BAD_CONTACT, 20, "invalid contact" },
     { MSLIP_BAD_STATE, 21, "invalid state" },
     { MSLIP_BAD_WORKSPACE, 22, "invalid workspace" },
-    { MSLIP_STATE_TOO_SHORT, 23, "at least mslip_state_length(0)" },
-    { MSLIP_WORKSPACE_TOO_SHORT, 25, "at least the value of mslip_harmonic_workspace_length" },
+    { MSLIP_STATE_TOO_SHORT, 23, "at least mslip_state_length(0) or mslip_element_state_length(directions, 0)" },
+    { MSLIP_BAD_ELEMENT, 24, "invalid element" },
+    { MSLIP_WORKSPACE_TOO_SHORT, 25, "at least mslip_harmonic_workspace_length or mslip_element_workspace_length" },
     { MSLIP_BAD_FORCE, 30, "a force must be finite" },
     { MSLIP_FORCE_EXCEEDS_SLIP, 31, "must not exceed mu N" },
     { MSLIP_BAD_DISPLACEMENT, 32, "a displacement must be finite and at most 1e150" },
@@ -36,7 +37,9 @@ static const struct {
     { MSLIP_BAD_COUNT, 38, "the number of sliders must be between 1 and 65536" },
     { MSLIP_BAD_RULE, 39, "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN" },
     { MSLIP_NOT_AVAILABLE, 40, "not available for this kind of contact" },
-    { MSLIP_BAD_INDEX, 41, "an index must refer to one of the n_contacts contacts" },
+    { MSLIP_BAD_INDEX, 41, "an index must refer to one of the n_contacts contacts or n_elements elements" },
+    { MSLIP_BAD_DIRECTIONS, 42, "directions must be 1 or 2" },
+    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE" },
     { MSLIP_BAD_ARRAY_SIZE, 90, "too long to be addressed" },
     { MSLIP_BAD_ALIGNMENT, 91, "misaligned pointer" },
 };
@@ -60,14 +63,25 @@ static void test_statuses(void)
     CHECK(strcmp(mslip_status_text(INT32_MIN), unknown) == 0 && strcmp(mslip_status_text(INT32_MAX), unknown) == 0);
 }
 
+/* The address half an item further. */
+static void *misaligned(const void *pointer, size_t item)
+{
+    return (char *)(size_t)pointer + item / 2;
+}
+
 /* ---- Parameters ---- */
 
-/* The parameters of both kinds of contact as arrays of doubles, with their largest valid values. */
-enum { ROUNDED, ELLIPTIC, SHAPES, MAX_FIELDS = 9 };
-#define MATERIAL \
-    { MSLIP_BAD_NORMAL_FORCE, 1, DBL_MAX }, { MSLIP_BAD_FRICTION_COEFFICIENT, 1, DBL_MAX }, \
+/* The parameters of contacts and elements of both kinds as arrays of doubles, with their largest valid values. An element has no
+   tables for a normal force of 0. */
+enum { ROUNDED, ELLIPTIC, ROUNDED_ELEMENT, ELLIPTIC_ELEMENT, SHAPES, MAX_FIELDS = 9 };
+#define IS_ROUNDED(shape) ((shape) % 2 == ROUNDED)
+#define LOAD_AND_MATERIAL(zero_load_is_valid) \
+    { MSLIP_BAD_NORMAL_FORCE, zero_load_is_valid, DBL_MAX }, { MSLIP_BAD_FRICTION_COEFFICIENT, 1, DBL_MAX }, \
     { MSLIP_BAD_YOUNG_MODULUS, 0, DBL_MAX }, { MSLIP_BAD_POISSON_RATIO, 1, 0.5 }, \
     { MSLIP_BAD_YOUNG_MODULUS, 0, DBL_MAX }, { MSLIP_BAD_POISSON_RATIO, 1, 0.5 }
+#define FLAT_GEOMETRY \
+    { MSLIP_BAD_FLAT_HALF_WIDTH, 1, DBL_MAX }, { MSLIP_BAD_EDGE_RADIUS, 0, DBL_MAX }, { MSLIP_BAD_LENGTH, 0, DBL_MAX }
+#define AXES { MSLIP_BAD_SEMI_AXIS_X, 0, DBL_MAX }, { MSLIP_BAD_SEMI_AXIS_Y, 0, DBL_MAX }
 static const struct {
     const char *function;
     size_t bytes;
@@ -78,11 +92,10 @@ static const struct {
         double largest;
     } field[MAX_FIELDS];
 } shapes[SHAPES] = {
-    { "mslip_contact_init", sizeof(mslip_parameters), 9,
-      { { MSLIP_BAD_FLAT_HALF_WIDTH, 1, DBL_MAX }, { MSLIP_BAD_EDGE_RADIUS, 0, DBL_MAX }, { MSLIP_BAD_LENGTH, 0, DBL_MAX },
-        MATERIAL } },
-    { "mslip_contact_init_elliptic", sizeof(mslip_elliptic_parameters), 8,
-      { { MSLIP_BAD_SEMI_AXIS_X, 0, DBL_MAX }, { MSLIP_BAD_SEMI_AXIS_Y, 0, DBL_MAX }, MATERIAL } },
+    { "mslip_contact_init", sizeof(mslip_parameters), 9, { FLAT_GEOMETRY, LOAD_AND_MATERIAL(1) } },
+    { "mslip_contact_init_elliptic", sizeof(mslip_elliptic_parameters), 8, { AXES, LOAD_AND_MATERIAL(1) } },
+    { "mslip_element_init", sizeof(mslip_parameters), 9, { FLAT_GEOMETRY, LOAD_AND_MATERIAL(0) } },
+    { "mslip_element_init_elliptic", sizeof(mslip_elliptic_parameters), 8, { AXES, LOAD_AND_MATERIAL(0) } },
 };
 
 static double *parameter(int shape, int i)
@@ -94,14 +107,23 @@ static void set_parameters(int shape)
 {
     const mslip_parameters p = flat_parameters();
     const mslip_elliptic_parameters e = elliptic_parameters();
-    memcpy(parameter(shape, 0), shape == ROUNDED ? (const void *)&p : (const void *)&e, shapes[shape].bytes);
+    memcpy(parameter(shape, 0), IS_ROUNDED(shape) ? (const void *)&p : (const void *)&e, shapes[shape].bytes);
 }
 
+/* The normal input of elements, by turns. */
 static int32_t init(int shape)
 {
+    static int32_t normal_input = MSLIP_APPROACH;
     mslip_contact *contact = last(contact_region, sizeof *contact);
+    mslip_element *element = last(element_region, sizeof *element);
     void *p = parameter(shape, 0);
-    return shape == ROUNDED ? mslip_contact_init(p, contact) : mslip_contact_init_elliptic(p, contact);
+    normal_input = MSLIP_APPROACH + MSLIP_NORMAL_FORCE - normal_input;
+    switch (shape) {
+        case ROUNDED: return mslip_contact_init(p, contact);
+        case ELLIPTIC: return mslip_contact_init_elliptic(p, contact);
+        case ROUNDED_ELEMENT: return mslip_element_init(p, 1, normal_input, element);
+        default: return mslip_element_init_elliptic(p, 1, normal_input, element);
+    }
 }
 
 static void bad_parameter(int shape, int i, double value, const char *what)
@@ -127,7 +149,32 @@ static int is_possible(const mslip_contact *c)
     return holds;
 }
 
-/* An extreme valid value: either a possible contact, or a status for the combination. */
+/* Finite and positive but for the friction coefficient, and so are the tractions and stiffnesses near and at the largest load. */
+static int is_possible_element(const mslip_element *e)
+{
+    const double values[] = { e->composite_modulus, e->normal_force, e->half_width, e->approach, e->normal_stiffness,
+                              e->tangential_stiffness };
+    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE;
+    double state[STATE], force[COMPONENTS], tangent[TANGENT], dissipated;
+    int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && e->directions == 1;
+    for (size_t i = 0; i < LENGTH(values); ++i) {
+        holds &= isfinite(values[i]) && values[i] > 0.0;
+    }
+    holds &= mslip_element_check(e) == MSLIP_OK && mslip_element_state_init(1, STATE, state) == MSLIP_OK;
+    for (int i = 0; i < 4; ++i) {
+        const double parts[4] = { 0.3, 1.0, 0.7, 1e-6 }, part = parts[i];
+        const double shift = part * e->approach * fmin(e->friction_coefficient, 1.0);
+        const double step[COMPONENTS] = { i % 2 ? shift : -shift, part * (by_force ? e->normal_force : e->approach) };
+        holds &= mslip_element_update(e, STATE, state, step, state, force, tangent, &dissipated) == MSLIP_OK;
+        holds &= force[1] > 0.0 && force[1] <= e->normal_force * (1.0 + 1e-13);
+        holds &= fabs(force[0]) <= e->friction_coefficient * force[1] * (1.0 + DBL_EPSILON);
+        holds &= isfinite(tangent[0]) && isfinite(tangent[2]) && tangent[3] > 0.0 && isfinite(tangent[3]);
+        holds &= isfinite(dissipated) && dissipated >= 0.0;
+    }
+    return holds;
+}
+
+/* An extreme valid value: either a possible contact or element, or a status for the combination. */
 static void extreme_parameter(int shape, int i, double value)
 {
     const double good = *parameter(shape, i);
@@ -136,9 +183,16 @@ static void extreme_parameter(int shape, int i, double value)
     save_regions();
     status = init(shape);
     if (status == MSLIP_OK) {
-        CHECK(raised() == 0 && is_possible(last(contact_region, sizeof(mslip_contact))) && nothing_changed_but(contact_region));
+        const int flags = raised(), is_element = shape >= ROUNDED_ELEMENT;
+        const region *law = is_element ? element_region : contact_region;
+        const int holds = flags == 0 && nothing_changed_but(law) &&
+                          (is_element ? is_possible_element(last(law, sizeof(mslip_element)))
+                                      : is_possible(last(law, sizeof(mslip_contact))));
+        if (!CHECK(holds && raised() == 0)) {
+            printf("    %s, parameter %d: %g, flags %x\n", shapes[shape].function, i, value, (unsigned)flags);
+        }
     } else {
-        CHECK(status == MSLIP_OUT_OF_RANGE || (shape == ROUNDED && status == MSLIP_LENGTH_TOO_SHORT));
+        CHECK(status == MSLIP_OUT_OF_RANGE || (IS_ROUNDED(shape) && status == MSLIP_LENGTH_TOO_SHORT));
         check_rejected(status, status, shapes[shape].function, "an extreme value");
     }
     *parameter(shape, i) = good;
@@ -159,7 +213,11 @@ static void test_parameters(int shape)
         bad_parameter(shape, i, -DBL_MAX, "the smallest double");
         for (int sign = -1; sign <= 1; sign += 2) {
             if (shapes[shape].field[i].zero_is_valid) {
+                const double good = *parameter(shape, i);
                 extreme_parameter(shape, i, sign * 0.0);
+                *parameter(shape, i) = sign * 0.0;
+                CHECK(init(shape) == MSLIP_OK);
+                *parameter(shape, i) = good;
             } else {
                 bad_parameter(shape, i, sign * 0.0, "zero");
             }
@@ -193,7 +251,7 @@ static void test_parameters(int shape)
         mslip_elliptic_parameters unset_elliptic;
         mslip_parameters_default(&unset);
         mslip_elliptic_parameters_default(&unset_elliptic);
-        memcpy(parameter(shape, i), shape == ROUNDED ? &unset.flat_half_width : &unset_elliptic.semi_axis_x,
+        memcpy(parameter(shape, i), IS_ROUNDED(shape) ? &unset.flat_half_width : &unset_elliptic.semi_axis_x,
                (size_t)(shapes[shape].fields - i) * sizeof(double));
         bad_parameter(shape, i, *parameter(shape, i), "unset");
     }
@@ -244,6 +302,56 @@ static void test_combinations(void)
     CHECK(raised() == 0 && nothing_changed_but(NULL));
 }
 
+/* Elements of invalid kinds; a length that is too short for the largest load. */
+static void test_element_init(void)
+{
+    static const struct {
+        int32_t directions, normal_input, status;
+    } rows[] = {
+        { 0, MSLIP_APPROACH, MSLIP_BAD_DIRECTIONS },
+        { 3, MSLIP_APPROACH, MSLIP_BAD_DIRECTIONS },
+        { -1, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
+        { INT32_MAX, 7, MSLIP_BAD_DIRECTIONS },
+        { INT32_MIN, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
+        { 2, MSLIP_APPROACH, MSLIP_NOT_AVAILABLE },
+        { 2, MSLIP_NORMAL_FORCE, MSLIP_NOT_AVAILABLE },
+        { 1, 2, MSLIP_BAD_NORMAL_INPUT },
+        { 1, -1, MSLIP_BAD_NORMAL_INPUT },
+        { 1, INT32_MAX, MSLIP_BAD_NORMAL_INPUT },
+        { 1, INT32_MIN, MSLIP_BAD_NORMAL_INPUT },
+    };
+    static const char name[] = "mslip_element_init", elliptic_name[] = "mslip_element_init_elliptic";
+    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
+    mslip_parameters *p = (mslip_parameters *)(void *)((char *)(void *)e - sizeof *p);
+    mslip_element *element = last(element_region, sizeof *element);
+    *p = flat_parameters();
+    *e = elliptic_parameters();
+    save_regions();
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        const int32_t directions = rows[i].directions, normal_input = rows[i].normal_input;
+        check_rejected(mslip_element_init(p, directions, normal_input, element), rows[i].status, name, "a kind");
+        check_rejected(mslip_element_init_elliptic(e, directions, normal_input, element), rows[i].status, elliptic_name, "a kind");
+    }
+    check_rejected(mslip_element_init(NULL, 1, 0, element), MSLIP_NULL_POINTER, name, "p");
+    check_rejected(mslip_element_init(p, 1, 0, NULL), MSLIP_NULL_POINTER, name, "element");
+    check_rejected(mslip_element_init(misaligned(p, 8), 1, 0, element), MSLIP_BAD_ALIGNMENT, name, "p");
+    check_rejected(mslip_element_init(p, 1, 0, misaligned(element, 8)), MSLIP_BAD_ALIGNMENT, name, "element");
+    check_rejected(mslip_element_init_elliptic(NULL, 1, 0, element), MSLIP_NULL_POINTER, elliptic_name, "p");
+    check_rejected(mslip_element_init_elliptic(e, 1, 0, NULL), MSLIP_NULL_POINTER, elliptic_name, "element");
+    check_rejected(mslip_element_init_elliptic(misaligned(e, 8), 1, 0, element), MSLIP_BAD_ALIGNMENT, elliptic_name, "p");
+    check_rejected(mslip_element_init_elliptic(e, 1, 0, misaligned(element, 8)), MSLIP_BAD_ALIGNMENT, elliptic_name, "element");
+    p->displacement_reference = 2;
+    save_regions();
+    check_rejected(mslip_element_init(p, 1, 0, element), MSLIP_BAD_DISPLACEMENT_REFERENCE, name, "displacement_reference");
+    for (int32_t reference = MSLIP_CENTRE_POINT; reference <= MSLIP_RIGID_STRIP; ++reference) {
+        *p = flat_parameters();
+        p->displacement_reference = reference;
+        p->length = 0.49 * contact_of(FLAT).half_width;
+        save_regions();
+        check_rejected(mslip_element_init(p, 1, 0, element), MSLIP_LENGTH_TOO_SHORT, name, "length");
+    }
+}
+
 /* ---- Arguments of the table of functions ---- */
 
 /* Invalid finite values and their status, and extreme valid ones; forces as multiples of mu N. */
@@ -272,6 +380,20 @@ static const struct {
     { DISPLACEMENT, 1e-150, 0 }, { DISPLACEMENT, 1.0, 0 }, { DISPLACEMENT, 1e150, 0 }, { DISPLACEMENT, -1e150, 0 },
     { AMPLITUDE, 0.0, 0 }, { AMPLITUDE, -0.0, 0 }, { AMPLITUDE, 5e-324, 0 }, { AMPLITUDE, 1e-300, 0 }, { AMPLITUDE, 1e-150, 0 },
     { AMPLITUDE, 1.0, 0 }, { AMPLITUDE, 1e150, 0 },
+    { APPROACH, 1.0000001e150, MSLIP_BAD_DISPLACEMENT }, { APPROACH, -1.0000001e150, MSLIP_BAD_DISPLACEMENT },
+    { APPROACH, DBL_MAX, MSLIP_BAD_DISPLACEMENT }, { APPROACH, -DBL_MAX, MSLIP_BAD_DISPLACEMENT },
+    { NORMAL_FORCE, 1.0000001e150, MSLIP_BAD_NORMAL_FORCE }, { NORMAL_FORCE, DBL_MAX, MSLIP_BAD_NORMAL_FORCE },
+    { NORMAL_FORCE, -1.0, MSLIP_BAD_NORMAL_FORCE }, { NORMAL_FORCE, -5e-324, MSLIP_BAD_NORMAL_FORCE },
+    { NORMAL_FORCE, -DBL_MAX, MSLIP_BAD_NORMAL_FORCE },
+    { APPROACH_COEFFICIENT, 1.0000001e150, MSLIP_BAD_DISPLACEMENT }, { APPROACH_COEFFICIENT, -DBL_MAX, MSLIP_BAD_DISPLACEMENT },
+    { FORCE_COEFFICIENT, 1.0000001e150, MSLIP_BAD_DISPLACEMENT }, { FORCE_COEFFICIENT, -DBL_MAX, MSLIP_BAD_DISPLACEMENT },
+    { APPROACH_COEFFICIENT, 1e150, MSLIP_LENGTH_TOO_SHORT }, { APPROACH_COEFFICIENT, 1.0, MSLIP_LENGTH_TOO_SHORT },
+    { APPROACH, 1.0, MSLIP_LENGTH_TOO_SHORT }, { APPROACH, 1e150, MSLIP_LENGTH_TOO_SHORT },
+    { NORMAL_FORCE, 1e12, MSLIP_LENGTH_TOO_SHORT }, { NORMAL_FORCE, 1e150, MSLIP_LENGTH_TOO_SHORT },
+    { APPROACH, 0.0, 0 }, { APPROACH, -0.0, 0 }, { APPROACH, 5e-324, 0 }, { APPROACH, 1e-300, 0 }, { APPROACH, 1e-150, 0 },
+    { APPROACH, 1e-20, 0 }, { APPROACH, 1e-5, 0 }, { APPROACH, -1e-300, 0 }, { APPROACH, -1.0, 0 }, { APPROACH, -1e150, 0 },
+    { NORMAL_FORCE, 0.0, 0 }, { NORMAL_FORCE, -0.0, 0 }, { NORMAL_FORCE, 5e-324, 0 }, { NORMAL_FORCE, 1e-300, 0 },
+    { NORMAL_FORCE, 1e-150, 0 }, { NORMAL_FORCE, 1e-12, 0 }, { NORMAL_FORCE, 1e4, 0 },
 };
 
 static double value_of(size_t i)
@@ -288,7 +410,8 @@ static void test_value(const function *f, int kind, double *place, const char *w
         rejected(f, status_of_non_finite(kind), what);
     }
     for (size_t i = 0; i < LENGTH(values); ++i) {
-        if (values[i].kind == kind) {
+        /* The elliptical elements of a batch have no length. */
+        if (values[i].kind == kind && !((f->takes & IS_BATCH) && values[i].status == MSLIP_LENGTH_TOO_SHORT)) {
             *place = value_of(i);
             rejected_unless_skipped(f, values[i].status == MSLIP_OK, ITEMS, values[i].status, what);
         }
@@ -302,23 +425,22 @@ static void test_values(const function *f)
         test_value(f, f->scalar, &call.scalar, "scalar");
     }
     for (size_t i = 0; i < f->inputs; ++i) {
-        test_value(f, f->kind, &INPUT[i], "array element");
+        test_value(f, kind_of_input(f, i), &INPUT[i], "array element");
     }
     for (size_t k = 0; f->inputs > 0 && k < LENGTH(values); ++k) {
-        if (values[k].kind == f->kind && values[k].status == MSLIP_OK) {
-            for (size_t i = 0; i < f->inputs; ++i) {
+        int count = 0;
+        set_up(f);
+        for (size_t i = 0; i < f->inputs; ++i) {
+            if (values[k].kind == kind_of_input(f, i) && values[k].status == MSLIP_OK) {
                 INPUT[i] = value_of(k);
+                ++count;
             }
+        }
+        if (count > 0) {
             accepted(f, "all array elements");
         }
     }
     set_up(f);
-}
-
-/* The address half an item further. */
-static void *misaligned(const void *pointer, size_t item)
-{
-    return (char *)(size_t)pointer + item / 2;
 }
 
 /* Each pointer in turn is misaligned, and NULL if it is required. */
@@ -329,7 +451,8 @@ static void test_pointers(const function *f)
         size_t offset, item;
         int required;
     } pointers[] = {
-        { "contacts", offsetof(arguments, contacts), 8, 1 }, { "input", offsetof(arguments, input), 8, 1 },
+        { "contacts", offsetof(arguments, contacts), 8, 1 }, { "elements", offsetof(arguments, elements), 8, 1 },
+        { "input", offsetof(arguments, input), 8, 1 },
         { "state", offsetof(arguments, state), 8, 1 },       { "workspace", offsetof(arguments, workspace), 8, 1 },
         { "index", offsetof(arguments, index), 4, 0 },       { "active", offsetof(arguments, active), 4, 0 },
         { "new state", offsetof(arguments, out[0]), 8, 0 },  { "output 1", offsetof(arguments, out[1]), 8, 0 },
@@ -390,6 +513,7 @@ static void test_counts(const function *f)
         call.index = call.active = NULL;
         if (f->takes & IS_BATCH) {
             call.contacts = NULL;
+            call.elements = NULL;
             call.state = NULL;
         }
         call.out[0] = NULL;
@@ -399,12 +523,12 @@ static void test_counts(const function *f)
     set_up(f);
 }
 
-/* Contacts, states and workspaces that were never initialised. */
+/* Contacts, elements, states and workspaces that were never initialised. */
 static void test_uninitialised(const function *f)
 {
     for (int fill = 0; fill < 256; fill += 51) {
-        memset(CONTACTS, fill, items_of(f) * sizeof(mslip_contact));
-        rejected(f, MSLIP_BAD_CONTACT, "an uninitialised contact");
+        memset(law_at(f, 0), fill, items_of(f) * law_size(f));
+        rejected(f, status_of_law(f), "an uninitialised contact or element");
         set_up(f);
         if (f->takes & TAKES_STATE) {
             memset(STATES, fill, items_of(f) * STATE * sizeof(double));
@@ -412,7 +536,7 @@ static void test_uninitialised(const function *f)
             set_up(f);
         }
         if (f->takes & TAKES_WORKSPACE) {
-            memset(call.workspace, fill, workspace_lengths[f->rule] * sizeof(double));
+            memset(call.workspace, fill, workspace_length(f) * sizeof(double));
             rejected(f, MSLIP_BAD_WORKSPACE, "an uninitialised workspace");
             set_up(f);
         }
@@ -422,7 +546,7 @@ static void test_uninitialised(const function *f)
 /* State lengths below the minimum, below what the reversals need, and between two capacities; rejected updates in place. */
 static void test_states(const function *f)
 {
-    const size_t least = mslip_state_length(0), used = mslip_state_length(USED);
+    const size_t least = least_state(f), used = used_state(f);
     for (size_t length = 0; length < least; ++length) {
         call.state_length = length;
         rejected(f, MSLIP_STATE_TOO_SHORT, "state_length");
@@ -432,7 +556,8 @@ static void test_states(const function *f)
         call.out[0] = in_place ? STATES : NULL;
         for (int k = 0; k < NON_FINITE; ++k) {
             memcpy(f->inputs > 0 ? &INPUT[f->inputs - 1] : &call.scalar, &non_finite[k], sizeof(double));
-            rejected(f, MSLIP_BAD_DISPLACEMENT, in_place ? "in place" : "without a new state");
+            rejected(f, status_of_non_finite(f->inputs > 0 ? kind_of_input(f, f->inputs - 1) : f->scalar),
+                     in_place ? "in place" : "without a new state");
         }
         set_up(f);
     }
@@ -441,7 +566,7 @@ static void test_states(const function *f)
     }
     for (size_t length = least; length < used; ++length) {
         call.state_length = length;
-        rejected(f, MSLIP_BAD_STATE, "state_length is less than the reversals need");
+        rejected(f, MSLIP_BAD_STATE, "state_length is less than the reversals or pieces need");
     }
     /* Doubles beyond the last whole reversal are unused: the new state keeps its own. */
     call.state_length = STATE - 1;
@@ -449,7 +574,8 @@ static void test_states(const function *f)
     CHECK(f->call() == MSLIP_OK && raised() == 0 && is_unchanged(state_region));
     if (f->out[0] > 0) {
         const unsigned char *before = out_regions[0]->before + out_regions[0]->bytes - sizeof(double);
-        CHECK(same_bits(&call.out[0][STATE - 3], &STATES[STATE - 3], 2) && memcmp(&call.out[0][STATE - 1], before, 8) == 0);
+        CHECK((f->takes & IS_ELEMENT) || same_bits(&call.out[0][STATE - 3], &STATES[STATE - 3], 2));
+        CHECK(memcmp(&call.out[0][STATE - 1], before, 8) == 0);
     }
     set_up(f);
 }
@@ -463,10 +589,9 @@ static void test_batch(const function *f)
         for (int skipped = 0; skipped < 2; ++skipped) {
             set_up(f);
             ACTIVE[bad] = !skipped;
-            const mslip_contact good = CONTACTS[bad];
-            memset(&CONTACTS[bad], skipped ? 0xff : 0, sizeof good);
-            rejected_unless_skipped(f, skipped, bad, MSLIP_BAD_CONTACT, "one contact is invalid");
-            CONTACTS[bad] = good;
+            memset(law_at(f, bad), skipped ? 0xff : 0, law_size(f));
+            rejected_unless_skipped(f, skipped, bad, status_of_law(f), "one contact or element is invalid");
+            set_law(f, bad, (int)bad % 3);
             for (size_t i = 0; i < LENGTH(bad_index); ++i) {
                 INDICES[bad] = bad_index[i];
                 rejected_unless_skipped(f, skipped, bad, MSLIP_BAD_INDEX, "one index is invalid");
@@ -476,7 +601,8 @@ static void test_batch(const function *f)
                 double *place = &INPUT[bad * share + k / NON_FINITE];
                 const double before = *place;
                 memcpy(place, &non_finite[k % NON_FINITE], sizeof *place);
-                rejected_unless_skipped(f, skipped, bad, status_of_non_finite(f->kind), "one value is not finite");
+                rejected_unless_skipped(f, skipped, bad, status_of_non_finite(kind_of_input(f, k / NON_FINITE)),
+                                        "one value is not finite");
                 *place = before;
             }
             if (f->takes & TAKES_STATE) {
@@ -487,7 +613,7 @@ static void test_batch(const function *f)
     }
     /* No item is active: no contact is checked. */
     set_up(f);
-    memset(CONTACTS, 0xff, ITEMS * sizeof(mslip_contact));
+    memset(law_at(f, 0), 0xff, ITEMS * law_size(f));
     memset(ACTIVE, 0, ITEMS * sizeof(int32_t));
     save_regions();
     CHECK(f->call() == MSLIP_OK && raised() == 0 && nothing_changed_but(workspace_region));
@@ -501,8 +627,8 @@ static void test_batch(const function *f)
     set_up(f);
     memcpy(ACTIVE, nonzero, sizeof nonzero);
     accepted(f, "flags");
-    memset(&CONTACTS[3], 0, sizeof(mslip_contact));
-    rejected(f, MSLIP_BAD_CONTACT, "an item with any flag but 0");
+    memset(law_at(f, 3), 0, law_size(f));
+    rejected(f, status_of_law(f), "an item with any flag but 0");
 }
 
 /* ---- Functions without a contact, and combinations of arguments ---- */
@@ -547,13 +673,62 @@ static void test_state_functions(void)
     check_rejected(mslip_contact_check(misaligned(CONTACTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_contact_check", "contact");
 }
 
+static void test_element_state_functions(void)
+{
+    static const char *const names[] = { "mslip_element_state_init", "mslip_element_state_check", "mslip_element_state_error" };
+    static const int32_t directions[] = { 0, 2, 3, -1, INT32_MAX, INT32_MIN };
+    const function *f = find("mslip_element_update", MSLIP_APPROACH);
+    const size_t least = least_state(f), used = used_state(f);
+    double *state, *error;
+    set_up(f);
+    state = STATES;
+    error = call.out[3];
+    *error = 77.0;
+    save_regions();
+    for (int i = 0; i < 3; ++i) {
+#define ELEMENT_STATE_CALL(directions, length, state) \
+    (i == 0   ? mslip_element_state_init(directions, length, state) \
+     : i == 1 ? mslip_element_state_check(directions, length, state) \
+              : mslip_element_state_error(directions, length, state, error))
+        for (size_t k = 0; k < LENGTH(directions); ++k) {
+            const int32_t status = directions[k] == 2 ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_DIRECTIONS;
+            check_rejected(ELEMENT_STATE_CALL(directions[k], STATE, state), status, names[i], "directions");
+            CHECK(mslip_element_state_length(directions[k], (size_t)k) == 0);
+        }
+        check_rejected(ELEMENT_STATE_CALL(1, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(1, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(1, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(1, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        check_rejected(ELEMENT_STATE_CALL(1, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        for (size_t length = 0; length < (i == 0 ? least : used); ++length) {
+            const int32_t status = length < least ? MSLIP_STATE_TOO_SHORT : MSLIP_BAD_STATE;
+            check_rejected(ELEMENT_STATE_CALL(1, length, state), status, names[i], "state_length");
+        }
+        if (i > 0) {
+            double *uninitialised = (double *)(void *)out_regions[4]->start;
+            check_rejected(ELEMENT_STATE_CALL(1, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
+            CHECK(ELEMENT_STATE_CALL(1, STATE, state) == MSLIP_OK);
+        }
+    }
+    CHECK(*error == 0.0 && mslip_element_state_error(1, STATE, state, NULL) == MSLIP_OK && raised() == 0);
+    save_regions();
+    check_rejected(mslip_element_state_error(1, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "force_error");
+    CHECK(mslip_element_state_length(1, SIZE_MAX) == SIZE_MAX && mslip_element_state_length(1, SIZE_MAX / 4) == SIZE_MAX);
+    CHECK(mslip_element_state_length(1, 0) == mslip_element_state_length(1, 4));
+
+    CHECK(mslip_element_check(ELEMENTS) == MSLIP_OK);
+    check_rejected(mslip_element_check(NULL), MSLIP_NULL_POINTER, "mslip_element_check", "element");
+    check_rejected(mslip_element_check(misaligned(ELEMENTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_element_check", "element");
+}
+
 static void test_workspace_size(int32_t rule)
 {
     static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
                                         MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
+    const function *f = find("mslip_harmonic_force", rule);
     size_t harmonics = 0, samples = 0;
     int32_t found = -1;
-    set_up(find("mslip_harmonic_force", rule));
+    set_up(f);
     save_regions();
     CHECK(mslip_harmonic_workspace_size(call.workspace, &harmonics, NULL, NULL) == MSLIP_OK && harmonics == HARMONICS);
     CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, &samples, NULL) == MSLIP_OK && samples == SAMPLES);
@@ -567,7 +742,7 @@ static void test_workspace_size(int32_t rule)
         size_t *s = i == 3 ? misaligned(&samples, sizeof samples) : &samples;
         int32_t *r = i == 4 ? misaligned(&found, sizeof found) : &found;
         if (i == 5) {
-            memset(call.workspace, 0x5a, workspace_lengths[rule] * sizeof(double));
+            memset(call.workspace, 0x5a, workspace_length(f) * sizeof(double));
         }
         save_regions();
         check_rejected(mslip_harmonic_workspace_size(workspace, h, s, r), expected[i], "mslip_harmonic_workspace_size", "any");
@@ -621,6 +796,121 @@ static void test_workspace_init(void)
     }
 }
 
+static void test_element_workspace(void)
+{
+    static const char init_name[] = "mslip_element_workspace_init", size_name[] = "mslip_element_workspace_size";
+    enum { MOST = 1 << 24 };
+    static const struct {
+        int32_t directions;
+        size_t harmonics, samples;
+        int32_t rule, status;
+    } rows[] = {
+        { 0, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
+        { 3, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
+        { INT32_MIN, 0, 0, 7, MSLIP_BAD_DIRECTIONS },
+        { 2, 2, 16, 0, MSLIP_NOT_AVAILABLE },
+        { 1, 2, 16, MSLIP_EVENT_DRIVEN, MSLIP_NOT_AVAILABLE },
+        { 1, 2, 16, 2, MSLIP_BAD_RULE },
+        { 1, 2, 16, -1, MSLIP_BAD_RULE },
+        { 1, 2, 16, INT32_MAX, MSLIP_BAD_RULE },
+        { 1, 0, 16, 0, MSLIP_BAD_HARMONICS },
+        { 1, 0, 0, 0, MSLIP_BAD_HARMONICS },
+        { 1, MOST + 1, SIZE_MAX, 0, MSLIP_BAD_HARMONICS },
+        { 1, SIZE_MAX / 2 + 1, 1, 0, MSLIP_BAD_HARMONICS },
+        { 1, 2, 4, 0, MSLIP_BAD_SAMPLES },
+        { 1, MOST, MOST, 0, MSLIP_BAD_SAMPLES },
+        { 1, 2, MOST + 1, 0, MSLIP_BAD_SAMPLES },
+        { 1, 2, SIZE_MAX, 0, MSLIP_BAD_SAMPLES },
+        { 1, MOST / 2 - 1, MOST, 0, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
+        { 1, 2, 16, 0, MSLIP_WORKSPACE_TOO_SHORT },
+    };
+    const function *f = find("mslip_element_harmonic_force", MSLIP_APPROACH);
+    size_t harmonics = 0, samples = 0;
+    int32_t directions = -1, rule = -1;
+    set_up(f);
+    double *const memory = call.workspace;
+    save_regions();
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        const size_t h = rows[i].harmonics, s = rows[i].samples;
+        const size_t length = mslip_element_workspace_length(rows[i].directions, h, s, rows[i].rule);
+        const size_t lengths[] = { 0, 1, 4, length > 0 ? length - 1 : 100 };
+        CHECK((length == 0) == (rows[i].status != MSLIP_WORKSPACE_TOO_SHORT));
+        for (size_t k = 0; k < LENGTH(lengths); ++k) {
+            check_rejected(mslip_element_workspace_init(rows[i].directions, h, s, rows[i].rule, lengths[k], memory),
+                           rows[i].status, init_name, "any");
+        }
+    }
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, init_name, "length");
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, NULL), MSLIP_NULL_POINTER, init_name, "workspace");
+    double *const bad = misaligned(memory, 8);
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, bad), MSLIP_BAD_ALIGNMENT, init_name, "workspace");
+
+    CHECK(mslip_element_workspace_size(memory, NULL, NULL, NULL, NULL) == MSLIP_OK);
+    CHECK(mslip_element_workspace_size(memory, &directions, &harmonics, &samples, &rule) == MSLIP_OK);
+    CHECK(directions == 1 && harmonics == HARMONICS && samples == SAMPLES && rule == MSLIP_UNIFORM_SAMPLING);
+    harmonics = samples = 7;
+    directions = rule = 7;
+    for (int i = 0; i < 7; ++i) {
+        static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
+                                            MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
+        const double *workspace = i == 0 ? NULL : i == 1 ? misaligned(memory, 8) : memory;
+        int32_t *d = i == 2 ? misaligned(&directions, sizeof directions) : &directions;
+        size_t *h = i == 3 ? misaligned(&harmonics, sizeof harmonics) : &harmonics;
+        size_t *s = i == 4 ? misaligned(&samples, sizeof samples) : &samples;
+        int32_t *r = i == 5 ? misaligned(&rule, sizeof rule) : &rule;
+        if (i == 6) {
+            memset(memory, 0x5a, workspace_length(f) * sizeof(double));
+        }
+        save_regions();
+        check_rejected(mslip_element_workspace_size(workspace, d, h, s, r), expected[i], size_name, "any");
+        CHECK(harmonics == 7 && samples == 7 && directions == 7 && rule == 7);
+    }
+
+    /* The workspace of the other law. */
+    const function *other = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
+    double header[2];
+    set_up(f);
+    memcpy(header, call.workspace, sizeof header);
+    init_workspace(other, 1, 8, workspace_length_of(other, 1, 8), call.workspace);
+    rejected(f, MSLIP_BAD_WORKSPACE, "the workspace of a contact");
+    CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
+    set_up(other);
+    memcpy(call.workspace, header, sizeof header);
+    rejected(other, MSLIP_BAD_WORKSPACE, "the workspace of an element");
+    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
+}
+
+/* Normal motions with an open contact, negative normal forces, and loads from the smallest to beyond the tables. */
+static void test_normal_motions(const function *f)
+{
+    static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
+    const size_t items = items_of(f);
+    const int by_force = f->rule == MSLIP_NORMAL_FORCE;
+    for (size_t k = 0; k < LENGTH(sizes); ++k) {
+        for (int shape = 0; shape < 4; ++shape) {
+            set_up(f);
+            for (size_t i = 0; i < items * COEFFICIENTS; ++i) {
+                const size_t place = i / COEFFICIENTS * ALL_COEFFICIENTS + COEFFICIENTS + i % COEFFICIENTS;
+                const double swing = shape == 0 ? 0.0 : shape == 1 ? 1.0 : shape == 2 ? 2.0 : -1.0;
+                INPUT[place] *= sizes[k] * (i % COEFFICIENTS == 0 ? 1.0 : swing);
+            }
+            if (by_force && shape == 2 && sizes[k] > 1e-300) {
+                rejected(f, MSLIP_BAD_NORMAL_FORCE, "a negative normal force"); /* an approach opens the contact */
+            } else if (!by_force || shape != 2) {
+                accepted(f, "normal motions");
+            }
+        }
+    }
+    set_up(f);
+    INPUT[f->inputs - COEFFICIENTS] = by_force ? -1e-3 : -1.0;
+    if (by_force) {
+        rejected(f, MSLIP_BAD_NORMAL_FORCE, "a negative mean");
+    } else {
+        accepted(f, "open for the whole period");
+    }
+    set_up(f);
+}
+
 /* Slip distributions of elliptical contacts, and the state of another contact. */
 static void test_other_contacts(void)
 {
@@ -660,6 +950,7 @@ int main(int argc, char **argv)
         test_parameters(shape);
     }
     test_combinations();
+    test_element_init();
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
         set_up(f);
@@ -671,14 +962,19 @@ int main(int argc, char **argv)
         if (f->takes & TAKES_STATE) {
             test_states(f);
         }
+        if ((f->takes & IS_ELEMENT) && (f->takes & TAKES_WORKSPACE)) {
+            test_normal_motions(f);
+        }
         if (f->takes & IS_BATCH) {
             test_batch(f);
         }
     }
     test_state_functions();
+    test_element_state_functions();
     test_workspace_size(MSLIP_UNIFORM_SAMPLING);
     test_workspace_size(MSLIP_EVENT_DRIVEN);
     test_workspace_init();
+    test_element_workspace();
     test_other_contacts();
     test_statuses();
     return check_report();

@@ -1,8 +1,8 @@
 /* Outputs of every function: each subset has the bits of the full call. Each item of a batch has the bits of a single call with its
-   contact, whether contacts are shared by an index or not. Items that are not active keep their outputs. */
+   contact or element, whether these are shared by an index or not. Items that are not active keep their outputs. */
 #include "calls.h"
 
-enum { SHARED = 3, MOST = ITEMS * (STATE + SQUARE) };
+enum { SHARED = 3, MOST = ITEMS * (STATE + ELEMENT_SQUARE) };
 static const int32_t shared_index[ITEMS] = { 2, 0, 2, 1, 2 };
 static double expected[OUTPUTS][MOST];
 
@@ -15,16 +15,20 @@ static void set_up_contacts(const function *f, int shared)
         return;
     }
     for (size_t i = 0; i < ITEMS; ++i) {
-        CONTACTS[i] = contact_of(shared_index[i]);
+        set_law(f, i, shared_index[i]);
     }
     fill_states(f);
     call.index = NULL;
     if (shared) {
         call.index = last(index_region, sizeof shared_index);
         memcpy(INDICES, shared_index, sizeof shared_index);
-        call.contacts = last(contact_region, SHARED * sizeof(mslip_contact));
+        if (f->takes & IS_ELEMENT) {
+            call.elements = last(element_region, SHARED * sizeof(mslip_element));
+        } else {
+            call.contacts = last(contact_region, SHARED * sizeof(mslip_contact));
+        }
         for (int i = 0; i < SHARED; ++i) {
-            CONTACTS[i] = contact_of(i);
+            set_law(f, (size_t)i, i);
         }
         call.n_contacts = SHARED;
     }
@@ -45,7 +49,8 @@ static void call_singly(const function *f)
     const arguments first = call;
     for (size_t i = 0; i < items; ++i) {
         if (f->takes & IS_BATCH) {
-            call.contacts = &first.contacts[i];
+            call.contacts = f->takes & IS_ELEMENT ? NULL : &first.contacts[i];
+            call.elements = f->takes & IS_ELEMENT ? &first.elements[i] : NULL;
             call.input = first.input + i * (f->inputs / items);
             call.scalar = call.input[0];
             call.state = f->takes & TAKES_STATE ? first.state + i * STATE : NULL;
@@ -107,7 +112,7 @@ int main(int argc, char **argv)
             if (is_batch && f->out[0] > 0) {
                 set_up_contacts(f, shared);
                 call.out[0] = STATES;
-                CHECK(f->call() == MSLIP_OK && same_bits(STATES, expected[0], f->out[0]));
+                CHECK(f->call() == MSLIP_OK && same_states(f, STATES, expected[0]));
             }
         }
     }

@@ -1,5 +1,5 @@
-/* calls.h: contacts, memory that ends at a protected page, and a table of every function that takes a contact with a valid call of
-   each, of which the drivers invalidate one argument at a time. */
+/* calls.h: contacts and elements, memory that ends at a protected page, and a table of every function that takes one of them with a
+   valid call of each, of which the drivers invalidate one argument at a time. */
 #ifndef CALLS_H
 #define CALLS_H
 
@@ -46,7 +46,7 @@ static inline mslip_elliptic_parameters elliptic_parameters(void)
     return p;
 }
 
-/* The last two have no tangential force: no normal force, or no friction. */
+/* The last two have no tangential force: no normal force, or no friction. An element is no OPEN one, but a rigid strip. */
 enum { FLAT, CYLINDER, ELLIPSE, OPEN, FRICTIONLESS, KINDS };
 
 static inline mslip_contact init_contact(int kind)
@@ -71,6 +71,29 @@ static inline mslip_contact contact_of(int kind)
         is_initialised[kind] = 1;
     }
     return contacts[kind];
+}
+
+static inline void init_element(int kind, int32_t normal_input, mslip_element *element)
+{
+    mslip_parameters p = flat_parameters();
+    mslip_elliptic_parameters e = elliptic_parameters();
+    p.flat_half_width *= kind != CYLINDER;
+    p.friction_coefficient *= kind != FRICTIONLESS;
+    p.displacement_reference = kind == OPEN ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
+    CHECK((kind == ELLIPSE ? mslip_element_init_elliptic(&e, 1, normal_input, element)
+                           : mslip_element_init(&p, 1, normal_input, element)) == MSLIP_OK);
+}
+
+/* The element as initialised by the first call. */
+static inline const mslip_element *element_of(int kind, int32_t normal_input)
+{
+    static mslip_element elements[KINDS][2];
+    static int is_initialised[KINDS][2];
+    if (!is_initialised[kind][normal_input]) {
+        init_element(kind, normal_input, &elements[kind][normal_input]);
+        is_initialised[kind][normal_input] = 1;
+    }
+    return &elements[kind][normal_input];
 }
 
 static inline int same_bits(const double *p, const double *q, size_t n)
@@ -100,7 +123,7 @@ static inline int raised(void)
 }
 
 /* A buffer that ends at a protected page, and a copy of it. */
-enum { REGIONS = 12 };
+enum { REGIONS = 13 };
 typedef struct {
     unsigned char *start, *before;
     size_t bytes;
@@ -170,10 +193,10 @@ static inline int nothing_changed_but(const region *exempt)
 /* Status codes returned so far. */
 static unsigned char seen[128];
 
-/* The call was rejected with this status and modified nothing. */
-static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
+/* The call was rejected with this status and modified nothing; one region, or NULL, is exempt. */
+static inline int check_rejected_but(const region *exempt, int32_t status, int32_t expected, const char *function, const char *what)
 {
-    const int flags = raised(), unmodified = nothing_changed_but(NULL);
+    const int flags = raised(), unmodified = nothing_changed_but(exempt);
     const int holds = check_that(status == expected && flags == 0 && unmodified, __FILE__, __LINE__, "rejected, nothing modified");
     if (!holds) {
         printf("    %s, %s: status %d, not %d; flags %x; memory %smodified\n", function, what, (int)status, (int)expected, flags,
@@ -186,24 +209,35 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
     return holds;
 }
 
+static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
+{
+    return check_rejected_but(NULL, status, expected, function, what);
+}
+
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
-enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, USED = 3 };
+enum { COMPONENTS = 2, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
+enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
+/* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
+enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 7, USED_PIECES = 5 };
 
 /* Quantities, and the status of one that is not finite. */
-enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE };
+enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE, APPROACH_COEFFICIENT,
+       FORCE_COEFFICIENT };
 static inline int32_t status_of_non_finite(int kind)
 {
     static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
-                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE };
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE,
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_DISPLACEMENT };
     return status[kind];
 }
 
-/* Arguments besides a contact. The n of IS_IWAN is not the length of an input. */
-enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16 };
+/* Arguments besides a contact, or an element if IS_ELEMENT. The n of IS_IWAN is not the length of an input. */
+enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32 };
 enum { OUTPUTS = 5 }; /* the new state first */
 
 typedef struct {
     const mslip_contact *contacts;
+    const mslip_element *elements;
     const int32_t *index, *active;
     size_t n, n_contacts, state_length;
     double scalar;
@@ -218,6 +252,7 @@ static arguments call;
 #define OUT3 call.out[1], call.out[2], call.out[3]
 #define OUT4 call.out[1], call.out[2], call.out[3], call.out[4]
 #define BATCH call.n, call.n_contacts, call.contacts, call.index, call.active
+#define ELEMENT_BATCH call.n, call.n_contacts, call.elements, call.index, call.active
 CALL(tractions, call.contacts, call.scalar, call.n, call.input, OUT2)
 CALL(slip, call.contacts, call.scalar, call.n, call.input, OUT2)
 CALL(monotonic_displacement, call.contacts, call.n, call.input, OUT3)
@@ -234,13 +269,22 @@ CALL(iwan_equivalent, call.contacts, call.n, OUT3)
 CALL(batch_complex_stiffness, BATCH, call.input, OUT4)
 CALL(batch_masing_update, BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
 CALL(batch_harmonic_force, BATCH, call.workspace, call.input, OUT3)
+CALL(normal_force, call.elements, call.n, call.input, OUT3)
+CALL(normal_approach, call.elements, call.n, call.input, OUT3)
+CALL(element_update, call.elements, call.state_length, call.state, call.input, call.out[0], OUT3)
+CALL(element_path, call.elements, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
+CALL(element_tractions, call.elements, call.state_length, call.state, call.n, call.input, OUT2)
+CALL(batch_element_update, ELEMENT_BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
+CALL(element_harmonic_force, call.elements, call.workspace, call.input, OUT3)
+CALL(batch_element_harmonic_force, ELEMENT_BATCH, call.workspace, call.input, OUT3)
 
 typedef struct {
     const char *name;
     int32_t (*call)(void);
-    int takes, rule;
+    int takes;
+    int rule;            /* of the workspace; normal input of the elements */
     int scalar;          /* quantity passed by value */
-    int kind;            /* quantity of the input array */
+    int kind;            /* quantity of the input array; the tangential one of the displacements of an element */
     size_t inputs;       /* its length */
     size_t out[OUTPUTS]; /* lengths of the outputs */
 } function;
@@ -250,6 +294,20 @@ typedef struct {
     { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
     { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
       { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
+#define ELEMENT(input) \
+    { FUNCTION(normal_force), IS_ELEMENT | TAKES_COUNT, input, NONE, APPROACH, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
+    { FUNCTION(normal_approach), IS_ELEMENT | TAKES_COUNT, input, NONE, NORMAL_FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
+    { FUNCTION(element_update), IS_ELEMENT | TAKES_STATE, input, NONE, DISPLACEMENT, COMPONENTS, \
+      { STATE, COMPONENTS, TANGENT, 1 } }, \
+    { FUNCTION(element_path), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, input, NONE, DISPLACEMENT, ITEMS * COMPONENTS, \
+      { STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
+    { FUNCTION(element_tractions), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, input, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } }, \
+    { FUNCTION(batch_element_update), IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, input, NONE, DISPLACEMENT, \
+      ITEMS * COMPONENTS, { ITEMS * STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
+    { FUNCTION(element_harmonic_force), IS_ELEMENT | TAKES_WORKSPACE, input, NONE, DISPLACEMENT, ALL_COEFFICIENTS, \
+      { 0, ALL_COEFFICIENTS, ELEMENT_SQUARE, 1 } }, \
+    { FUNCTION(batch_element_harmonic_force), IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, input, NONE, DISPLACEMENT, \
+      ITEMS * ALL_COEFFICIENTS, { 0, ITEMS * ALL_COEFFICIENTS, ITEMS * ELEMENT_SQUARE, ITEMS } }
 static const function functions[] = {
     { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
     { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
@@ -268,6 +326,8 @@ static const function functions[] = {
       { ITEMS * STATE, ITEMS, ITEMS, ITEMS } },
     HARMONIC(MSLIP_UNIFORM_SAMPLING),
     HARMONIC(MSLIP_EVENT_DRIVEN),
+    ELEMENT(MSLIP_APPROACH),
+    ELEMENT(MSLIP_NORMAL_FORCE),
 };
 enum { FUNCTIONS = LENGTH(functions) };
 
@@ -287,32 +347,117 @@ static inline size_t items_of(const function *f)
     return f->takes & IS_BATCH ? ITEMS : 1;
 }
 
-static region *contact_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
+static region *contact_region, *element_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
 static region *out_regions[OUTPUTS];
-static size_t workspace_lengths[2];
+
+/* The workspace of a function: an element has uniform sampling only. */
+static inline size_t workspace_length_of(const function *f, size_t harmonics, size_t samples)
+{
+    return f->takes & IS_ELEMENT ? mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING)
+                                 : mslip_harmonic_workspace_length(harmonics, samples, f->rule);
+}
+
+static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
+{
+    CHECK((f->takes & IS_ELEMENT
+               ? mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
+}
+
+/* The length of the workspace that the calls of the table have; 0 if the function takes none. */
+static inline size_t workspace_length(const function *f)
+{
+    return f->takes & TAKES_WORKSPACE ? workspace_length_of(f, HARMONICS, SAMPLES) : 0;
+}
 
 static inline void make_regions(void)
 {
-    for (int rule = 0; rule < 2; ++rule) {
-        workspace_lengths[rule] = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
+    size_t longest = 0;
+    for (int i = 0; i < FUNCTIONS; ++i) {
+        const size_t length = workspace_length(&functions[i]);
+        longest = length > longest ? length : longest;
     }
     contact_region = make_region(ITEMS * sizeof(mslip_contact));
+    element_region = make_region(ITEMS * sizeof(mslip_element));
     index_region = make_region(ITEMS * sizeof(int32_t));
     active_region = make_region(ITEMS * sizeof(int32_t));
-    input_region = make_region(ITEMS * COEFFICIENTS * sizeof(double));
+    input_region = make_region(ITEMS * ALL_COEFFICIENTS * sizeof(double));
     state_region = make_region(ITEMS * STATE * sizeof(double));
-    workspace_region = make_region(workspace_lengths[workspace_lengths[1] > workspace_lengths[0]] * sizeof(double));
+    workspace_region = make_region(longest * sizeof(double));
     for (int i = 0; i < OUTPUTS; ++i) {
-        out_regions[i] = make_region(ITEMS * (STATE + SQUARE) * sizeof(double));
+        out_regions[i] = make_region(ITEMS * (STATE + ELEMENT_SQUARE) * sizeof(double));
     }
 }
 
 /* The inputs, to be modified by tests. */
 #define CONTACTS ((mslip_contact *)(size_t)call.contacts)
+#define ELEMENTS ((mslip_element *)(size_t)call.elements)
 #define INDICES ((int32_t *)(size_t)call.index)
 #define ACTIVE ((int32_t *)(size_t)call.active)
 #define INPUT ((double *)(size_t)call.input)
 #define STATES ((double *)(size_t)call.state)
+
+/* The contact or the element of item i, its size, and the status of an invalid one. */
+static inline void *law_at(const function *f, size_t i)
+{
+    return f->takes & IS_ELEMENT ? (void *)&ELEMENTS[i] : (void *)&CONTACTS[i];
+}
+
+static inline size_t law_size(const function *f)
+{
+    return f->takes & IS_ELEMENT ? sizeof(mslip_element) : sizeof(mslip_contact);
+}
+
+static inline int32_t status_of_law(const function *f)
+{
+    return f->takes & IS_ELEMENT ? MSLIP_BAD_ELEMENT : MSLIP_BAD_CONTACT;
+}
+
+static inline void set_law(const function *f, size_t i, int kind)
+{
+    if (f->takes & IS_ELEMENT) {
+        ELEMENTS[i] = *element_of(kind, f->rule);
+    } else {
+        CONTACTS[i] = contact_of(kind);
+    }
+}
+
+/* The quantity of input i: displacements of an element and their coefficients are tangential and normal by turns. */
+static inline int kind_of_input(const function *f, size_t i)
+{
+    const size_t share = f->takes & TAKES_WORKSPACE ? COEFFICIENTS : 1;
+    const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
+    const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % COMPONENTS == 1;
+    return !is_normal ? f->kind : f->rule == MSLIP_APPROACH ? normal : normal + 1;
+}
+
+/* Lengths of the shortest state, and of one for the reversals or pieces in use. */
+static inline size_t least_state(const function *f)
+{
+    return f->takes & IS_ELEMENT ? mslip_element_state_length(1, 0) : mslip_state_length(0);
+}
+
+static inline size_t used_state(const function *f)
+{
+    return f->takes & IS_ELEMENT ? mslip_element_state_length(1, USED_PIECES) : mslip_state_length(USED);
+}
+
+/* Doubles that a step writes to a new state: for an element 8 and 4 for each knot, whose number is in the tag. */
+static inline size_t written_state(const function *f, const double *state)
+{
+    uint64_t tag;
+    memcpy(&tag, state, sizeof tag);
+    return f->takes & IS_ELEMENT ? 8 + 4 * (size_t)(tag & 0xff) : STATE;
+}
+
+static inline int same_states(const function *f, const double *states, const double *others)
+{
+    int same = 1;
+    for (size_t i = 0; i < f->out[0]; i += STATE) {
+        same &= same_bits(states + i, others + i, written_state(f, states + i));
+    }
+    return same;
+}
 
 /* A decaying vibration: each displacement adds a reversal. */
 static inline double decaying(int reversals)
@@ -320,11 +465,27 @@ static inline double decaying(int reversals)
     return (reversals % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * reversals);
 }
 
-/* Initialises the states and advances each to USED nested reversals. */
+/* A rising load with displacements to and fro, all sticking: each step adds a piece. */
+static inline void fill_element_state(const mslip_element *element, double *state)
+{
+    const int by_force = element->normal_input == MSLIP_NORMAL_FORCE;
+    CHECK(mslip_element_state_init(1, STATE, state) == MSLIP_OK);
+    for (int k = 0; k < USED_PIECES; ++k) {
+        const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);
+        const double step[COMPONENTS] = { u, (by_force ? element->normal_force : element->approach) * (0.1 + 0.15 * k) };
+        CHECK(mslip_element_update(element, STATE, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
+    }
+}
+
+/* Initialises the states and advances each to USED nested reversals, or USED_PIECES pieces. */
 static inline void fill_states(const function *f)
 {
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
         double *state = STATES + i * STATE;
+        if (f->takes & IS_ELEMENT) {
+            fill_element_state(&call.elements[i], state);
+            continue;
+        }
         CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
         for (int k = 0; k <= USED; ++k) {
             CHECK(mslip_masing_update(&call.contacts[i], STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
@@ -347,6 +508,10 @@ static inline double valid_value(int kind, size_t i, double slip_force)
         case FORCE_AMPLITUDE: return 0.2 * slip_force * (double)i;
         case DISPLACEMENT: return 1e-8 * (1.3 * (double)(i % 4) - 2.0);
         case AMPLITUDE: return 4e-8 * (double)(i + 1);
+        case APPROACH: return 6e-8 * (2.5 - (double)(i / 2 % 4)); /* the last of four is open */
+        case NORMAL_FORCE: return 40.0 * (3.0 - (double)(i / 2 % 4));
+        case APPROACH_COEFFICIENT: return 1.2e-7 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1)); /* not open */
+        case FORCE_COEFFICIENT: return 80.0 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1));
         default: return 0.0;
     }
 }
@@ -354,17 +519,20 @@ static inline double valid_value(int kind, size_t i, double slip_force)
 /* Valid arguments, each just before its protected page. Item i of a batch has contact i. */
 static inline void set_up(const function *f)
 {
-    mslip_contact *c = last(contact_region, items_of(f) * sizeof *c);
+    const int is_element = (f->takes & IS_ELEMENT) != 0;
+    void *laws = last(is_element ? element_region : contact_region, items_of(f) * law_size(f));
     int32_t *index = last(index_region, ITEMS * sizeof *index), *flags = last(active_region, ITEMS * sizeof *flags);
     double *values = last(input_region, f->inputs * sizeof *values);
 
     memset(&call, 0, sizeof call);
     call.n = call.n_contacts = ITEMS;
     call.state_length = STATE;
-    call.contacts = c;
+    call.contacts = is_element ? NULL : laws;
+    call.elements = is_element ? laws : NULL;
     for (size_t i = 0; i < items_of(f); ++i) {
-        c[i] = contact_of((int)i % 3);
+        set_law(f, i, (int)i % 3);
     }
+    const double slip_force = is_element ? 0.0 : call.contacts->slip_force;
     for (size_t i = 0; i < ITEMS; ++i) {
         index[i] = (int32_t)i;
         flags[i] = 1;
@@ -372,18 +540,18 @@ static inline void set_up(const function *f)
     call.index = f->takes & IS_BATCH ? index : NULL;
     call.active = f->takes & IS_BATCH ? flags : NULL;
     for (size_t i = 0; i < f->inputs; ++i) {
-        values[i] = valid_value(f->kind, i, c->slip_force);
+        values[i] = valid_value(kind_of_input(f, i), i, slip_force);
     }
     call.input = f->inputs > 0 ? values : NULL;
-    call.scalar = valid_value(f->scalar, 3, c->slip_force);
+    call.scalar = valid_value(f->scalar, 3, slip_force);
     if (f->takes & TAKES_STATE) {
         call.state = last(state_region, items_of(f) * STATE * sizeof(double));
         fill_states(f);
     }
     if (f->takes & TAKES_WORKSPACE) {
-        const size_t length = workspace_lengths[f->rule];
+        const size_t length = workspace_length(f);
         call.workspace = last(workspace_region, length * sizeof(double));
-        CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
+        init_workspace(f, HARMONICS, SAMPLES, length, call.workspace);
     }
     for (int i = 0; i < OUTPUTS; ++i) {
         call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
@@ -392,19 +560,25 @@ static inline void set_up(const function *f)
 
 static inline void rejected(const function *f, int32_t status, const char *what)
 {
+    /* Whether the normal motion of an element is allowed depends on samples in the workspace. */
+    const int is_of_motion = status == MSLIP_LENGTH_TOO_SHORT || status == MSLIP_BAD_NORMAL_FORCE;
+    const int uses_workspace = (f->takes & TAKES_WORKSPACE) && is_of_motion;
     save_regions();
     feclearexcept(FE_ALL_EXCEPT);
-    check_rejected(f->call(), status, f->name, what);
+    check_rejected_but(uses_workspace ? workspace_region : NULL, f->call(), status, f->name, what);
 }
 
-/* An output is finite for all items but one, which is unchanged, and so is the memory before the output. */
-static inline int is_written(const region *r, size_t length, size_t skipped)
+/* Output k is finite for all items but one, which is unchanged, and so is the memory before the output. */
+static inline int is_written(const function *f, int k, size_t skipped)
 {
-    const size_t bytes = length * sizeof(double), share = length / ITEMS;
+    const region *r = out_regions[k];
+    const size_t length = f->out[k], bytes = length * sizeof(double), share = length / items_of(f);
     const double *values = last(r, bytes), *before = (const double *)(const void *)(r->before + r->bytes - bytes);
     int holds = memcmp(r->start, r->before, r->bytes - bytes) == 0;
     for (size_t i = 0; i < length; ++i) {
-        holds &= skipped < ITEMS && i / share == skipped ? same_bits(&values[i], &before[i], 1) : !!isfinite(values[i]);
+        const size_t item = i / share;
+        const int is_used = k > 0 || i % share < written_state(f, &values[item * share]);
+        holds &= item == skipped ? same_bits(&values[i], &before[i], 1) : !is_used || isfinite(values[i]);
     }
     return holds;
 }
@@ -412,7 +586,7 @@ static inline int is_written(const region *r, size_t length, size_t skipped)
 /* The call succeeds and writes its outputs only, for all items but the skipped one. */
 static inline void accepted_except(const function *f, size_t skipped, const char *what)
 {
-    const region *const inputs[] = { contact_region, index_region, active_region, input_region, state_region };
+    const region *const inputs[] = { contact_region, element_region, index_region, active_region, input_region, state_region };
     int32_t status;
     int flags, holds;
     fill_outputs();
@@ -425,7 +599,7 @@ static inline void accepted_except(const function *f, size_t skipped, const char
         holds &= is_unchanged(inputs[i]);
     }
     for (int i = 0; i < OUTPUTS; ++i) {
-        holds &= is_written(out_regions[i], f->out[i], skipped);
+        holds &= is_written(f, i, skipped);
     }
     if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {
         printf("    %s, %s: status %d, flags %x\n", f->name, what, (int)status, flags);

@@ -17,24 +17,27 @@ module microslip
   !! is not computed. Sections with strides are allowed. But of an associate name, `associate (row => table(1, :))`,
   !! gfortran 12 may lose the stride: pass `table(1, :)` itself.
   !!
-  !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, states and workspaces are
-  !! plain data: they may be copied, written to restart files and sent through MPI. Components of a contact are results; do
-  !! not set them. Memory that comes from outside the process is validated in full by `mslip_contact_check` and
-  !! `mslip_state_check`. Nothing is allocated, except that a batch call copies its `index`, 4 bytes per item, because it
-  !! counts from 1 and that of C from 0, and that the compiler copies sections with strides.
+  !! **Names** are those of C, except `mslip_normal_force_at`: Fortran ignores case, and `MSLIP_NORMAL_FORCE` is a constant.
+  !!
+  !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states and workspaces
+  !! are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or an element
+  !! are results; do not set them. Memory that comes from outside the process is validated in full by the procedures named
+  !! `_check`. Nothing is allocated, except that a batch call copies its `index`, 4 bytes per item, because it counts from 1
+  !! and that of C from 0, and that the compiler copies sections with strides.
   !!
   !! **Aliasing.** An output must not share memory with any other argument. For a step in place there are the procedures
   !! named `_advance`.
   !!
-  !! **Threads.** Any thread may call any procedure on its own data. Contacts may be shared; each thread needs a workspace of
-  !! its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with options that make local
-  !! variables static (gfortran: `-fno-automatic`) if several threads call it.
+  !! **Threads.** Any thread may call any procedure on its own data. Contacts and elements may be shared; each thread needs a
+  !! workspace of its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with options that
+  !! make local variables static (gfortran: `-fno-automatic`) if several threads call it.
   !!
   !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument
   !! is modified. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. Infinite values and NaN are rejected, and so is
-  !! a contact, state or workspace that was never initialised.
+  !! a contact, element, state or workspace that was never initialised.
   !!
-  !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them. A Jacobian
+  !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them; of an element
+  !! component after component: those of the tangential one, then those of the normal one. A Jacobian
   !! has the derivative of force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a
   !! default NumPy array of the same memory holds its transpose.
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
@@ -55,6 +58,14 @@ module microslip
   public :: mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance
   public :: mslip_batch_harmonic_force
   public :: mslip_jenkins_equivalent, mslip_iwan_equivalent
+  public :: mslip_element_init, mslip_element_init_elliptic, mslip_element_check
+  public :: mslip_normal_force_at, mslip_normal_approach
+  public :: mslip_element_state_length, mslip_element_state_init, mslip_element_state_check, mslip_element_state_error
+  public :: mslip_element_update, mslip_element_advance, mslip_element_path, mslip_element_path_advance
+  public :: mslip_element_tractions
+  public :: mslip_element_workspace_length, mslip_element_workspace_init, mslip_element_workspace_size
+  public :: mslip_element_harmonic_force
+  public :: mslip_batch_element_update, mslip_batch_element_advance, mslip_batch_element_harmonic_force
 
   integer, parameter, public :: mslip_real = c_double  !! Kind of every real value.
   integer, parameter, public :: mslip_int = c_int32_t  !! Kind of status codes, flags and choices.
@@ -191,7 +202,7 @@ module microslip
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     integer(mslip_int) :: directions = 0  !! Number of tangential directions.
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(2149) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(2152) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -217,6 +228,16 @@ module microslip
     !! Harmonic stiffness at an amplitude of the displacement, and its derivative.
     module procedure complex_stiffness_scalar, complex_stiffness_array
   end interface mslip_complex_stiffness
+
+  interface mslip_normal_force_at
+    !! Normal force at an approach. In C it is named `mslip_normal_force`, in Fortran the name of a constant.
+    module procedure normal_force_scalar, normal_force_array
+  end interface mslip_normal_force_at
+
+  interface mslip_normal_approach
+    !! Approach under a normal force.
+    module procedure normal_approach_scalar, normal_approach_array
+  end interface mslip_normal_approach
 
   interface address_of
     ! C address of a required array, or of an optional scalar: NULL if absent.
@@ -454,6 +475,40 @@ module microslip
       integer(c_int32_t) :: c_harmonic_workspace_size
     end function c_harmonic_workspace_size
 
+    pure function c_element_workspace_length(directions, harmonics, samples, rule) &
+      bind(c, name='mslip_element_workspace_length')
+      import
+      integer(c_int32_t), value :: directions, rule
+      integer(c_size_t), value :: harmonics, samples
+      integer(c_size_t) :: c_element_workspace_length
+    end function c_element_workspace_length
+
+    function c_element_workspace_init(directions, harmonics, samples, rule, workspace_length, workspace) &
+      bind(c, name='mslip_element_workspace_init')
+      import
+      integer(c_int32_t), value :: directions, rule
+      integer(c_size_t), value :: harmonics, samples, workspace_length
+      type(c_ptr), value :: workspace
+      integer(c_int32_t) :: c_element_workspace_init
+    end function c_element_workspace_init
+
+    function c_element_workspace_size(workspace, directions, harmonics, samples, rule) &
+      bind(c, name='mslip_element_workspace_size')
+      import
+      real(c_double), intent(in) :: workspace(*)
+      type(c_ptr), value :: directions, harmonics, samples, rule
+      integer(c_int32_t) :: c_element_workspace_size
+    end function c_element_workspace_size
+
+    function c_element_harmonic_force(element, workspace, displacement, force, jacobian, dissipated) &
+      bind(c, name='mslip_element_harmonic_force')
+      import
+      type(mslip_element), intent(in) :: element
+      type(c_ptr), value :: workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_element_harmonic_force
+    end function c_element_harmonic_force
+
     function c_harmonic_force(contact, workspace, displacement, force, jacobian, dissipated) &
       bind(c, name='mslip_harmonic_force')
       import
@@ -608,6 +663,16 @@ module microslip
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_batch_element_update
     end function c_batch_element_update
+
+    function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, displacement, force, &
+      jacobian, dissipated) bind(c, name='mslip_batch_element_harmonic_force')
+      import
+      integer(c_size_t), value :: n, n_elements
+      type(mslip_element), intent(in) :: elements(*)
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_batch_element_harmonic_force
+    end function c_batch_element_harmonic_force
 
   end interface
   ! </generated>
@@ -1291,6 +1356,493 @@ contains
   end subroutine mslip_iwan_equivalent
 
   ! ---------------------------------------------------------------------------------------------------------------------
+  ! Varying normal force with separation: friction contact elements. A displacement is [u, w], a force [T, N], tangential and
+  ! normal
+
+  subroutine mslip_element_init(parameters, directions, normal_input, element, status)
+    !! Initialise the element of a flat with rounded edges on a flat, or of a cylinder if the flat has no width.
+    type(mslip_parameters), intent(in) :: parameters
+      !! Geometry, materials and friction; `normal_force`, > 0, is the largest force for which the element is tabulated: larger
+      !! ones are exact, but slower.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: normal_input
+      !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+    type(mslip_element), intent(inout) :: element  !! The element.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` for two directions, `MSLIP_BAD_NORMAL_INPUT`, or an error of
+      !! `mslip_contact_init`.
+
+    status = c_element_init(parameters, directions, normal_input, element)
+  end subroutine mslip_element_init
+
+  subroutine mslip_element_init_elliptic(parameters, directions, normal_input, element, status)
+    !! Initialise the element of an elliptical Hertz contact, a sphere if both semi-axes are equal.
+    type(mslip_elliptic_parameters), intent(in) :: parameters
+      !! Geometry, materials and friction; `normal_force`, > 0, is the force of the semi-axes and the largest one for which the
+      !! element is tabulated: larger ones are exact, but slower.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: normal_input
+      !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+    type(mslip_element), intent(inout) :: element  !! The element.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` for two directions, `MSLIP_BAD_NORMAL_INPUT`, or an error of
+      !! `mslip_contact_init_elliptic`.
+
+    status = c_element_init_elliptic(parameters, directions, normal_input, element)
+  end subroutine mslip_element_init_elliptic
+
+  subroutine mslip_element_check(element, status)
+    !! Validate an element in full, such as one read from a file or received in a message.
+    type(mslip_element), intent(in) :: element  !! The element.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or `MSLIP_BAD_ELEMENT`.
+
+    status = c_element_check(element)
+  end subroutine mslip_element_check
+
+  subroutine normal_force_array(element, approach, status, normal_force, stiffness, half_width)
+    !! Normal forces at approaches; 0, as are stiffness and half-width, at approaches that are not positive.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in) :: approach(:)  !! Normal approaches [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: normal_force(:)  !! Normal force at each approach [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)  !! Normal stiffness [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: half_width(:)  !! Half-width of the contact [m].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(3)
+
+    n = size(approach, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(normal_force)) call check_array(normal_force, n, ptr(1), status)
+    if (present(stiffness)) call check_array(stiffness, n, ptr(2), status)
+    if (present(half_width)) call check_array(half_width, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_normal_force(element, n, approach, ptr(1), ptr(2), ptr(3))
+  end subroutine normal_force_array
+
+  subroutine normal_force_scalar(element, approach, status, normal_force, stiffness, half_width)
+    !! Normal force at an approach; 0, as are stiffness and half-width, at an approach that is not positive.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in) :: approach  !! Normal approach [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: normal_force  !! Normal force [N].
+    real(mslip_real), intent(inout), optional, target :: stiffness  !! Normal stiffness [N/m].
+    real(mslip_real), intent(inout), optional, target :: half_width  !! Half-width of the contact [m].
+
+    status = c_normal_force(element, 1_mslip_size, [approach], &
+      address_of(normal_force), address_of(stiffness), address_of(half_width))
+  end subroutine normal_force_scalar
+
+  subroutine normal_approach_array(element, normal_force, status, approach, compliance, half_width)
+    !! Approaches under normal forces. At 0 the compliance of a cylinder and of an ellipse is +infinity.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in) :: normal_force(:)  !! Normal forces [N], >= 0.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: approach(:)  !! Approach under each force [m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: compliance(:)  !! Normal compliance [m/N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: half_width(:)  !! Half-width of the contact [m].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(3)
+
+    n = size(normal_force, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(approach)) call check_array(approach, n, ptr(1), status)
+    if (present(compliance)) call check_array(compliance, n, ptr(2), status)
+    if (present(half_width)) call check_array(half_width, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_normal_approach(element, n, normal_force, ptr(1), ptr(2), ptr(3))
+  end subroutine normal_approach_array
+
+  subroutine normal_approach_scalar(element, normal_force, status, approach, compliance, half_width)
+    !! Approach under a normal force. At 0 the compliance of a cylinder and of an ellipse is +infinity.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in) :: normal_force  !! Normal force [N], >= 0.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: approach  !! Approach [m].
+    real(mslip_real), intent(inout), optional, target :: compliance  !! Normal compliance [m/N].
+    real(mslip_real), intent(inout), optional, target :: half_width  !! Half-width of the contact [m].
+
+    status = c_normal_approach(element, 1_mslip_size, [normal_force], &
+      address_of(approach), address_of(compliance), address_of(half_width))
+  end subroutine normal_approach_scalar
+
+  pure function mslip_element_state_length(directions, pieces) result(length)
+    !! Length of the state of an element that holds the given number of pieces of its memory diagram exactly; fewer than 4 count
+    !! as 4. A load that rises in n steps of different directions leaves n pieces. May dimension an array.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0.
+    integer(mslip_size) :: length  !! Length of the state; 0 if `directions` is not 1.
+
+    length = c_element_state_length(directions, pieces)
+  end function mslip_element_state_length
+
+  subroutine mslip_element_state_init(directions, state, status)
+    !! Initialise the state of an element: open, no displacement.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    real(mslip_real), intent(inout), target, contiguous :: state(:)
+      !! The state; at least `mslip_element_state_length(directions, 4)` values. Its size decides how many pieces it holds exactly.
+      !! A step that needs one more merges the two neighbouring pieces for which later forces change least; see
+      !! `mslip_element_state_error`.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` or `MSLIP_STATE_TOO_SHORT`.
+
+    status = c_element_state_init(directions, size(state, kind=mslip_size), address_of(state))
+  end subroutine mslip_element_state_init
+
+  subroutine mslip_element_state_check(directions, state, status)
+    !! Validate the state of an element in full, such as one read from a file or received in a message.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    real(mslip_real), intent(in) :: state(:)  !! The state.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE`, `MSLIP_STATE_TOO_SHORT` or `MSLIP_BAD_STATE`.
+
+    status = c_element_state_check(directions, size(state, kind=mslip_size), state)
+  end subroutine mslip_element_state_check
+
+  subroutine mslip_element_state_error(directions, state, force_error, status)
+    !! Bound on the error of the tangential forces that follow from a state, due to merged pieces.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    real(mslip_real), intent(in) :: state(:)  !! The state.
+    real(mslip_real), intent(inout), target :: force_error
+      !! Bound on the error [N]; 0 if no pieces were merged since the last gross slip or separation.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+
+    status = c_element_state_error(directions, size(state, kind=mslip_size), state, address_of(force_error))
+  end subroutine mslip_element_state_error
+
+  subroutine mslip_element_update(element, state_old, displacement, state_new, status, force, tangent, dissipated)
+    !! One step: the state after a displacement is applied. The state before the step is kept. Within the step the path is straight
+    !! in the tangential displacement and the tangential shift S of the contact size.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step.
+    real(mslip_real), intent(in) :: displacement(:)
+      !! [u, w] at the end of the step: tangential displacement [m]; normal approach [m], open if not positive, or normal force [N],
+      !! >= 0.
+    real(mslip_real), intent(inout), target, contiguous :: state_new(:)
+      !! State after the step, of the same size; for a step in place use `mslip_element_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! [T, N] at the end of the step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :)
+      !! (2, 2): derivative of force component i with respect to displacement component j, consistent with the step and
+      !! one-sided at corners.
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
+
+    integer(mslip_size) :: m, length
+    type(c_ptr) :: ptr(3)
+
+    m = components(element)
+    length = size(state_old, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    call check_array(state_new, length, ptr(1), status)
+    if (present(force)) call check_array(force, m, ptr(2), status)
+    if (present(tangent)) call check_array(tangent, [m, m], ptr(3), status)
+    if (status == MSLIP_OK) status = c_element_update(element, length, address_of(state_old), displacement, ptr(1), ptr(2), &
+      ptr(3), address_of(dissipated))
+  end subroutine mslip_element_update
+
+  subroutine mslip_element_advance(element, state, displacement, status, force, tangent, dissipated)
+    !! One step in place: as `mslip_element_update`, but the state after the step replaces the state before it.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step.
+    real(mslip_real), intent(in) :: displacement(:)
+      !! [u, w] at the end of the step: tangential displacement [m]; normal approach [m], open if not positive, or normal force [N],
+      !! >= 0.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! [T, N] at the end of the step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :)
+      !! (2, 2): derivative of force component i with respect to displacement component j, consistent with the step and
+      !! one-sided at corners.
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
+
+    integer(mslip_size) :: m
+    type(c_ptr) :: ptr(2)
+
+    m = components(element)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, m, ptr(1), status)
+    if (present(tangent)) call check_array(tangent, [m, m], ptr(2), status)
+    if (status == MSLIP_OK) status = c_element_update(element, size(state, kind=mslip_size), address_of(state), displacement, &
+      address_of(state), ptr(1), ptr(2), address_of(dissipated))
+  end subroutine mslip_element_advance
+
+  subroutine mslip_element_path(element, state_old, displacement, state_new, status, force, tangent, dissipated)
+    !! A sequence of steps: the displacements are applied one after the other. The state before the first step is kept.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the first step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] at the end of each step.
+    real(mslip_real), intent(inout), target, contiguous :: state_new(:)
+      !! State after the last step, of the same size; for a path in place use `mslip_element_path_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (2, n): [T, N] at the end of each step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each step.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
+
+    integer(mslip_size) :: m, n, length
+    type(c_ptr) :: ptr(4)
+
+    m = components(element)
+    n = size(displacement, 2, mslip_size)
+    length = size(state_old, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (size(displacement, 1, mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    call check_array(state_new, length, ptr(1), status)
+    if (present(force)) call check_array(force, [m, n], ptr(2), status)
+    if (present(tangent)) call check_array(tangent, [m, m, n], ptr(3), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(4), status)
+    if (status == MSLIP_OK) status = c_element_path(element, length, address_of(state_old), n, displacement, ptr(1), ptr(2), &
+      ptr(3), ptr(4))
+  end subroutine mslip_element_path
+
+  subroutine mslip_element_path_advance(element, state, displacement, status, force, tangent, dissipated)
+    !! A sequence of steps in place: as `mslip_element_path`, but the state after the last step replaces the state before the
+    !! first one.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before the first and after the last step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] at the end of each step.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (2, n): [T, N] at the end of each step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each step.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
+
+    integer(mslip_size) :: m, n
+    type(c_ptr) :: ptr(3)
+
+    m = components(element)
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (size(displacement, 1, mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, [m, n], ptr(1), status)
+    if (present(tangent)) call check_array(tangent, [m, m, n], ptr(2), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(3), status)
+    if (status == MSLIP_OK) status = c_element_path(element, size(state, kind=mslip_size), address_of(state), n, displacement, &
+      address_of(state), ptr(1), ptr(2), ptr(3))
+  end subroutine mslip_element_path_advance
+
+  subroutine mslip_element_tractions(element, state, x, status, pressure, shear)
+    !! Tractions along the width in a state; of an elliptical contact on the x axis.
+    type(mslip_element), intent(in) :: element  !! The element of the state.
+    real(mslip_real), intent(in) :: state(:)  !! A state.
+    real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m]; outside the contact tractions are 0.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: pressure(:)  !! Pressure at each x [Pa].
+    real(mslip_real), intent(inout), optional, target, contiguous :: shear(:)  !! Shear traction at each x [Pa].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(2)
+
+    n = size(x, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(pressure)) call check_array(pressure, n, ptr(1), status)
+    if (present(shear)) call check_array(shear, n, ptr(2), status)
+    if (status == MSLIP_OK) status = c_element_tractions(element, size(state, kind=mslip_size), state, n, x, ptr(1), ptr(2))
+  end subroutine mslip_element_tractions
+
+  pure function mslip_element_workspace_length(directions, harmonics, samples, rule) result(length)
+    !! Length of the workspace of `mslip_element_harmonic_force`; 0 if the arguments are out of range. May dimension an array.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+    integer(mslip_size) :: length  !! Length of the workspace.
+
+    ! A C length beyond the largest integer of this kind arrives negative.
+    length = max(c_element_workspace_length(directions, harmonics, samples, rule_or_default(rule)), 0_mslip_size)
+  end function mslip_element_workspace_length
+
+  subroutine mslip_element_workspace_init(directions, harmonics, samples, workspace, status, rule)
+    !! Initialise a workspace of elements: tables of cosines and sines, and scratch memory. Done once; each thread needs a workspace
+    !! of its own.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
+    integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
+      !! The workspace; at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_BAD_RULE`, `MSLIP_NOT_AVAILABLE`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES` or
+      !! `MSLIP_WORKSPACE_TOO_SHORT`.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+
+    status = c_element_workspace_init(directions, harmonics, samples, rule_or_default(rule), &
+      size(workspace, kind=mslip_size), address_of(workspace))
+  end subroutine mslip_element_workspace_init
+
+  subroutine mslip_element_workspace_size(workspace, directions, harmonics, samples, rule, status)
+    !! The arguments with which a workspace of elements was initialised.
+    real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
+    integer(mslip_int), intent(inout) :: directions  !! Number of tangential directions.
+    integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
+    integer(mslip_size), intent(inout) :: samples  !! Samples per period.
+    integer(mslip_int), intent(inout) :: rule  !! `MSLIP_UNIFORM_SAMPLING`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_WORKSPACE` or `MSLIP_WORKSPACE_TOO_SHORT`.
+
+    integer(mslip_size), target :: sizes(2)
+    integer(mslip_int), target :: kinds(2)
+    integer(mslip_size) :: n
+
+    n = size(workspace, kind=mslip_size)
+    status = MSLIP_WORKSPACE_TOO_SHORT
+    ! C reads the header, which the shortest workspace contains.
+    if (n < c_element_workspace_length(1_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING)) return
+    status = c_element_workspace_size(workspace, c_loc(kinds(1)), c_loc(sizes(1)), c_loc(sizes(2)), c_loc(kinds(2)))
+    if (status /= MSLIP_OK) return
+    if (n < c_element_workspace_length(kinds(1), sizes(1), sizes(2), kinds(2))) then
+      status = MSLIP_WORKSPACE_TOO_SHORT
+      return
+    end if
+    directions = kinds(1)
+    harmonics = sizes(1)
+    samples = sizes(2)
+    rule = kinds(2)
+  end subroutine mslip_element_workspace_size
+
+  subroutine mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, dissipated)
+    !! Fourier coefficients of the force of an element under a periodic displacement in the steady state. The element is pressed by
+    !! the normal force of the sample at which that is largest with no tangential displacement, is displaced to that sample at
+    !! constant normal force, and advances through two periods from there; the second one counts.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
+    real(mslip_real), intent(in) :: displacement(:)
+      !! 2(2H+1) coefficients: of the tangential displacement [m], then of the normal approach [m] or the normal force [N].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)
+      !! 2(2H+1) coefficients: of the tangential force, then of the normal force [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
+      !! (2(2H+1), 2(2H+1)): derivatives of the force coefficients with respect to the displacement coefficients, exact for the
+      !! discretisation, one-sided at corners.
+    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
+
+    integer(mslip_size) :: m
+    type(c_ptr) :: ptr(2)
+
+    call count_element_coefficients(workspace, m, status)
+    if (status /= MSLIP_OK) return
+    ptr = c_null_ptr
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, m, ptr(1), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m], ptr(2), status)
+    if (status == MSLIP_OK) status = c_element_harmonic_force(element, address_of(workspace), displacement, ptr(1), ptr(2), &
+      address_of(dissipated))
+  end subroutine mslip_element_harmonic_force
+
+  subroutine mslip_batch_element_update(elements, states_old, displacement, states_new, status, index, active, force, &
+    tangent, dissipated)
+    !! `mslip_element_update` of n items. On an error of one item none is modified.
+    type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
+    real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
+      !! (state length, n): the state of each item before the step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] of each item at the end of the step.
+    real(mslip_real), intent(inout), target, contiguous :: states_new(:, :)
+      !! (state length, n): the state of each item after the step; for a step in place use `mslip_batch_element_advance`.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)  !! (2, n): [T, N] of each item [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
+
+    integer(mslip_size) :: length, m, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(7)
+
+    length = size(states_old, 1, mslip_size)
+    m = size(displacement, 1, mslip_size)
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (any(components(elements(:min(1, size(elements)))) /= m)) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    call check_array(states_old, [length, n], ptr(3), status)
+    call check_array(states_new, [length, n], ptr(4), status)
+    if (present(force)) call check_array(force, [m, n], ptr(5), status)
+    if (present(tangent)) call check_array(tangent, [m, m, n], ptr(6), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(7), status)
+    if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), ptr(2), &
+      length, ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7))
+  end subroutine mslip_batch_element_update
+
+  subroutine mslip_batch_element_advance(elements, states, displacement, status, index, active, force, tangent, dissipated)
+    !! `mslip_element_advance` of n items. On an error of one item none is modified.
+    type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
+    real(mslip_real), intent(inout), target, contiguous :: states(:, :)
+      !! (state length, n): the state of each item before and after the step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] of each item at the end of the step.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)  !! (2, n): [T, N] of each item [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
+
+    integer(mslip_size) :: length, m, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(6)
+
+    length = size(states, 1, mslip_size)
+    m = size(displacement, 1, mslip_size)
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (any(components(elements(:min(1, size(elements)))) /= m)) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    call check_array(states, [length, n], ptr(3), status)
+    if (present(force)) call check_array(force, [m, n], ptr(4), status)
+    if (present(tangent)) call check_array(tangent, [m, m, n], ptr(5), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(6), status)
+    if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), ptr(2), &
+      length, ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
+  end subroutine mslip_batch_element_advance
+
+  subroutine mslip_batch_element_harmonic_force(elements, workspace, displacement, status, index, active, force, jacobian, &
+    dissipated)
+    !! `mslip_element_harmonic_force` of n items, with one workspace. On an error of one item none is modified.
+    type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (2(2H+1), n): coefficients of each displacement.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    integer(mslip_int), intent(in), optional :: index(:)
+      !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
+    integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
+      !! n flags: an item with flag 0 is skipped, and its outputs keep their values. Absent: no item is skipped.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (2(2H+1), n): coefficients of each force [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
+      !! (2(2H+1), 2(2H+1), n): the Jacobian of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
+      !! n energies dissipated per period [J].
+
+    integer(mslip_size) :: m, n
+    integer(mslip_int), allocatable, target :: from_zero(:)
+    type(c_ptr) :: ptr(5)
+
+    call count_element_coefficients(workspace, m, status)
+    if (status /= MSLIP_OK) return
+    n = size(displacement, 2, mslip_size)
+    ptr = c_null_ptr
+    call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
+    if (size(displacement, 1, mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(active)) call check_array(active, n, ptr(2), status)
+    if (present(force)) call check_array(force, [m, n], ptr(3), status)
+    if (present(jacobian)) call check_array(jacobian, [m, m, n], ptr(4), status)
+    if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
+    if (status == MSLIP_OK) status = c_batch_element_harmonic_force(n, size(elements, kind=mslip_size), elements, ptr(1), &
+      ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
+  end subroutine mslip_batch_element_harmonic_force
+
+  ! ---------------------------------------------------------------------------------------------------------------------
   ! Conversion between Fortran and C
 
   function text_of(text) result(copy)
@@ -1316,6 +1868,14 @@ contains
     if (present(rule)) rule_or_default = rule
   end function rule_or_default
 
+  elemental function components(element) result(m)
+    ! The number of components of a displacement of an element; C rejects uninitialised elements.
+    type(mslip_element), intent(in) :: element
+    integer(mslip_size) :: m
+
+    m = merge(3_mslip_size, 2_mslip_size, element%directions == 2)
+  end function components
+
   subroutine count_coefficients(workspace, m, status)
     ! The number 2H+1 of coefficients of a workspace.
     real(mslip_real), intent(in), contiguous :: workspace(:)
@@ -1330,9 +1890,24 @@ contains
     m = 2*m + 1
   end subroutine count_coefficients
 
-  subroutine check_index(n_contacts, n, index, from_zero, ptr, status)
-    ! The index of a batch as a copy that counts from 0; without an index, each of the n items has a contact of its own.
-    integer(mslip_size), intent(in) :: n_contacts, n
+  subroutine count_element_coefficients(workspace, m, status)
+    ! The number m(2H+1) of coefficients of a workspace of elements.
+    real(mslip_real), intent(in), contiguous :: workspace(:)
+    integer(mslip_size), intent(out) :: m
+    integer(mslip_int), intent(out) :: status
+
+    integer(mslip_size) :: samples
+    integer(mslip_int) :: directions, rule
+
+    m = 0
+    directions = 0
+    call mslip_element_workspace_size(workspace, directions, m, samples, rule, status)
+    m = (directions + 1)*(2*m + 1)
+  end subroutine count_element_coefficients
+
+  subroutine check_index(n_laws, n, index, from_zero, ptr, status)
+    ! The index of a batch as a copy that counts from 0; without an index, each of the n items has a contact or element of its own.
+    integer(mslip_size), intent(in) :: n_laws, n
     integer(mslip_int), intent(in), optional :: index(:)
     integer(mslip_int), intent(out), allocatable, target :: from_zero(:)
     type(c_ptr), intent(inout) :: ptr
@@ -1349,7 +1924,7 @@ contains
         from_zero(:) = max(index, 0_mslip_int) - 1_mslip_int
         call check_array(from_zero, n, ptr, status)
       end if
-    else if (n_contacts /= n) then
+    else if (n_laws /= n) then
       status = MSLIP_BAD_ARRAY_SIZE
     end if
   end subroutine check_index

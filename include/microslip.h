@@ -243,7 +243,7 @@ typedef struct mslip_element {
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[2149];
+    double reserved[2152];
 } mslip_element;
 
 #ifdef __cplusplus
@@ -521,6 +521,59 @@ int32_t mslip_harmonic_workspace_size(const double *workspace,
                                       size_t *samples,
                                       int32_t *rule);
 
+// Number of doubles in a workspace of elements with one tangential direction for H harmonics, H >= 1, more than 2H samples per period,
+// and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
+size_t mslip_element_workspace_length(int32_t directions,
+                                      size_t harmonics,
+                                      size_t samples,
+                                      int32_t rule);
+
+// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread needs its
+// own.
+//
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or
+// MSLIP_WORKSPACE_TOO_SHORT.
+//
+// Memory: `workspace` is NULL or valid for workspace_length doubles.
+int32_t mslip_element_workspace_init(int32_t directions,
+                                     size_t harmonics,
+                                     size_t samples,
+                                     int32_t rule,
+                                     size_t workspace_length,
+                                     double *workspace);
+
+// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
+//
+// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
+//
+// Memory: `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
+int32_t mslip_element_workspace_size(const double *workspace,
+                                     int32_t *directions,
+                                     size_t *harmonics,
+                                     size_t *samples,
+                                     int32_t *rule);
+
+// Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
+// component (the tangential one, then the normal one), each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]; the normal component
+// of the displacement is the approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, 2(2H+1) x 2(2H+1),
+// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
+//
+// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
+// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
+// second one counts.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force
+// of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
+//
+// Memory: `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
+// above; outputs must not alias any other argument.
+int32_t mslip_element_harmonic_force(const struct mslip_element *element,
+                                     double *workspace,
+                                     const double *displacement,
+                                     double *force,
+                                     double *jacobian,
+                                     double *dissipated);
+
 // Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
 // with the rule of the workspace. displacement [m] and force [N] are 2H+1 coefficients, [c0, cos1, sin1, cos2, sin2, ...];
 // jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated [J] is the energy per period.
@@ -577,7 +630,7 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
 int32_t mslip_element_check(const struct mslip_element *element);
 
 // The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An approach <= 0
-// gives 0, 0, 0.
+// gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the contact
 // would be too wide for its length.
@@ -767,6 +820,25 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *force,
                                    double *tangent,
                                    double *dissipated);
+
+// mslip_element_harmonic_force for n items with one workspace: displacement and force hold 2(2H+1) doubles per item, jacobian
+// (2(2H+1))^2, dissipated one. Item i uses elements[index[i]], or elements[i] if index is NULL. If active is not NULL and
+// active[i] is 0, item i is skipped.
+//
+// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force; all outputs are unchanged then.
+//
+// Memory: `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
+// lengths above; outputs must not alias any other argument.
+int32_t mslip_batch_element_harmonic_force(size_t n,
+                                           size_t n_elements,
+                                           const struct mslip_element *elements,
+                                           const int32_t *index,
+                                           const int32_t *active,
+                                           double *workspace,
+                                           const double *displacement,
+                                           double *force,
+                                           double *jacobian,
+                                           double *dissipated);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -259,6 +259,61 @@ fn loads_beyond_the_tables_are_exact_up_to_the_largest_half_width() {
     }
 }
 
+/// The squares of such loads and approaches underflow.
+#[test]
+fn energies_of_steps_to_vanishing_loads_are_finite() {
+    for input in [NormalInput::Approach, NormalInput::Force] {
+        for element in &elements(input) {
+            let unit = 400.0 / element.tangential_stiffness;
+            let largest = if input == NormalInput::Force { 800.0 } else { element.approach };
+            for vanishing in [0.0, 5e-324, 1e-300, 1e-150, 1e-70, 1e-55] {
+                let mut memory = History::new(element, 64);
+                for (u, w) in [(0.1, 0.6), (0.3, 1.0), (0.3, 0.5), (0.3, 0.2), (0.3, vanishing), (0.3, vanishing)] {
+                    let step = memory.step(u * unit, w * largest);
+                    assert!(step.dissipated >= 0.0 && step.dissipated < 400.0 * unit, "{vanishing} {step:?}");
+                    assert!(step.tangent.iter().all(|value| value.is_finite()), "{vanishing} {step:?}");
+                }
+                let [step, other] = [memory, History::new(element, 64)].map(|mut memory| {
+                    memory.step(0.3 * unit, 0.0);
+                    memory.step(0.4 * unit, largest)
+                });
+                assert_eq!(step.force, other.force);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_contact_without_friction_has_a_normal_force_only() {
+    let element =
+        Element::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(6e-5) }, NormalInput::Force);
+    let element = element.unwrap();
+    let step = History::new(&element, 4).step(1e-6, 500.0);
+    assert_eq!((step.force, step.dissipated), ([0.0, 500.0], 0.0));
+}
+
+/// The series of the tables would diverge near the largest approach.
+#[test]
+fn loads_up_to_the_largest_for_the_length_are_exact() {
+    for flat_half_width in [0.0, 5e-4] {
+        let with_load = |normal_force| {
+            let parameters = Parameters { length: 1e-3, normal_force, ..parameters(flat_half_width) };
+            Element::rounded_flat(&parameters, NormalInput::Approach)
+        };
+        let (mut low, mut high) = (1.0, 1e9);
+        while high > low * (1.0 + 1e-12) {
+            let middle = 0.5 * (low + high);
+            *(if with_load(middle).is_ok() { &mut low } else { &mut high }) = middle;
+        }
+        let [element, exact] = [low, 1e-3 * low].map(|load| with_load(load).unwrap());
+        for part in 1..=100 {
+            let approach = element.approach * f64::from(part) / 100.0 * (1.0 - 1e-9);
+            let [force, expected] = [&element, &exact].map(|element| element.normal_force_at(approach).value);
+            assert!((force - expected).abs() < 1e-12 * low, "{part} {force} {expected}");
+        }
+    }
+}
+
 #[test]
 fn tractions_satisfy_coulomb_and_integrate_to_the_forces() {
     for element in &elements(NormalInput::Force)[..3] {

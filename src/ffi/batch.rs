@@ -1,7 +1,7 @@
 //! Batches of contacts: all items are checked before the first output is written.
 
 use super::cycle::write_complex_stiffness;
-use super::hbm::harmonic_force_dispatched;
+use super::hbm::{element_harmonic_force_dispatched, harmonic_force_dispatched};
 use super::history;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
 use super::{element, mslip_contact, mslip_element};
@@ -283,6 +283,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
             |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
         for (i, element, displacement) in items.with(displacement, 2) {
             let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
+            prefetch(state_old.wrapping_add(AHEAD * state_length));
             let outputs = [at(force, 2 * i), at(tangent, 4 * i), at(dissipated, i)];
             if let Some(displacement) = displacement.first_chunk() {
                 // SAFETY: checked, aligned; those of item i are valid by the function's contract.
@@ -292,6 +293,71 @@ pub unsafe extern "C" fn mslip_batch_element_update(
         Ok(())
     };
     status(update())
+}
+
+/// mslip_element_harmonic_force for n items with one workspace: displacement and force hold 2(2H+1) doubles per item, jacobian
+/// (2(2H+1))^2, dissipated one. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and
+/// active\[i\] is 0, item i is skipped.
+///
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force; all outputs are unchanged then.
+///
+/// # Safety
+/// `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
+/// lengths above; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
+    n: size_t,
+    n_elements: size_t,
+    elements: *const mslip_element,
+    index: *const i32,
+    active: *const i32,
+    workspace: *mut f64,
+    displacement: *const f64,
+    force: *mut f64,
+    jacobian: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract; an element consists of doubles and integers.
+        let (items, mut workspace) = unsafe {
+            let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+            (items, pointers::element_workspace(workspace)?)
+        };
+        let one = 2 * workspace.coefficients();
+        let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
+        let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
+        // SAFETY: by the function's contract.
+        let (displacement, mut outputs) = unsafe {
+            let outputs = Outputs {
+                force: output(force, all)?,
+                jacobian: output(jacobian, square)?,
+                dissipated: output(dissipated, n)?,
+            };
+            (input(displacement, all)?, outputs)
+        };
+        for (_, element, displacement) in items.with(displacement, one) {
+            workspace.check(element, displacement)?;
+        }
+        for (i, element, displacement) in items.with(displacement, one) {
+            element_harmonic_force_dispatched(element, &mut workspace, displacement, outputs.of_item(i, one))?;
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Items between the one that is computed and the one whose state is fetched from main memory.
+const AHEAD: usize = 8;
+
+/// Fetches the header and the first knots of a state into the cache: the hardware does not, because states are read in part only.
+#[inline(always)]
+fn prefetch(state: *const f64) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..3 {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: every x86-64 processor has the instruction, and any address is allowed.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(state.wrapping_add(8 * line).cast()) };
+    }
 }
 
 /// Outputs of a batch of harmonic forces.

@@ -106,7 +106,7 @@ pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An approach <= 0
-/// gives 0, 0, 0.
+/// gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the contact
 /// would be too wide for its length.

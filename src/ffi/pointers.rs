@@ -5,6 +5,7 @@ use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::hbm::{self, Workspace};
 use crate::varying_load::element::Element;
+use crate::varying_load::harmonic_force;
 use core::{mem, ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
@@ -201,6 +202,19 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     let extent = hbm::workspace_extent(&header)?;
     // SAFETY: the header of a workspace of that extent, by the function's contract.
     Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
+}
+
+/// An initialised workspace of elements.
+///
+/// # Safety
+/// As for [`workspace`].
+#[inline(never)]
+pub unsafe fn element_workspace<'a>(pointer: *mut f64) -> Result<harmonic_force::Workspace<'a>, Error> {
+    // SAFETY: by the function's contract.
+    let header = unsafe { workspace_header(pointer) }?;
+    let extent = harmonic_force::workspace_extent(&header)?;
+    // SAFETY: the header of a workspace of that extent, by the function's contract.
+    harmonic_force::Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
 
 #[cfg(test)]

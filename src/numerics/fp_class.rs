@@ -20,6 +20,13 @@ pub(crate) fn in_0_to(bound: f64, value: f64) -> bool {
     abs_le(value, bound) && value.to_bits() <= (-0.0f64).to_bits()
 }
 
+/// Whether `value <= bound`, for a bound >= 0 and a value that is not NaN: with NaN, true or false.
+#[inline(always)]
+pub(crate) fn le(value: f64, bound: f64) -> bool {
+    // The bit patterns of negative doubles are negative integers.
+    value.to_bits().cast_signed() <= bound.to_bits().cast_signed()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -33,6 +40,7 @@ mod tests {
             for bound in [0.0, 0.5, f64::MAX] {
                 assert_eq!(abs_le(value, bound), value.abs() <= bound, "{value} {bound}");
                 assert_eq!(in_0_to(bound, value), (0.0..=bound).contains(&value), "{value} {bound}");
+                assert!(value.is_nan() || le(value, bound) == (value <= bound), "{value} {bound}");
             }
         }
     }

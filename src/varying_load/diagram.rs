@@ -111,7 +111,16 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         let (falling, rising) = (inner.xi - xi, eta - inner.eta);
         let per_shift = 1.0 / (rising + falling);
         let slope = mu * ((rising - falling) * per_shift);
-        let secant = (load - inner.load) * (2.0 * mu * per_shift);
+        let rise = element.per_two_mu * (rising + falling);
+        // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
+        // relative to the rise: the better one of both.
+        let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
+        let ratio = rise / shift;
+        let secant = if ratio * ratio * rise < 24.0 * f64::EPSILON * reach {
+            element.load_at_shift(shift - 0.5 * rise).1
+        } else {
+            (load - inner.load) * (2.0 * mu * per_shift)
+        };
         let force = inner.force + slope * (load - inner.load);
         diagram.replace(kept, &[Knot { xi, eta, load, force }]);
         return Response { force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) };

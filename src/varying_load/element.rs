@@ -3,7 +3,7 @@
 
 use crate::constant_load::contact::{check_displacement, check_moduli};
 use crate::error::Error;
-use crate::numerics::fp_class::in_0_to;
+use crate::numerics::fp_class::{in_0_to, le};
 use crate::parameters::{EllipticParameters, Pair, Parameters};
 use crate::range::in_range;
 use crate::shape::{HertzEllipse, Relation, RoundedFlat, Shape};
@@ -46,9 +46,12 @@ pub struct Element {
     pub(crate) checksum: u64,
     /// 1/(2 mu); 0 without friction.
     pub(crate) per_two_mu: f64,
-    /// The largest normal force and approach for which the laws hold.
+    /// The largest normal force, approach and shift for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
+    pub(crate) largest_shift: f64,
+    /// The contact counts as open up to this input, [`TOUCHING`] of that of the tables: there squares and products would underflow.
+    smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
     shift_per_load: f64,
@@ -62,9 +65,15 @@ pub struct Element {
     potential: [f64; PIECES],
 }
 
+/// Forces at less than this part of the largest input of the tables are beyond any rounding error.
+const TOUCHING: f64 = 1e-60;
+
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
+
+/// Of the normal force of the parameters, 2^-150: sizes of smaller loads are not distinguished.
+const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,8 +153,14 @@ impl Element {
             return Err(Error::BadNormalForce);
         }
         let ellipse = HertzEllipse::new(parameters)?;
+        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        in_range(&[normal_force], &[])?;
+        // The approach, free of overflow.
+        for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
+            in_range(&[normal_force], &[axis, composite_modulus])?;
+        }
         self.init(&ellipse, [normal_force, friction_coefficient], input, ELLIPTIC)?;
-        self.composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
         Ok(())
@@ -170,7 +185,9 @@ impl Element {
         for value in [approach, shift, normal_force] {
             in_range(&[value], &[])?;
         }
-        (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.largest_load = shape.load(largest);
+        (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
+        self.smallest_input = TOUCHING * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
@@ -181,15 +198,19 @@ impl Element {
         (self.directions, self.normal_input) = (1, input as i32);
         self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
+        // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
+        let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
-        self.load_of_shift.fill(shift, &load_of_shift);
+        self.load_of_shift.fill(regular(shift, self.largest_shift), &load_of_shift);
         match input {
             NormalInput::Approach => {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
-                self.of_input.fill(approach, &load_of_approach);
+                self.of_input.fill(regular(approach, self.largest_approach), &load_of_approach);
             }
             NormalInput::Force => {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
+                // The load of the parameters without the rounding error of its size.
                 self.of_input.fill(normal_force, &shift_of_load);
             }
         }
@@ -230,9 +251,20 @@ impl Element {
         NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
     }
 
+    /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are
+    /// proportional to each other, so that no power of a size underflows.
+    fn smallest_size(&self) -> f64 {
+        self.shape().at_load(SMALLEST_LOAD * self.normal_force)
+    }
+
     #[inline(never)]
     fn approach_outside(&self, normal_force: f64) -> NormalPoint {
         let shape = self.shape();
+        if normal_force > 0.0 && normal_force < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.approach(w) / shape.load(w);
+            return NormalPoint { value: slope * normal_force, slope };
+        }
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
         NormalPoint { value: shape.approach(w), slope }
@@ -286,7 +318,7 @@ impl Element {
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
-        if approach <= self.largest_approach { Ok(()) } else { Err(Error::LengthTooShort) }
+        if le(approach, self.largest_approach) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
     /// Checks a normal force.
@@ -299,10 +331,16 @@ impl Element {
         if !in_0_to(1e150, normal_force) {
             return Err(Error::BadNormalForce);
         }
-        if normal_force <= self.largest_load { Ok(()) } else { Err(Error::LengthTooShort) }
+        if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
     }
 
-    /// The normal state at an input > 0.
+    /// Whether an input that was checked closes the contact.
+    #[inline(always)]
+    pub(crate) fn is_closed(&self, input: f64) -> bool {
+        input > self.smallest_input
+    }
+
+    /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
         let (value, slope) = match self.of_input.position(input) {
@@ -395,6 +433,11 @@ impl Element {
             return self.load_of_approach_outside(input);
         }
         let shape = self.shape();
+        if input < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.shift(w) / shape.load(w);
+            return (slope * input, slope);
+        }
         let w = shape.at_load(input);
         (shape.shift(w), shape.tangential_compliance(w))
     }
@@ -402,6 +445,14 @@ impl Element {
     #[inline(never)]
     fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
         let shape = self.shape();
+        if approach < self.approach {
+            let w = self.smallest_size();
+            let smallest = shape.approach(w);
+            if approach < smallest {
+                let slope = shape.load(w) / smallest;
+                return (slope * approach, slope);
+            }
+        }
         let w = shape.at_approach(approach);
         (shape.load(w), 1.0 / shape.normal_compliance(w))
     }
@@ -417,9 +468,10 @@ impl Element {
 
     #[inline(never)]
     fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
-        let shape = self.shape();
-        let w = shape.at_shift(shift);
-        if w > 0.0 { (shape.load(w), 1.0 / shape.tangential_compliance(w)) } else { (0.0, self.touching_stiffness()) }
+        match self.size_at_shift(shift) {
+            Ok(w) => (self.shape().load(w), 1.0 / self.shape().tangential_compliance(w)),
+            Err(slope) => (slope * shift.max(0.0), slope),
+        }
     }
 
     /// 1/K_t at first touch: 0 unless the contact has a flat.
@@ -439,10 +491,20 @@ impl Element {
 
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
+        let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
+        let [_, _, curvature, ..] = self.shape().series(w, Relation::LoadOfShift);
+        2.0 * curvature / (shift * shift)
+    }
+
+    /// The size at a shift outside the tables; below the smallest size, N/S as an error.
+    fn size_at_shift(&self, shift: f64) -> Result<f64, f64> {
         let shape = self.shape();
-        let w = shape.at_shift(shift);
-        let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
-        if w > 0.0 { 2.0 * curvature / (shift * shift) } else { 0.0 }
+        if shift <= 0.0 {
+            return Err(self.touching_stiffness());
+        }
+        let smallest = self.smallest_size();
+        let smallest_shift = shape.shift(smallest);
+        if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
     }
 
     /// M at a shift S >= 0.
@@ -452,11 +514,10 @@ impl Element {
                 let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(shift, at)
             }
-            None => {
-                let shape = self.shape();
-                let w = shape.at_shift(shift);
-                if w > 0.0 { shape.potential(w) } else { 0.0 }
-            }
+            None => match self.size_at_shift(shift) {
+                Ok(w) => self.shape().potential(w),
+                Err(slope) => 0.5 * slope * shift * shift,
+            },
         }
     }
 }
@@ -477,6 +538,8 @@ const EMPTY: Element = Element {
     per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
+    largest_shift: 0.0,
+    smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
     flat: RoundedFlat::EMPTY,

@@ -113,8 +113,8 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * contact_rate) * sign.signum();
     // Mean of N along the rest of the path.
-    let (width, largest) = (path.shift[1] - outer, outer.max(path.shift[1]));
-    let mean: f64 = match nodes_for(width.abs(), largest) {
+    let (width, low, high) = (path.shift[1] - outer, outer.min(path.shift[1]), outer.max(path.shift[1]));
+    let mean: f64 = match nodes_between(element, low, high) {
         Some(nodes) => nodes.map(|(node, part)| part * element.load_at_shift(outer + node * width).0).sum(),
         None => {
             let potential = |s: f64| element.potential_at_shift(s.max(0.0));
@@ -163,12 +163,14 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
     if width <= 0.0 {
         return 0.0;
     }
-    if let Some(nodes) = nodes_for(width, high) {
-        let integrand = |s: f64| weight(s) * element.curvature_at_shift(s);
+    if let Some(nodes) = nodes_between(element, low, high) {
+        // Rounding may make N'' of a nearly flat contact negative.
+        let integrand = |s: f64| weight(s) * element.curvature_at_shift(s).max(0.0);
         return width * nodes.map(|(node, part)| part * integrand(low + node * width)).sum::<f64>();
     }
     let (first, last) = (weight(low), weight(high));
-    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / (width * width) };
+    // width² may underflow.
+    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / width / width };
     let slope = (last - first) / width;
     let at = |s: f64, value: f64, slope: f64| {
         let (load, load_slope) = element.load_at_shift(s);
@@ -178,9 +180,10 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
     (at(high, last, slope + 0.5 * second * width) - at(low, first, slope - 0.5 * second * width)).max(0.0)
 }
 
-/// Nodes and weights for an integrand that is singular at S = 0 only, over an interval of the given width below (or above) a largest S;
-/// `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 for a quarter of the largest S and 62
-/// for a sixteenth: below the rounding of the sum.
-fn nodes_for(width: f64, largest: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
-    (width < 0.25 * largest).then(|| gauss_nodes(if width < 0.0625 * largest { 1 } else { 2 }))
+/// Nodes and weights for an integrand that is singular at S = 0, and beyond the largest size, where the compliance of a short contact
+/// vanishes; `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 if the interval is a quarter
+/// of the larger end or of the distance to the largest shift, and 62 if it is a sixteenth: below the rounding of the sum.
+fn nodes_between(element: &Element, low: f64, high: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
+    let (width, reach) = (high - low, high.min(element.largest_shift - low));
+    (width <= 0.25 * reach).then(|| gauss_nodes(if width < 0.0625 * reach { 1 } else { 2 }))
 }

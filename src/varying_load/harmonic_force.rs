@@ -318,10 +318,25 @@ fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
 }
 
 impl Workspace<'_> {
+    /// Checks a motion: all of a batch are checked before the first output is written.
+    ///
+    /// # Errors
+    /// Those of [`harmonic_force`].
+    pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+        check_coefficients(displacement)?;
+        let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
+        let mean = input.first().copied().unwrap_or(0.0);
+        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+            return Ok(());
+        }
+        self.press(element, tangential, input, false).map(|_| ())
+    }
+
     /// Evaluates the normal states of the samples.
     ///
     /// # Errors
-    /// `BadNormalForce`.
+    /// `BadNormalForce`, `LengthTooShort`.
     #[inline(always)]
     fn press(
         &mut self,
@@ -342,7 +357,7 @@ impl Workspace<'_> {
             open: false,
         };
         let rounding = if element.by_approach() {
-            motion.open = mean + swing <= 0.0;
+            motion.open = !element.is_closed(mean + swing);
             f64::MAX
         } else {
             NORMAL_FORCE_ROUNDING * (mean.abs() + swing)
@@ -359,7 +374,7 @@ impl Workspace<'_> {
             return Err(Error::BadNormalForce);
         }
         element.check_input(largest.max(0.0))?;
-        motion.open = largest <= 0.0;
+        motion.open = !element.is_closed(largest);
         if motion.open {
             return Ok(motion);
         }
@@ -367,8 +382,9 @@ impl Workspace<'_> {
             samples.input.fill(mean);
             samples.press_constantly(&element.normal(mean));
         } else {
-            if !element.by_approach() && least < 0.0 {
-                samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
+            if !element.is_closed(least) {
+                let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
+                samples.input.iter_mut().for_each(|input| *input = open(*input));
             }
             if with_slopes {
                 samples.press::<true>(element);
@@ -402,7 +418,7 @@ impl Workspace<'_> {
         }
         if !element.by_approach() && !motion.open {
             // Rounding below 0 counts as 0.
-            normal.copy_from_slice(input);
+            normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
         } else if motion.constant || motion.open {
             normal.fill(0.0);
             if let (Some(constant), false, Some(load)) = (normal.first_mut(), motion.open, samples.load.first()) {

@@ -143,7 +143,7 @@ fn step(
     [displacement, input]: [f64; 2],
     with_energy: bool,
 ) -> (Step, Point) {
-    if !(input > 0.0 && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
+    if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
     let normal = if input.to_bits() == from.input.to_bits() { from.normal } else { element.normal(input) };
@@ -169,12 +169,14 @@ fn opening_or_closing(
     with_energy: bool,
 ) -> (Step, Point) {
     let friction = element.friction_coefficient > 0.0;
-    let (was_closed, closed) = (from.normal.load > 0.0, input > 0.0);
+    let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };
     let to = Point { displacement, input, normal, error: 0.0 };
     // The straight path passes N = 0 at this fraction; with the force as input at its open end.
+    let start = if was_closed { from.input } else { from.input.min(0.0) };
+    let end = if closed { input } else { input.min(0.0) };
     let fraction = match (was_closed, closed) {
-        (true, false) | (false, true) if element.by_approach() => from.input / (from.input - input),
+        (true, false) | (false, true) if element.by_approach() => start / (start - end),
         (true, false) => 1.0,
         _ => 0.0,
     };
@@ -198,9 +200,9 @@ fn opening_or_closing(
         diagram::step(element, &mut touching, displacement, &normal);
     if touching.sticks && element.by_approach() {
         // The start of the path moves with its end.
-        let distance = input - from.input;
-        by_input += by_displacement * (displacement - from.displacement) * -from.input / (distance * distance);
-        by_displacement *= input / distance;
+        let distance = end - start;
+        by_input -= by_displacement * ((displacement - from.displacement) / distance) * (start / distance);
+        by_displacement *= end / distance;
     }
     step.force[0] = force;
     (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);

@@ -36,7 +36,7 @@ pub(super) fn row_blocks(harmonics: usize) -> usize {
 /// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
 /// `A(n) - A(m) = φ(m) + ... + φ(n-1)`.
 pub(super) fn fill_rows(rows: &mut [f64], antiderivatives: &mut [f64], harmonics: usize, samples: usize) {
-    let stride = 4 * row_blocks(harmonics);
+    let stride = (4 * row_blocks(harmonics)).max(4);
     for (n, row) in rows.chunks_exact_mut(stride).enumerate() {
         row.fill(0.0);
         for (c, value) in row.iter_mut().take(2 * harmonics + 1).enumerate() {

@@ -1,4 +1,4 @@
-//! The figures of the paper computed by the library, and a check of each of its claims.
+//! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
 //! - `paper` writes `docs/figures/data/*.csv` and the tables of claims in `docs/paper.md`;
 //! - `paper --check` compares both with what the library computes now.
@@ -7,6 +7,7 @@ mod cases;
 mod claims;
 mod drawings;
 mod equations;
+mod swing;
 mod table;
 
 use claims::Claim;
