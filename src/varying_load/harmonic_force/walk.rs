@@ -405,7 +405,7 @@ fn count_slip<const FORWARD: bool>(
     for ((&xi, &eta), place) in span.xi.iter().zip(span.eta).zip(places) {
         let [x, y] = mirrored::<FORWARD>(xi, eta);
         let cut = inner_y + ratio * (inner_x - x);
-        if count > 0 && !((x >= last) & (x < inner_x) & (cut <= y)) {
+        if count > 0 && (x < last || x >= inner_x || cut > y) {
             break;
         }
         *place = ((cut - x) * per_two_mu).max(0.0);
