@@ -359,37 +359,41 @@ impl Element {
         }
     }
 
-    /// The normal states at four inputs; open if not positive. Without slopes these are 0.
+    /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        if input.iter().all(|input| *input > 0.0) {
+            return self.four_closed::<SLOPES>(input);
+        }
+        // A closed contact in place of each open one.
         let substitute = self.of_input.smallest();
         let mut closed = *input;
         closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
-        let (value, slope) = match self.of_input.four::<SLOPES>(&closed) {
-            Some(values) => values,
-            None => self.four_outside(&closed),
-        };
-        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
-        let masked = |k: usize, value: f64| if input[k] > 0.0 { value } else { 0.0 };
-        let mut states = [[0.0; 4]; 4];
-        for k in 0..4 {
-            if self.by_approach() {
-                states[0][k] = masked(k, value[k]);
-                states[1][k] = masked(k, ratio * input[k] + per_load * value[k]);
-                if SLOPES {
-                    states[2][k] = masked(k, slope[k]);
-                    states[3][k] = masked(k, ratio + per_load * slope[k]);
-                }
-            } else {
-                states[0][k] = masked(k, input[k]);
-                states[1][k] = masked(k, value[k]);
-                if SLOPES {
-                    states[2][k] = masked(k, 1.0);
-                    states[3][k] = masked(k, slope[k]);
-                }
+        let mut states = self.four_closed::<SLOPES>(&closed);
+        for values in &mut states {
+            for (value, input) in values.iter_mut().zip(input) {
+                *value = if *input > 0.0 { *value } else { 0.0 };
             }
         }
         states
+    }
+
+    #[inline(always)]
+    fn four_closed<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        let (value, slope) = match self.of_input.four::<SLOPES>(input) {
+            Some(values) => values,
+            None => self.four_outside(input),
+        };
+        if !self.by_approach() {
+            return [*input, value, [1.0; 4], slope];
+        }
+        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
+        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            shift[k] = ratio * input[k] + per_load * value[k];
+            shift_slope[k] = ratio + per_load * slope[k];
+        }
+        [value, shift, slope, shift_slope]
     }
 
     #[inline(never)]
