@@ -51,7 +51,9 @@ impl Knot {
     pub fn slope_from(&self, inner: &Knot, friction_coefficient: f64) -> f64 {
         let (falling, rising) = (inner.xi - self.xi, self.eta - inner.eta);
         // Exactly ±mu in a slip zone, which is parallel to an axis.
-        if falling <= 0.0 {
+        if falling <= 0.0 && rising <= 0.0 {
+            0.0
+        } else if falling <= 0.0 {
             friction_coefficient
         } else if rising <= 0.0 {
             -friction_coefficient
@@ -89,12 +91,20 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
     let Normal { load, shift, load_slope, shift_slope } = *normal;
     let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
     let stiffness = normal.tangential_stiffness();
+    // Coulomb's bound, of which a sum of forces may be off by rounding.
+    let bounded = |force: f64| force.max(-mu * load).min(mu * load);
     let knot = |index: usize| knots.get(index).copied().map(Knot::from);
     let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
     let Some(inner) = kept.checked_sub(1).and_then(knot) else {
         let centre = knot(0).map_or(displacement, |centre| centre.xi);
-        let (sign, origin) = if centre <= xi { (mu, xi) } else { (-mu, eta) };
+        // Neither if the size is below the rounding of displacements.
+        let (forward, backward) = (centre <= xi, centre >= eta);
+        let (sign, origin) = match (forward, backward) {
+            (true, true) => (0.0, xi),
+            (true, false) => (mu, xi),
+            _ => (-mu, eta),
+        };
         let response = Response { force: sign * load, by_displacement: 0.0, by_input: sign * load_slope };
         let end = Knot { xi, eta, load, force: response.force };
         return Change { kept: 0, cut: None, end, centre: Some(Knot::centre(origin)), response };
@@ -107,37 +117,50 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
         // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
         // relative to the rise: the better one of both.
         let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) / mu;
-        let secant = if rise * rise * rise < 24.0 * f64::EPSILON * shift * shift * reach {
+        let share = rise / shift;
+        let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
             element.load_at_shift(shift - 0.5 * rise).1
         } else {
             (load - inner.load) / rise
         };
-        let force = inner.force + slope * (load - inner.load);
+        let force = bounded(inner.force + slope * (load - inner.load));
         let by_input = slope * (stiffness - secant) * shift_slope;
         let response = Response { force, by_displacement: secant, by_input };
         return Change { kept, cut: None, end: Knot { xi, eta, load, force }, centre: None, response };
     };
-    // The piece from `inner` to `outer` leaves the quadrant through one of its sides.
+    // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let forward = falling * to_eta >= rising * to_xi;
+    let (by_xi, by_eta) = (rising * to_xi, falling * to_eta);
+    let slope = outer.slope_from(&inner, mu);
+    if by_xi == by_eta {
+        // The contact recedes through the piece, or stays: nothing slips.
+        let stays = (outer.xi, outer.eta) == (xi, eta);
+        let force = bounded(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
+        let response = Response { force, by_displacement: stiffness, by_input: 0.0 };
+        return Change { kept, cut: None, end: Knot { xi, eta, load, force }, centre: None, response };
+    }
+    let forward = by_xi < by_eta;
     let (cut_xi, cut_eta, sign) = if forward {
         // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
         (xi, inner.eta + rising * (to_xi / falling), mu)
     } else {
         (inner.xi - falling * (to_eta / rising), eta, -mu)
     };
+    // A step to the same displacement changes nothing, to the bit.
+    let at_outer = if forward { outer.xi == xi } else { outer.eta == eta };
+    let cut_eta = if at_outer { outer.eta } else { cut_eta };
+    let cut_xi = if at_outer { outer.xi } else { cut_xi };
     let (cut_load, cut_stiffness) = element.load_at_shift((0.5 * (cut_eta - cut_xi) / mu).max(0.0));
-    let slope = outer.slope_from(&inner, mu);
-    let cut_force = inner.force + slope * (cut_load - inner.load);
-    let force = cut_force + sign * (load - cut_load);
+    let cut = if at_outer {
+        outer
+    } else {
+        let force = inner.force + slope * (cut_load - inner.load);
+        Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force }
+    };
+    let force = bounded(cut.force + sign * (load - cut.load));
     let response =
         Response { force, by_displacement: cut_stiffness, by_input: sign * (stiffness - cut_stiffness) * shift_slope };
-    Change {
-        kept,
-        cut: Some(Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force: cut_force }),
-        end: Knot { xi, eta, load, force },
-        centre: None,
-        response,
-    }
+    let cut = (cut.xi > xi || cut.eta < eta).then_some(cut);
+    Change { kept, cut, end: Knot { xi, eta, load, force }, centre: None, response }
 }

@@ -36,6 +36,9 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
     let contact_rate = end - start;
+    if contact_rate == 0.0 && path.displacement == 0.0 {
+        return 0.0;
+    }
     let mut energy = 0.0;
     // Fraction of the path, size of the contact, boundary of the slip zone, and its direction once there is slip.
     let (mut fraction, mut outer, mut inner) = (0.0, start, start);
@@ -48,6 +51,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         };
         let (below, above) = (Knot::from(below), Knot::from(above));
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
+        let rate = |sign: f64| (path.displacement - sign * contact_rate) / (slope - sign);
         let sign = match direction {
             Some(sign) => sign,
             None => {
@@ -59,17 +63,19 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
                 } else {
                     path.displacement - slope * contact_rate
                 };
-                if excess == 0.0 {
+                let sign = mu.copysign(excess);
+                // The edge of a slip zone is faster than the contact size, but for rounding.
+                let slips = excess != 0.0 && (slope == sign || contact_rate >= 0.0 || rate(sign) < contact_rate);
+                if !slips {
                     // The contact recedes through the piece without slip.
                     if end >= lowest {
                         return energy;
                     }
-                    fraction = (lowest - start) / contact_rate;
+                    fraction = ((lowest - start) / contact_rate).clamp(0.0, 1.0);
                     (outer, inner) = (lowest, lowest);
                     last -= 1;
                     continue;
                 }
-                let sign = mu.copysign(excess);
                 direction = Some(sign);
                 sign
             }
@@ -80,8 +86,11 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
             last -= 1;
             continue;
         }
-        let rate = ((path.displacement - sign * contact_rate) / (slope - sign)).min(0.0);
-        let to = |distance: f64, rate: f64| if rate < 0.0 { (distance / rate).max(0.0) } else { f64::INFINITY };
+        let rate = rate(sign).min(0.0);
+        // Fraction until a distance is covered, if that is within a step.
+        let to = |distance: f64, rate: f64| {
+            if rate < 0.0 && distance > rate { (distance / rate).max(0.0) } else { f64::INFINITY }
+        };
         let to_piece_end = to(lowest - inner, rate);
         let to_overtaking = to(inner - outer, contact_rate - rate);
         let step = to_piece_end.min(to_overtaking).min(1.0 - fraction);
@@ -120,7 +129,7 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     } else {
         (at(path.shift[1])[3] - at(outer)[3]) / width
     };
-    mu * slip.max(0.0) * (1.0 - fraction) * mean
+    mu * slip.max(0.0) * (1.0 - fraction) * mean.max(0.0)
 }
 
 impl Slip {
@@ -134,7 +143,7 @@ impl Slip {
         }
         let growth = outer_end - outer_start;
         let weight = |s: f64| {
-            let mut from = ((inner_start - s) / swept).max(0.0);
+            let mut from = (inner_start - s).max(0.0) / swept;
             let mut to: f64 = 1.0;
             if growth < 0.0 && s > outer_end {
                 to = (s - outer_start) / growth;
@@ -177,7 +186,7 @@ fn integral_between(element: &Element, low: f64, high: f64, weight: impl Fn(f64)
             .sum();
     }
     let (first, middle, last) = (weight(low), weight(low + 0.5 * width), weight(high));
-    let second = 4.0 * (first - 2.0 * middle + last) / (width * width);
+    let second = 4.0 * ((first - 2.0 * middle + last) / width) / width;
     let slope = (last - first) / width;
     let at = |s: f64, value: f64, slope: f64| {
         let [load, load_slope, _, potential] = element.potential_at_shift(s);

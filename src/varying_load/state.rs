@@ -159,7 +159,8 @@ pub(crate) fn update(
         let new = [Knot::centre(displacement); 3];
         return Ok(Update { step, header: header(0.0), kept: 0, new, count: 1, friction_coefficient });
     }
-    let closing = old.normal.load <= 0.0;
+    // Not by the load, which a tiny approach may round to 0.
+    let closing = old.input <= 0.0;
     let touch: [f64; PER_KNOT];
     let touching: [[f64; PER_KNOT]; 1];
     let (knots, start) = if closing {
@@ -176,7 +177,7 @@ pub(crate) fn update(
     if closing && change.kept > 0 && element.by_approach() {
         // The start of the path moves with its end.
         let distance = input - old.input;
-        by_input += by_displacement * (displacement - old.displacement) * -old.input / (distance * distance);
+        by_input += by_displacement * ((displacement - old.displacement) / distance) * (-old.input / distance);
         by_displacement *= input / distance;
     }
     let dissipated = if with_energy {
@@ -337,12 +338,17 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
         return Err(Error::BadState);
     }
-    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => next_xi <= xi && next_eta >= eta && outer >= inner,
-        _ => true,
-    };
     let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
         return Err(Error::BadState);
+    };
+    // A knot is located by ξ and η: its load has their rounding errors, relative to the size of the contact.
+    let rounding = 16.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) * load;
+    let (size, allowed) = (0.5 * (last_eta - last_xi), rounding.min(f64::MAX));
+    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+            next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+        }
+        _ => true,
     };
     let centred = xi == eta && *first == 0.0 && *last <= load;
     // A frictionless or an open contact is its centre.
