@@ -98,10 +98,11 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
     let Some(inner) = kept.checked_sub(1).and_then(knot) else {
         let centre = knot(0).map_or(displacement, |centre| centre.xi);
-        // Neither if the size is below the rounding of displacements.
+        // A size below the rounding of displacements keeps the direction of its slip.
+        let before = knots.last().map_or(0.0, |&[.., force]| force);
         let (forward, backward) = (centre <= xi, centre >= eta);
         let (sign, origin) = match (forward, backward) {
-            (true, true) => (0.0, xi),
+            (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
             (true, false) => (mu, xi),
             _ => (-mu, eta),
         };

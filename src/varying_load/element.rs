@@ -381,8 +381,22 @@ impl Element {
 
     #[inline(never)]
     fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
-        let [load, slope, ..] = self.potential_outside(shift);
-        (load, slope)
+        let shape = self.shape();
+        if shift <= 0.0 {
+            return (0.0, self.touching_stiffness());
+        }
+        if let Some(slope) = self.slope_below_smallest(shift) {
+            return (slope * shift, slope);
+        }
+        let w = shape.at_shift(shift);
+        (shape.load(w), 1.0 / shape.tangential_compliance(w))
+    }
+
+    /// N/S if the shift is below that of the smallest size.
+    fn slope_below_smallest(&self, shift: f64) -> Option<f64> {
+        let (shape, smallest) = (self.shape(), self.smallest_size());
+        let smallest_shift = shape.shift(smallest);
+        (shift < smallest_shift).then(|| shape.load(smallest) / smallest_shift)
     }
 
     /// 1/K_t at first touch: 0 unless the contact has a flat.
@@ -411,9 +425,7 @@ impl Element {
         if shift <= 0.0 {
             return [0.0, self.touching_stiffness(), 0.0, 0.0];
         }
-        let smallest = self.smallest_size();
-        if shift < shape.shift(smallest) {
-            let slope = shape.load(smallest) / shape.shift(smallest);
+        if let Some(slope) = self.slope_below_smallest(shift) {
             return [slope * shift, slope, 0.0, 0.5 * slope * shift * shift];
         }
         let w = shape.at_shift(shift);

@@ -231,11 +231,14 @@ impl Check<'_> {
         let rise = self.before.size.as_ref().map_or(size.shift.clone(), |before| &size.shift - &before.shift);
         let at_edge =
             |edge: &Size, rate: &Real| (family.curvature(edge) * &edge.tangential_compliance * &reach / rate).f64();
+        let motion = (&self.displacement - &self.before.displacement).abs();
+        // Of a rising load, unless all of it slips for sure.
+        let secant = rise.is_positive() && motion < &family.friction * &rise + &reach * (64.0 * f64::EPSILON);
         let condition = soft
+            + if secant { (&reach / &family.friction / rise).f64() } else { 0.0 }
             + match &step.edge {
                 Some((edge, rate)) => at_edge(edge, rate),
-                None if step.kind == Kind::GrossSlip => 0.0,
-                None if rise.is_positive() => (&reach / &family.friction / rise).f64(),
+                None if step.kind == Kind::GrossSlip || secant => 0.0,
                 None => at_edge(size, &family.friction),
             };
         let [exact, exact_by_input] = &step.tangent;

@@ -230,7 +230,7 @@ pub fn checked_history(element: &Element, kind: &str, steps: u64, rng: &mut Smal
             "{}",
             context(format!("in a short state {:?}, not {force:?}, error {error:?}", merged.force[0]))
         );
-        if number < 300 || rng.random_ratio(1, 256) {
+        if number < 20 || rng.random_ratio(1, 512) {
             ensure!(state::state_check(&state.0).is_ok(), "{}", context("the state is not valid".to_owned()));
             if kind != "tiny and giant" {
                 substeps(element, &before, &state, step, reach, rng).map_err(context)?;
