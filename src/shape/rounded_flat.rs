@@ -166,7 +166,8 @@ impl Shape for RoundedFlat {
         let punch = self.punch_at(w);
         let load = punch.load();
         let compliance = self.log_compliance(&punch, self.tangential_constant) + punch.gamma(load);
-        0.5 * (self.load_scale * load) * (self.load_scale * load) * self.compliance_scale * compliance
+        // The square of a small load would underflow.
+        0.5 * (self.load_scale * load) * (self.load_scale * load * self.compliance_scale * compliance)
     }
 
     fn normal_compliance(&self, w: f64) -> f64 {

@@ -277,11 +277,10 @@ impl Element {
         if normal_force > 0.0 { shape.half_width(shape.at_load(normal_force)) } else { 0.0 }
     }
 
-    /// The tangential shift S \[m\] under a normal force \[N\].
+    /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
     #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
-        let shape = self.shape();
-        shape.shift(shape.at_load(load))
+        if load > 0.0 { self.shift_of_load(load).0 } else { 0.0 }
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
@@ -432,13 +431,18 @@ impl Element {
         if self.by_approach() {
             return self.load_of_approach_outside(input);
         }
+        self.shift_of_load(input)
+    }
+
+    /// S(N) and its slope, from the shape.
+    fn shift_of_load(&self, load: f64) -> (f64, f64) {
         let shape = self.shape();
-        if input < SMALLEST_LOAD * self.normal_force {
+        if load < SMALLEST_LOAD * self.normal_force {
             let w = self.smallest_size();
             let slope = shape.shift(w) / shape.load(w);
-            return (slope * input, slope);
+            return (slope * load, slope);
         }
-        let w = shape.at_load(input);
+        let w = shape.at_load(load);
         (shape.shift(w), shape.tangential_compliance(w))
     }
 

@@ -37,6 +37,9 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
     let contact_rate = end - start;
+    if contact_rate == 0.0 && path.displacement == 0.0 {
+        return 0.0;
+    }
     let mut energy = 0.0;
     // Fraction of the path, size of the contact, boundary of the slip zone, and its direction once there is slip.
     let (mut fraction, mut outer, mut inner) = (0.0, start, start);
@@ -49,6 +52,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         };
         let (below, above) = (Knot::from(below), Knot::from(above));
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
+        let rate = |sign: f64| (path.displacement - sign * contact_rate) / (slope - sign);
         let sign = match direction {
             Some(sign) => sign,
             None => {
@@ -60,17 +64,19 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
                 } else {
                     path.displacement - slope * contact_rate
                 };
-                if excess == 0.0 {
+                let sign = mu.copysign(excess);
+                // The edge of a slip zone is faster than the contact size, but for rounding.
+                let slips = excess != 0.0 && (slope == sign || contact_rate >= 0.0 || rate(sign) < contact_rate);
+                if !slips {
                     // The contact recedes through the piece without slip, or rests; rounding may place a piece beyond its size.
                     if end >= lowest || contact_rate == 0.0 {
                         return energy;
                     }
-                    fraction = (lowest - start) / contact_rate;
+                    fraction = ((lowest - start) / contact_rate).clamp(0.0, 1.0);
                     (outer, inner) = (lowest, lowest);
                     last -= 1;
                     continue;
                 }
-                let sign = mu.copysign(excess);
                 direction = Some(sign);
                 sign
             }
@@ -81,8 +87,11 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
             last -= 1;
             continue;
         }
-        let rate = ((path.displacement - sign * contact_rate) / (slope - sign)).min(0.0);
-        let to = |distance: f64, rate: f64| if rate < 0.0 { (distance / rate).max(0.0) } else { f64::INFINITY };
+        let rate = rate(sign).min(0.0);
+        // Fraction until a distance is covered, if that is within a step.
+        let to = |distance: f64, rate: f64| {
+            if rate < 0.0 && distance > rate { (distance / rate).max(0.0) } else { f64::INFINITY }
+        };
         let to_piece_end = to(lowest - inner, rate);
         let to_overtaking = to(inner - outer, contact_rate - rate);
         let step = to_piece_end.min(to_overtaking).min(1.0 - fraction);
@@ -121,7 +130,7 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
             (potential(path.shift[1]) - potential(outer)) / width
         }
     };
-    mu * slip.max(0.0) * (1.0 - fraction) * mean
+    mu * slip.max(0.0) * (1.0 - fraction) * mean.max(0.0)
 }
 
 impl Slip {
@@ -135,7 +144,7 @@ impl Slip {
         }
         let growth = outer_end - outer_start;
         let weight = |s: f64| {
-            let mut from = ((inner_start - s) / swept).max(0.0);
+            let mut from = (inner_start - s).max(0.0) / swept;
             let mut to: f64 = 1.0;
             if growth < 0.0 && s > outer_end {
                 to = (s - outer_start) / growth;

@@ -30,7 +30,10 @@ pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) 
     for _ in 0..25 {
         let (share, range) = share_of_load(sampler);
         let load = share * element.normal_force;
-        let Ok(at_load) = element.approach_under(load) else { continue };
+        if element.check_normal_force(load).is_err() {
+            continue;
+        }
+        let at_load = element.approach_under(load);
         let place = || format!("{} N {load:e}", text(input));
         let family = &reference.family;
         let exact = family.find(Given::Load, &reference.real(load));
@@ -43,7 +46,10 @@ pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) 
         tally.check(("normal_half_width", kind, range), half_width, &exact.half_width, 0.0, place);
         // The same size by its approach.
         let approach = at_load.value;
-        let Ok(at_approach) = element.normal_force_at(approach) else { continue };
+        if element.check_approach(approach).is_err() {
+            continue;
+        }
+        let at_approach = element.normal_force_at(approach);
         let place = || format!("{} w {approach:e}", text(input));
         let exact = family.find(Given::Approach, &reference.real(approach));
         let condition = 1.0 / normal;
@@ -69,9 +75,9 @@ fn history(case: &ElementCase, sampler: &mut Sampler, steps: usize) -> (Vec<[f64
         5 => (4, "near-ties"),
         _ => (5, "beyond the tables"),
     };
-    let input_of = |load: f64| match element.approach_under(load) {
-        Ok(at_load) => Some(if by_force { load } else { at_load.value }),
-        Err(_) => None,
+    let input_of = |load: f64| {
+        let within = element.check_normal_force(load).is_ok();
+        within.then(|| if by_force { load } else { element.approach_under(load).value })
     };
     let top = sampler.power(-1.5, 0.5);
     let constant = sampler.between(0.05, 1.0);
@@ -231,11 +237,14 @@ impl Check<'_> {
         let rise = self.before.size.as_ref().map_or(size.shift.clone(), |before| &size.shift - &before.shift);
         let at_edge =
             |edge: &Size, rate: &Real| (family.curvature(edge) * &edge.tangential_compliance * &reach / rate).f64();
+        let motion = (&self.displacement - &self.before.displacement).abs();
+        // Of a rising load, unless all of it slips for sure.
+        let secant = rise.is_positive() && motion < &family.friction * &rise + &reach * (64.0 * f64::EPSILON);
         let condition = soft
+            + if secant { (&reach / &family.friction / rise).f64() } else { 0.0 }
             + match &step.edge {
                 Some((edge, rate)) => at_edge(edge, rate),
-                None if step.kind == Kind::GrossSlip => 0.0,
-                None if rise.is_positive() => (&reach / &family.friction / rise).f64(),
+                None if step.kind == Kind::GrossSlip || secant => 0.0,
                 None => at_edge(size, &family.friction),
             };
         let [exact, exact_by_input] = &step.tangent;
