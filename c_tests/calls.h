@@ -516,7 +516,10 @@ static inline double valid_value(int kind, size_t i, double slip_force)
     }
 }
 
-/* Valid arguments, each just before its protected page. Item i of a batch has contact i. */
+/* The kind of the first contact or element of each call. */
+static int first_kind;
+
+/* Valid arguments, each just before its protected page. Items have contacts or elements of three kinds by turns. */
 static inline void set_up(const function *f)
 {
     const int is_element = (f->takes & IS_ELEMENT) != 0;
@@ -530,7 +533,7 @@ static inline void set_up(const function *f)
     call.contacts = is_element ? NULL : laws;
     call.elements = is_element ? laws : NULL;
     for (size_t i = 0; i < items_of(f); ++i) {
-        set_law(f, i, (int)i % 3);
+        set_law(f, i, (first_kind + (int)i) % 3);
     }
     const double slip_force = is_element ? 0.0 : call.contacts->slip_force;
     for (size_t i = 0; i < ITEMS; ++i) {

@@ -61,8 +61,8 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
                     path.displacement - slope * contact_rate
                 };
                 if excess == 0.0 {
-                    // The contact recedes through the piece without slip.
-                    if end >= lowest {
+                    // The contact recedes through the piece without slip, or rests; rounding may place a piece beyond its size.
+                    if end >= lowest || contact_rate == 0.0 {
                         return energy;
                     }
                     fraction = (lowest - start) / contact_rate;
