@@ -136,7 +136,7 @@ void task_element(const test_case *c, const extent *x)
             const int harmonics = x->order[o], samples = harmonics < 5 ? 64 : harmonics < 9 ? 128 : 256;
             add_harmonic(&element, &slider, shift, motion, harmonics, samples);
         }
-        job j = { .element = &element, .slider = &slider, .state_length = mslip_element_state_length(1, 64) };
+        job j = { .element = &element, .slider = &slider, .state_length = mslip_element_state_length(1, STEPS) };
         j.state = allocate(j.state_length * sizeof *j.state);
         double displacement[6];
         motion_in(&element, shift, motion, 1, displacement);

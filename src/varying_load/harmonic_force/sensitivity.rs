@@ -207,6 +207,12 @@ struct Term {
     derivatives: [f64; 2],
 }
 
+/// 1/width of a stuck piece: S rises, or rounding made two values equal.
+#[inline(always)]
+fn inverse(width: f64) -> f64 {
+    1.0 / width.max(1e-300)
+}
+
 /// The motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'c> {
@@ -233,7 +239,7 @@ impl Context<'_> {
         } else {
             [at(samples.shift, before), at(samples.load, before), at(samples.stiffness, before)]
         };
-        Ends { shift, load, stiffness, inverse_width: 1.0 / (at(samples.shift, sample) - shift) }
+        Ends { shift, load, stiffness, inverse_width: inverse(at(samples.shift, sample) - shift) }
     }
 }
 
@@ -352,7 +358,7 @@ impl Sensitivity<'_> {
             let sample = run.first + step;
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
-            inner.inverse_width = 1.0 / (shift - inner.shift);
+            inner.inverse_width = inverse(shift - inner.shift);
             let weights = inner.weights_to(shift, load, stiffness);
             let piece = Piece { made, sample, weights, since: now + step, inner_stiffness: 0.0, stored: false };
             self.push(depth, &piece);
