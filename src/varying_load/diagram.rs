@@ -115,10 +115,10 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
         let (falling, rising) = (inner.xi - xi, eta - inner.eta);
         let slope = mu * ((rising - falling) / (rising + falling));
         let rise = 0.5 * (rising + falling) / mu;
-        // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
-        // relative to the rise: the better one of both.
+        // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
+        // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
         let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) / mu;
-        let share = rise / shift;
+        let share = rise / shift.min(element.largest_shift - shift).max(rise);
         let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
             element.load_at_shift(shift - 0.5 * rise).1
         } else {
@@ -132,22 +132,20 @@ pub(crate) fn step(element: &Element, knots: &[[f64; 4]], displacement: f64, nor
     // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let (by_xi, by_eta) = (rising * to_xi, falling * to_eta);
+    // Shares of the piece up to both sides; beyond its end if one is not reached.
+    let share = |distance: f64, length: f64| if length >= distance { distance / length } else { 2.0 };
+    let (to_side, to_other) = (share(to_xi, falling), share(to_eta, rising));
     let slope = outer.slope_from(&inner, mu);
-    if by_xi == by_eta {
+    if to_side == to_other {
         // The contact recedes through the piece, or stays: nothing slips.
         let stays = (outer.xi, outer.eta) == (xi, eta);
         let force = bounded(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
         let response = Response { force, by_displacement: stiffness, by_input: 0.0 };
         return Change { kept, cut: None, end: Knot { xi, eta, load, force }, centre: None, response };
     }
-    let forward = by_xi < by_eta;
-    let (cut_xi, cut_eta, sign) = if forward {
-        // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
-        (xi, inner.eta + rising * (to_xi / falling), mu)
-    } else {
-        (inner.xi - falling * (to_eta / rising), eta, -mu)
-    };
+    let forward = to_side < to_other;
+    let (cut_xi, cut_eta, sign) =
+        if forward { (xi, inner.eta + rising * to_side, mu) } else { (inner.xi - falling * to_other, eta, -mu) };
     // A step to the same displacement changes nothing, to the bit.
     let at_outer = if forward { outer.xi == xi } else { outer.eta == eta };
     let cut_eta = if at_outer { outer.eta } else { cut_eta };
