@@ -122,11 +122,11 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         let per_shift = 1.0 / (rising + falling);
         let slope = mu * ((rising - falling) * per_shift);
         let rise = element.per_two_mu * (rising + falling);
-        // The secant stiffness is the slope in the middle of the piece up to (rise/S)²/24, and a difference whose rounding errors are
-        // relative to the rise: the better one of both.
+        // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
+        // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
         let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
-        let ratio = rise / shift;
-        let secant = if ratio * ratio * rise < 24.0 * f64::EPSILON * reach {
+        let share = rise / shift.min(element.largest_shift - shift).max(rise);
+        let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
             element.load_at_shift(shift - 0.5 * rise).1
         } else {
             (load - inner.load) * (2.0 * mu * per_shift)
@@ -139,20 +139,24 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let (by_xi, by_eta) = (rising * to_xi, falling * to_eta);
+    let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
+        (true, true) => shares([to_xi, to_eta], [falling, rising]),
+        // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
+        (true, false) => [0.0, BEYOND],
+        _ => [BEYOND, 0.0],
+    };
     let slope = outer.slope_from(&inner, mu);
-    if by_xi == by_eta {
+    if to_side == to_other {
         // The contact recedes through the piece, or stays: nothing slips.
         let stays = (outer.xi, outer.eta) == (xi, eta);
         let end = end(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
         diagram.replace(kept, &[end]);
         return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
     }
-    let (cut_xi, cut_eta, sign) = if by_xi < by_eta {
-        // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
-        (xi, inner.eta + along(to_xi, falling, rising), mu)
+    let (cut_xi, cut_eta, sign) = if to_side < to_other {
+        (xi, inner.eta + rising * to_side, mu)
     } else {
-        (inner.xi - along(to_eta, rising, falling), eta, -mu)
+        (inner.xi - falling * to_other, eta, -mu)
     };
     // A step to the same displacement changes nothing, to the bit.
     let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
@@ -174,13 +178,12 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     Response { force: end.force, by_displacement: cut_stiffness, by_input }
 }
 
-/// The other coordinate along a piece that covers `whole` and `other`, at a part of the first one. A slip zone, the common case, covers
-/// nothing in the other one, and there the table that follows need not wait for a division.
-#[inline(always)]
-fn along(part: f64, whole: f64, other: f64) -> f64 {
-    #[cold]
-    fn proportion(part: f64, whole: f64, other: f64) -> f64 {
-        other * (part / whole)
-    }
-    if other > 0.0 { proportion(part, whole, other) } else { 0.0 }
+/// Beyond the end of a piece.
+const BEYOND: f64 = 2.0;
+
+/// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
+#[cold]
+fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
+    let share = |distance: f64, length: f64| if length >= distance { distance / length } else { BEYOND };
+    [share(distances[0], lengths[0]), share(distances[1], lengths[1])]
 }
