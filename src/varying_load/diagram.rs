@@ -77,7 +77,7 @@ pub(crate) trait Diagram {
     fn knots(&self) -> &[[f64; 4]];
 
     /// Keeps the given number of knots from the centre outwards, and appends others.
-    fn replace(&mut self, kept: usize, new: &[Knot]);
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]);
 }
 
 /// A diagram that is read only: its changes are discarded.
@@ -88,7 +88,7 @@ impl Diagram for &[[f64; 4]] {
     }
 
     #[inline(always)]
-    fn replace(&mut self, _: usize, _: &[Knot]) {}
+    fn replace<const N: usize>(&mut self, _: usize, _: [Knot; N]) {}
 }
 
 /// The step to a closed contact with the given normal state at the displacement u.
@@ -98,7 +98,8 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     let Normal { load, shift, load_slope, shift_slope } = *normal;
     let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
     // Coulomb's bound, of which a sum of forces may be off by rounding.
-    let end = |force: f64| Knot { xi, eta, load, force: force.max(-mu * load).min(mu * load) };
+    let bounded = |force: f64, bound: f64| if force > bound { bound } else { force };
+    let end = |force: f64| Knot { xi, eta, load, force: -bounded(-bounded(force, mu * load), mu * load) };
     let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
     let knots = diagram.knots();
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
@@ -113,7 +114,7 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
             _ => (-mu, eta),
         };
         let force = sign * load;
-        diagram.replace(0, &[Knot::centre(origin), Knot { xi, eta, load, force }]);
+        diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
         return Response { force, by_displacement: 0.0, by_input: sign * load_slope };
     };
     let Some(outer) = beyond.first().copied().map(Knot::from) else {
@@ -132,7 +133,7 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
             (load - inner.load) * (2.0 * mu * per_shift)
         };
         let end = end(inner.force + slope * (load - inner.load));
-        diagram.replace(kept, &[end]);
+        diagram.replace(kept, [end]);
         let by_input = slope * (load_slope - secant * shift_slope);
         return Response { force: end.force, by_displacement: secant, by_input };
     };
@@ -150,7 +151,7 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         // The contact recedes through the piece, or stays: nothing slips.
         let stays = (outer.xi, outer.eta) == (xi, eta);
         let end = end(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
-        diagram.replace(kept, &[end]);
+        diagram.replace(kept, [end]);
         return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
     }
     let (cut_xi, cut_eta, sign) = if to_side < to_other {
@@ -170,9 +171,9 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     };
     let end = end(cut.force + sign * (load - cut.load));
     if cut.xi > xi || cut.eta < eta {
-        diagram.replace(kept, &[cut, end]);
+        diagram.replace(kept, [cut, end]);
     } else {
-        diagram.replace(kept, &[end]);
+        diagram.replace(kept, [end]);
     }
     let by_input = sign * (load_slope - cut_stiffness * shift_slope);
     Response { force: end.force, by_displacement: cut_stiffness, by_input }
@@ -183,6 +184,7 @@ const BEYOND: f64 = 2.0;
 
 /// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
 #[cold]
+#[inline(never)]
 fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
     let share = |distance: f64, length: f64| if length >= distance { distance / length } else { BEYOND };
     [share(distances[0], lengths[0]), share(distances[1], lengths[1])]

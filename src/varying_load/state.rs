@@ -187,7 +187,7 @@ fn opening_or_closing(
             let path = Path { shift: [from.normal.shift, 0.0], displacement: crossing - from.displacement };
             step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
-        diagram.replace(0, &[Knot::centre(displacement)]);
+        diagram.replace(0, [Knot::centre(displacement)]);
         return (step, to);
     }
     let centre = Knot::centre(crossing);
@@ -222,10 +222,10 @@ impl<D: Diagram> Diagram for Touching<'_, D> {
         &self.knots
     }
 
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.sticks = kept > 0;
-        match new {
-            [end] if self.sticks => self.diagram.replace(0, &[self.knots[0].into(), *end]),
+        match new[..] {
+            [end] if self.sticks => self.diagram.replace(0, [self.knots[0].into(), end]),
             _ => self.diagram.replace(0, new),
         }
     }
@@ -279,15 +279,15 @@ impl Diagram for Polygon<'_> {
     }
 
     #[inline(always)]
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.anew = kept == 0;
         self.used = kept;
-        match self.knots.get_mut(kept..kept + new.len()) {
+        match self.knots.get_mut(kept..).and_then(<[_]>::first_chunk_mut) {
             Some(places) => {
-                places.iter_mut().zip(new).for_each(|(place, knot)| *place = (*knot).into());
-                self.used += new.len();
+                *places = new.map(Into::into);
+                self.used += N;
             }
-            None => new.iter().for_each(|knot| self.push(*knot)),
+            None => new.into_iter().for_each(|knot| self.push(knot)),
         }
     }
 }

@@ -13,7 +13,7 @@ struct Polygon<'a> {
 }
 
 impl Polygon<'_> {
-    fn restart(&mut self, knots: &[Knot]) {
+    fn restart<const N: usize>(&mut self, knots: [Knot; N]) {
         self.replace(0, knots);
     }
 }
@@ -23,11 +23,11 @@ impl Diagram for Polygon<'_> {
         self.knots.get(..self.count).unwrap_or(self.knots)
     }
 
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.count = kept;
         for knot in new {
             if let Some(place) = self.knots.get_mut(self.count) {
-                *place = (*knot).into();
+                *place = knot.into();
                 self.count += 1;
             }
         }
@@ -50,14 +50,18 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
     let mut diagram = Polygon { knots, count: 0 };
     let [xi, eta] = [at(samples.xi, part.start), at(samples.eta, part.start)];
     if part.opens {
-        diagram.restart(&[Knot::centre(at(samples.displacement, part.start))]);
+        diagram.restart([Knot::centre(at(samples.displacement, part.start))]);
     } else {
         // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
         let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
         let (load, _) = element.load_at_shift(shift_without_slip.max(0.0));
         let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
         let knots = [CENTRE, core];
-        diagram.restart(knots.get(..if shift_without_slip > 0.0 { 2 } else { 1 }).unwrap_or(&knots));
+        if shift_without_slip > 0.0 {
+            diagram.restart(knots);
+        } else {
+            diagram.restart([knots[0]]);
+        }
         diagram::step(element, &mut diagram, at(samples.displacement, part.start), &normal(part.start));
     }
     // All steps of the part, the one to its first sample (or its counterpart half a period later) last.
@@ -75,12 +79,12 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
                 let path = Path { shift: [shift_before, 0.0], displacement: end - start };
                 energy += dissipated(element, diagram.knots(), &path);
             }
-            diagram.restart(&[Knot::centre(displacement)]);
+            diagram.restart([Knot::centre(displacement)]);
             continue;
         }
         let start = if was_open {
             let start = closing(samples, element.by_approach(), sample).displacement;
-            diagram.restart(&[Knot::centre(start)]);
+            diagram.restart([Knot::centre(start)]);
             start
         } else {
             at(samples.displacement, before)
