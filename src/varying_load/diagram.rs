@@ -119,8 +119,8 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     // The piece from `inner` to `outer` leaves the quadrant through one of its sides.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let (cut_xi, cut_eta, sign) = if falling * to_eta >= rising * to_xi {
-        // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
+    let (cut_xi, cut_eta, sign) = if falling > 0.0 && falling * to_eta >= rising * to_xi {
+        // ξ = ξ1 is reached first. One of both is positive because the outer knot is beyond; the products may underflow.
         (xi, inner.eta + along(to_xi, falling, rising), mu)
     } else {
         (inner.xi - along(to_eta, rising, falling), eta, -mu)

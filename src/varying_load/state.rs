@@ -393,8 +393,12 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
         return Err(Error::BadState);
     }
+    // The load of a knot is computed from its size; neighbouring ones may be equal.
+    let rounding = 1e-12 * load;
     let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => next_xi <= xi && next_eta >= eta && outer >= inner,
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+            next_xi <= xi && next_eta >= eta && *outer >= inner - rounding
+        }
         _ => true,
     };
     let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
@@ -457,9 +461,11 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     Ok(())
 }
 
-/// As [`path`], from a copy of the state that holds at most 256 pieces exactly.
+/// As [`path`], from a copy of the state of the same length, but for at most 256 pieces.
 pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
     let mut buffer = [0.0; state_length(PIECES_OF_COPY)];
-    copy(element, state, &mut buffer);
-    path(element, &mut buffer, steps, output)
+    let length = state.len().min(buffer.len());
+    let buffer = buffer.get_mut(..length).ok_or(Error::StateTooShort)?;
+    copy(element, state, buffer);
+    path(element, buffer, steps, output)
 }
