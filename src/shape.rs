@@ -57,9 +57,6 @@ pub trait Shape {
     /// The largest size for which the laws hold.
     fn largest_size(&self) -> f64;
 
-    /// The largest size up to which tables of the laws are accurate; the laws hold beyond.
-    fn largest_tabulated_size(&self) -> f64;
-
     /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry; 0 outside the contact. For an ellipse on
     /// the x axis.
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64;

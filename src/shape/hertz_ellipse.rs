@@ -132,10 +132,6 @@ impl Shape for HertzEllipse {
         self.semi_axis_x * by_load.min((largest / (compliance * self.normal_force)).sqrt())
     }
 
-    fn largest_tabulated_size(&self) -> f64 {
-        f64::INFINITY
-    }
-
     /// Differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, which is the pressure of the size s.
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
         // The squares of distant points are not representable.

@@ -23,9 +23,6 @@ use core::f64::consts::{LN_2, PI};
 
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
-/// Smallest K of tables: there the series of their pieces, which converge up to K = 0, have errors of rounding size.
-const SMALLEST_TABULATED_COMPLIANCE: f64 = 0.75;
-
 /// A flat with rounded edges pressed on a flat.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundedFlat {
@@ -107,14 +104,6 @@ impl RoundedFlat {
         RoundedPunch::new(self.flat, w)
     }
 
-    /// The size at which the smaller one of both K is this.
-    fn size_of_compliance(&self, compliance: f64) -> f64 {
-        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
-        let half_width = 2.0 * self.length * (constant - compliance).exp();
-        let (less, more) = (half_width - self.flat, half_width + self.flat);
-        less.signum() * (less.abs() * more).sqrt()
-    }
-
     /// `ln(2L/s) + constant`.
     fn log_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
         (2.0 * self.length / punch.half_width.max(TINY)).ln() + constant
@@ -177,7 +166,8 @@ impl Shape for RoundedFlat {
         let punch = self.punch_at(w);
         let load = punch.load();
         let compliance = self.log_compliance(&punch, self.tangential_constant) + punch.gamma(load);
-        0.5 * (self.load_scale * load) * (self.load_scale * load) * self.compliance_scale * compliance
+        // The square of a small load would underflow.
+        0.5 * (self.load_scale * load) * (self.load_scale * load * self.compliance_scale * compliance)
     }
 
     fn normal_compliance(&self, w: f64) -> f64 {
@@ -202,11 +192,10 @@ impl Shape for RoundedFlat {
 
     /// The half-width at which the smaller one of both K is 1/16; both vanish near s = 2L. Negative if that is less than a.
     fn largest_size(&self) -> f64 {
-        self.size_of_compliance(SMALLEST_COMPLIANCE)
-    }
-
-    fn largest_tabulated_size(&self) -> f64 {
-        self.size_of_compliance(SMALLEST_TABULATED_COMPLIANCE)
+        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
+        let half_width = 2.0 * self.length * (constant - SMALLEST_COMPLIANCE).exp();
+        let (less, more) = (half_width - self.flat, half_width + self.flat);
+        less.signum() * (less.abs() * more).sqrt()
     }
 
     /// Eq. 17 between two sizes: `dp = E* ψ w dw/(πR sqrt(s² - x²))`, with lengths in units of the larger half-width.

@@ -76,6 +76,11 @@ impl Layout {
         4 * row_blocks(self.0.harmonics) * self.0.samples
     }
 
+    /// Doubles of the pairs of functions of all samples.
+    fn pairs_length(&self) -> usize {
+        4 * row_blocks(self.0.harmonics) * sample_length(self.0.samples)
+    }
+
     /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
     fn capacity(&self) -> usize {
         self.0.samples + 4
@@ -110,11 +115,12 @@ impl WorkspaceLayout for Layout {
         let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
-            + folded_fourier::scratch_length(samples)
+            + folded_fourier::scratch_length(samples, 2 * harmonics)
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
-            + 3 * self.rows_length()
+            + 2 * self.rows_length()
+            + self.pairs_length()
             + 4 * row_blocks(harmonics)
             + jacobian::memory_length(harmonics)
     }
@@ -186,9 +192,9 @@ impl<'a> Workspace<'a> {
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
         let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
         let gathered = [blocks(layout.pieces_length())?, blocks(layout.pieces_length())?];
-        let touched_rows = blocks(layout.rows_length())?;
         let (by_displacement, by_input) = (blocks(layout.rows_length())?, blocks(layout.rows_length())?);
         let covered = blocks(4 * row_blocks(harmonics))?;
+        let touched_pairs = parts.take(layout.pairs_length())?.as_chunks_mut().0;
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity {
             row_blocks: row_blocks(harmonics),
@@ -198,7 +204,7 @@ impl<'a> Workspace<'a> {
             gathered,
             places,
             touched: 0,
-            touched_rows,
+            touched_pairs,
             covered,
             by_displacement,
             by_input,

@@ -393,16 +393,17 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
         return Err(Error::BadState);
     }
-    // The load of a knot is computed from its size; neighbouring ones may be equal.
-    let rounding = 1e-12 * load;
-    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
-            next_xi <= xi && next_eta >= eta && *outer >= inner - rounding
-        }
-        _ => true,
-    };
     let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
         return Err(Error::BadState);
+    };
+    // A knot is located by ξ and η: its load has their rounding errors, relative to the size of the contact.
+    let rounding = 16.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) * load;
+    let (size, allowed) = (0.5 * (last_eta - last_xi), rounding.min(f64::MAX));
+    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+            next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+        }
+        _ => true,
     };
     let centred = xi == eta && *first == 0.0 && *last <= load;
     // A frictionless or an open contact is its centre.

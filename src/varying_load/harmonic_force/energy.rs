@@ -34,6 +34,9 @@ impl Diagram for Polygon<'_> {
     }
 }
 
+/// The centre at no displacement.
+const CENTRE: Knot = Knot::centre(0.0);
+
 /// Energy \[J\] dissipated in the steps of a part of a period, from the sample at which it starts.
 #[inline(never)]
 pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, knots: &mut [[f64; 4]]) -> f64 {
@@ -46,18 +49,16 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
     };
     let mut diagram = Polygon { knots, count: 0 };
     let [xi, eta] = [at(samples.xi, part.start), at(samples.eta, part.start)];
-    if !part.opens {
-        let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
-        let (load, _) = element.load_at_shift(shift_without_slip);
-        let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
-        // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
-        diagram.restart(&[Knot::centre(0.0), core]);
-        if shift_without_slip == 0.0 {
-            diagram.restart(&[Knot::centre(0.0)]);
-        }
-        diagram::step(element, &mut diagram, at(samples.displacement, part.start), &normal(part.start));
-    } else {
+    if part.opens {
         diagram.restart(&[Knot::centre(at(samples.displacement, part.start))]);
+    } else {
+        // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
+        let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
+        let (load, _) = element.load_at_shift(shift_without_slip.max(0.0));
+        let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
+        let knots = [CENTRE, core];
+        diagram.restart(knots.get(..if shift_without_slip > 0.0 { 2 } else { 1 }).unwrap_or(&knots));
+        diagram::step(element, &mut diagram, at(samples.displacement, part.start), &normal(part.start));
     }
     // All steps of the part, the one to its first sample (or its counterpart half a period later) last.
     let [first, second] = ranges(&Part { start: part.start + 1, ..*part }, samples.count);

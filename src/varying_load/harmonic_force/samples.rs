@@ -1,5 +1,6 @@
 //! Normal states and characteristic coordinates of the samples.
 
+use crate::hbm::folded_fourier::continue_periodically;
 use crate::varying_load::element::{Element, Normal};
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -104,6 +105,8 @@ impl Samples<'_> {
                 }
             }
         }
+        // The same bits: arguments outside the tables are evaluated differently in company.
+        continue_periodically(self.shift, self.count);
     }
 
     /// Characteristic coordinates, and the part of the period to evaluate.

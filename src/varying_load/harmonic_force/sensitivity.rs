@@ -27,9 +27,10 @@ use core::f64::consts::PI;
 /// Doubles of a piece in the workspace.
 pub(super) const PIECE: usize = 4;
 
-/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
+/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...: 1, 3, 5, for which the loops are compiled separately, or more.
 pub(super) fn row_blocks(harmonics: usize) -> usize {
-    (2 * harmonics + 1).div_ceil(4)
+    let blocks = (2 * harmonics + 1).div_ceil(4);
+    if blocks <= 5 { blocks | 1 } else { blocks }
 }
 
 /// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
@@ -144,47 +145,72 @@ pub(super) struct Sensitivity<'a> {
     /// Sums of φ times both weights of each piece, and a row for the sums of a piece that was never cut.
     pub gathered: [&'a mut Blocks; 2],
     pub covered: &'a mut Blocks,
-    /// Place of each sample in the following, or -1; rows φ of these samples, and rows Y by u and by the input.
+    /// Place of each sample in the following, or -1; φ of these samples, for each pair of functions; rows Y by u and by the input.
     pub places: &'a mut [f64],
     pub touched: usize,
-    pub touched_rows: &'a mut Blocks,
+    pub touched_pairs: &'a mut [[f64; 2]],
     pub by_displacement: &'a mut Blocks,
     pub by_input: &'a mut Blocks,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
     pub own: [&'a mut [f64]; 2],
 }
 
-/// A row of an array of rows.
+/// A row of an array of rows; N is their length if it is known to the compiler, otherwise 0.
 #[inline(always)]
-fn row_of(blocks: &Blocks, index: usize, length: usize) -> &Blocks {
-    blocks.get(index * length..).and_then(|rows| rows.get(..length)).unwrap_or(&[])
+fn row_of<const N: usize>(blocks: &Blocks, index: usize, length: usize) -> Option<&Blocks> {
+    if N > 0 {
+        let row: &[[f64; 4]; N] = blocks.get(index * N..)?.first_chunk()?;
+        Some(row)
+    } else {
+        blocks.get(index * length..)?.get(..length)
+    }
 }
 
 #[inline(always)]
-fn row_of_mut(blocks: &mut Blocks, index: usize, length: usize) -> &mut Blocks {
-    blocks.get_mut(index * length..).and_then(|rows| rows.get_mut(..length)).unwrap_or(&mut [])
+fn row_of_mut<const N: usize>(blocks: &mut Blocks, index: usize, length: usize) -> Option<&mut Blocks> {
+    if N > 0 {
+        let row: &mut [[f64; 4]; N] = blocks.get_mut(index * N..)?.first_chunk_mut()?;
+        Some(row)
+    } else {
+        blocks.get_mut(index * length..)?.get_mut(..length)
+    }
+}
+
+/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
+/// not combine them in a vector.
+#[inline(always)]
+pub(super) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
+    let ([a, b, c, d], [e, f, g, h]) = (target, row);
+    [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
 }
 
 #[inline(always)]
 fn add_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
     for (target, row) in target.iter_mut().zip(row) {
-        for k in 0..4 {
-            target[k] += scale * row[k];
-        }
+        *target = plus(*target, scale, *row);
     }
 }
 
-/// The sum of φ over `count` samples, from A behind and before them.
 #[inline(always)]
-fn sum_between(target: &mut Blocks, to: &Blocks, from: &Blocks, count: usize) {
-    for ((target, to), from) in target.iter_mut().zip(to).zip(from) {
-        for k in 0..4 {
-            target[k] = to[k] - from[k];
-        }
+fn set_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
+    for (target, row) in target.iter_mut().zip(row) {
+        let [a, b, c, d] = *row;
+        *target = [scale * a, scale * b, scale * c, scale * d];
     }
-    if let Some([constant, ..]) = target.first_mut() {
-        *constant = count as f64;
-    }
+}
+
+/// A part of the derivative of a piece: a sample, factors of the sums of both parts, and derivatives by u and by the input.
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    sample: usize,
+    factors: [f64; 2],
+    derivatives: [f64; 2],
+}
+
+/// 1/width of a stuck piece: S rises, or rounding made two values equal.
+#[inline(always)]
+fn inverse(width: f64) -> f64 {
+    1.0 / width.max(1e-300)
 }
 
 /// The motion.
@@ -213,7 +239,7 @@ impl Context<'_> {
         } else {
             [at(samples.shift, before), at(samples.load, before), at(samples.stiffness, before)]
         };
-        Ends { shift, load, stiffness, inverse_width: 1.0 / (at(samples.shift, sample) - shift) }
+        Ends { shift, load, stiffness, inverse_width: inverse(at(samples.shift, sample) - shift) }
     }
 }
 
@@ -221,6 +247,16 @@ impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(always)]
     pub fn gather(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: Runs) {
+        match self.row_blocks {
+            1 => self.gather_rows::<1>(context, tractions, cut_shift, runs),
+            3 => self.gather_rows::<3>(context, tractions, cut_shift, runs),
+            5 => self.gather_rows::<5>(context, tractions, cut_shift, runs),
+            _ => self.gather_rows::<0>(context, tractions, cut_shift, runs),
+        }
+    }
+
+    #[inline(always)]
+    fn gather_rows<const N: usize>(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: Runs) {
         let Context { element, samples, .. } = *context;
         self.places.fill(-1.0);
         self.touched = 0;
@@ -237,7 +273,7 @@ impl Sensitivity<'_> {
             };
             while depth > kept {
                 depth -= 1;
-                self.remove(context, tractions, depth, now);
+                self.remove::<N>(context, tractions, depth, now);
             }
             let [by_u, by_input] = &mut self.own;
             let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
@@ -287,7 +323,7 @@ impl Sensitivity<'_> {
                     if depth < run.kept {
                         self.push(&mut depth, &Piece { made: Made::Never, ..line });
                     }
-                    self.cut(context, depth.saturating_sub(1), now, &run, &cuts);
+                    self.cut::<N>(context, depth.saturating_sub(1), now, &run, &cuts);
                     let cut = cuts.stiffnesses.last().copied().unwrap_or(0.0);
                     self.push(
                         &mut depth,
@@ -299,7 +335,7 @@ impl Sensitivity<'_> {
         }
         while depth > 0 {
             depth -= 1;
-            self.remove(context, tractions, depth, now);
+            self.remove::<N>(context, tractions, depth, now);
         }
     }
 
@@ -322,7 +358,7 @@ impl Sensitivity<'_> {
             let sample = run.first + step;
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
-            inner.inverse_width = 1.0 / (shift - inner.shift);
+            inner.inverse_width = inverse(shift - inner.shift);
             let weights = inner.weights_to(shift, load, stiffness);
             let piece = Piece { made, sample, weights, since: now + step, inner_stiffness: 0.0, stored: false };
             self.push(depth, &piece);
@@ -331,20 +367,38 @@ impl Sensitivity<'_> {
         }
     }
 
+    /// The sum of φ over the samples from `since` up to `now`, in `covered`.
+    #[inline(always)]
+    fn sum_covered<const N: usize>(&mut self, context: &Context, since: usize, now: usize) {
+        let length = self.row_blocks;
+        let to = row_of::<N>(self.antiderivatives, context.sample_at(now), length);
+        let from = row_of::<N>(self.antiderivatives, context.sample_at(since), length);
+        let covered = row_of_mut::<N>(self.covered, 0, length);
+        let (Some(to), Some(from), Some(covered)) = (to, from, covered) else { return };
+        for ((covered, to), from) in covered.iter_mut().zip(to).zip(from) {
+            let ([a, b, c, d], [e, f, g, h]) = (*to, *from);
+            *covered = [a - e, b - f, c - g, d - h];
+        }
+        if let Some([constant, ..]) = covered.first_mut() {
+            *constant = (now - since) as f64;
+        }
+    }
+
     /// Adds the sums from `since` up to `now` with constant weights to those of a piece that is cut.
     #[inline(always)]
-    fn gather_covered(&mut self, context: &Context, index: usize, piece: &mut Piece, now: usize) {
-        let length = self.row_blocks;
-        let parts = if piece.is_stuck() { 2 } else { 1 };
-        if !piece.stored {
-            self.gathered.iter_mut().take(parts).for_each(|rows| row_of_mut(rows, index, length).fill([0.0; 4]));
+    fn gather_covered<const N: usize>(&mut self, context: &Context, index: usize, piece: &mut Piece, now: usize) {
+        if piece.stored && now <= piece.since {
+            return;
         }
-        if now > piece.since {
-            let to = row_of(self.antiderivatives, context.sample_at(now), length);
-            let from = row_of(self.antiderivatives, context.sample_at(piece.since), length);
-            sum_between(self.covered, to, from, now - piece.since);
-            for (gathered, weight) in self.gathered.iter_mut().zip(piece.weights).take(parts) {
-                add_scaled(row_of_mut(gathered, index, length), weight, self.covered);
+        self.sum_covered::<N>(context, piece.since, now);
+        let length = self.row_blocks;
+        for (gathered, weight) in self.gathered.iter_mut().zip(piece.weights) {
+            let (covered, gathered) = (row_of::<N>(self.covered, 0, length), row_of_mut::<N>(gathered, index, length));
+            let (Some(covered), Some(gathered)) = (covered, gathered) else { return };
+            if piece.stored {
+                add_scaled(gathered, weight, covered);
+            } else {
+                set_scaled(gathered, weight, covered);
             }
         }
         piece.stored = true;
@@ -353,32 +407,32 @@ impl Sensitivity<'_> {
 
     /// Cuts a piece by a run of slip.
     #[inline(always)]
-    fn cut(&mut self, context: &Context, index: usize, now: usize, run: &Run, cuts: &Cuts) {
+    fn cut<const N: usize>(&mut self, context: &Context, index: usize, now: usize, run: &Run, cuts: &Cuts) {
         let Some(mut piece) = self.pieces.get(index).copied().map(Piece::decoded) else { return };
         if piece.made == Made::Never {
             return;
         }
-        self.gather_covered(context, index, &mut piece, now);
+        self.gather_covered::<N>(context, index, &mut piece, now);
         let length = self.row_blocks;
         let [constant, linear] = &mut self.gathered;
-        let (constant, linear) = (row_of_mut(constant, index, length), row_of_mut(linear, index, length));
-        let rows = self.rows.get(run.first * length..).unwrap_or(&[]).chunks_exact(length.max(1));
+        let (constant, linear) = (row_of_mut::<N>(constant, index, length), row_of_mut::<N>(linear, index, length));
+        let (Some(constant), Some(linear)) = (constant, linear) else { return };
         if piece.is_stuck() {
             let ends = context.ends(piece.made, piece.sample);
-            for (((row, &shift), &load), &stiffness) in rows.zip(cuts.shifts).zip(cuts.loads).zip(cuts.stiffnesses) {
+            let boundaries = cuts.shifts.iter().zip(cuts.loads).zip(cuts.stiffnesses);
+            for (sample, ((&shift, &load), &stiffness)) in (run.first..).zip(boundaries) {
                 piece.weights = ends.weights_to(shift, load, stiffness);
-                let [by_constant, by_linear] = piece.weights;
-                for ((constant, linear), row) in constant.iter_mut().zip(linear.iter_mut()).zip(row) {
-                    for k in 0..4 {
-                        constant[k] += by_constant * row[k];
-                        linear[k] += by_linear * row[k];
-                    }
+                if let Some(row) = row_of::<N>(self.rows, sample, length) {
+                    add_scaled(constant, piece.weights[0], row);
+                    add_scaled(linear, piece.weights[1], row);
                 }
             }
         } else {
-            for (row, &stiffness) in rows.zip(cuts.stiffnesses) {
+            for (sample, &stiffness) in (run.first..).zip(cuts.stiffnesses) {
                 piece.weights[0] = stiffness - piece.inner_stiffness;
-                add_scaled(constant, piece.weights[0], row);
+                if let Some(row) = row_of::<N>(self.rows, sample, length) {
+                    add_scaled(constant, piece.weights[0], row);
+                }
             }
         }
         piece.since = now + run.count;
@@ -389,97 +443,81 @@ impl Sensitivity<'_> {
 
     /// Adds the sums of a piece that is removed to those of the samples that made it.
     #[inline(always)]
-    fn remove(&mut self, context: &Context, tractions: &Tractions, index: usize, now: usize) {
+    fn remove<const N: usize>(&mut self, context: &Context, tractions: &Tractions, index: usize, now: usize) {
         let Context { element, samples, .. } = *context;
         let Some(mut piece) = self.pieces.get(index).copied().map(Piece::decoded) else { return };
         if piece.made == Made::Never || (!piece.stored && now <= piece.since) {
             return;
         }
-        // The sums of both parts: parts[0] times one row, and parts[1] times the other.
-        let parts = if piece.stored {
-            self.gather_covered(context, index, &mut piece, now);
-            None
+        if piece.stored {
+            self.gather_covered::<N>(context, index, &mut piece, now);
         } else {
-            let length = self.row_blocks;
-            let to = row_of(self.antiderivatives, context.sample_at(now), length);
-            let from = row_of(self.antiderivatives, context.sample_at(piece.since), length);
-            sum_between(self.covered, to, from, now - piece.since);
-            Some(piece.weights)
-        };
+            self.sum_covered::<N>(context, piece.since, now);
+        }
         let sample = piece.sample;
         let before = samples.before(sample);
         let shift_slope = |sample| at(samples.shift_slope, sample);
-        // Derivatives -V_1 e_i - V_2 (e_j - e_i).
+        // dT = -V_1 e_i - V_2 (e_j - e_i): samples, factors of both V, and derivatives by u and by the input.
+        let mut terms = [Term { sample, factors: [0.0, 1.0], derivatives: [-1.0, 0.0] }; 3];
+        let [at_sample, at_before, closes] = &mut terms;
+        let mut count = 2;
         match piece.made {
             Made::Never => {}
             Made::Forwards | Made::Backwards => {
-                let sign = if piece.made == Made::Forwards { 1.0 } else { -1.0 };
-                let by_input = sign * element.friction_coefficient * shift_slope(sample);
-                self.distribute(index, parts, [1.0, 0.0], sample, [-1.0, by_input]);
+                let mu = element.friction_coefficient * if piece.made == Made::Forwards { 1.0 } else { -1.0 };
+                (at_sample.factors, at_sample.derivatives[1]) = ([1.0, 0.0], mu * shift_slope(sample));
+                count = 1;
             }
             Made::BySticking => {
                 let slope = at(tractions.slope, sample);
-                self.distribute(index, parts, [0.0, 1.0], sample, [-1.0, slope * shift_slope(sample)]);
-                self.distribute(index, parts, [-1.0, 1.0], before, [1.0, -slope * shift_slope(before)]);
+                at_sample.derivatives[1] = slope * shift_slope(sample);
+                let derivatives = [1.0, -slope * shift_slope(before)];
+                *at_before = Term { sample: before, factors: [-1.0, 1.0], derivatives };
             }
             Made::SinceClosing => {
-                let slope = at(tractions.slope, sample);
                 let closing = closing(samples, element.by_approach(), sample);
-                self.distribute(index, parts, [0.0, 1.0], sample, [-1.0, slope * shift_slope(sample)]);
-                self.distribute(index, parts, [-1.0, 1.0], before, closing.before);
-                self.distribute(index, parts, [-1.0, 1.0], sample, closing.after);
+                at_sample.derivatives[1] = at(tractions.slope, sample) * shift_slope(sample);
+                *at_before = Term { sample: before, factors: [-1.0, 1.0], derivatives: closing.before };
+                *closes = Term { sample, factors: [-1.0, 1.0], derivatives: closing.after };
+                count = 3;
             }
+        }
+        for term in terms.iter().take(count) {
+            self.distribute::<N>(index, &piece, term);
         }
     }
 
-    /// Adds `factors[0] V_1 + factors[1] V_2` times the derivatives by u and by the input to the rows of a sample. Given weights, both V are
-    /// multiples of the row `covered`.
+    /// Adds a term to the rows of its sample. Unless the sums of the piece were stored, they are multiples of the row `covered`.
     #[inline(always)]
-    fn distribute(
-        &mut self,
-        index: usize,
-        weights: Option<[f64; 2]>,
-        factors: [f64; 2],
-        sample: usize,
-        [by_u, by_input]: [f64; 2],
-    ) {
+    fn distribute<const N: usize>(&mut self, index: usize, piece: &Piece, term: &Term) {
         let length = self.row_blocks;
-        let place = self.touch(sample);
-        let u_row = row_of_mut(self.by_displacement, place, length);
-        let input_row = row_of_mut(self.by_input, place, length);
-        let [one, two] = &self.gathered;
-        if let Some(weights) = weights {
-            let factor = factors[0] * weights[0] + factors[1] * weights[1];
-            let (by_u, by_input) = (factor * by_u, factor * by_input);
-            for ((u_row, input_row), v) in u_row.iter_mut().zip(input_row).zip(self.covered.iter()) {
-                for k in 0..4 {
-                    u_row[k] += by_u * v[k];
-                    input_row[k] += by_input * v[k];
-                }
-            }
-        } else if factors[1] == 0.0 {
-            let one = row_of(one, index, length);
-            for ((u_row, input_row), v) in u_row.iter_mut().zip(input_row).zip(one) {
-                for k in 0..4 {
-                    u_row[k] += by_u * v[k];
-                    input_row[k] += by_input * v[k];
-                }
+        let place = self.touch::<N>(term.sample);
+        let u_row = row_of_mut::<N>(self.by_displacement, place, length);
+        let input_row = row_of_mut::<N>(self.by_input, place, length);
+        let (Some(u_row), Some(input_row)) = (u_row, input_row) else { return };
+        let [by_u, by_input] = term.derivatives;
+        let [constant, linear] = term.factors;
+        if piece.stored {
+            let [one, two] = &self.gathered;
+            let rows = (row_of::<N>(one, index, length), row_of::<N>(two, index, length));
+            let (Some(one), Some(two)) = rows else { return };
+            for (((u_row, input_row), one), two) in u_row.iter_mut().zip(input_row).zip(one).zip(two) {
+                let ([a, b, c, d], two) = (*one, *two);
+                let v = plus([constant * a, constant * b, constant * c, constant * d], linear, two);
+                let (u, input) = (plus(*u_row, by_u, v), plus(*input_row, by_input, v));
+                (*u_row, *input_row) = (u, input);
             }
         } else {
-            let (one, two) = (row_of(one, index, length), row_of(two, index, length));
-            for (((u_row, input_row), one), two) in u_row.iter_mut().zip(input_row).zip(one).zip(two) {
-                for k in 0..4 {
-                    let v = factors[0] * one[k] + factors[1] * two[k];
-                    u_row[k] += by_u * v;
-                    input_row[k] += by_input * v;
-                }
-            }
+            let factor = constant * piece.weights[0] + linear * piece.weights[1];
+            let Some(covered) = row_of::<N>(self.covered, 0, length) else { return };
+            add_scaled(u_row, factor * by_u, covered);
+            add_scaled(input_row, factor * by_input, covered);
         }
     }
 
     /// The place of a sample among those that have rows Y.
     #[inline(always)]
-    fn touch(&mut self, sample: usize) -> usize {
+    fn touch<const N: usize>(&mut self, sample: usize) -> usize {
         let Some(place) = self.places.get_mut(sample) else { return 0 };
         if *place >= 0.0 {
             return *place as usize;
@@ -487,10 +525,19 @@ impl Sensitivity<'_> {
         let (length, index) = (self.row_blocks, self.touched);
         *place = index as f64;
         self.touched += 1;
-        row_of_mut(self.by_displacement, index, length).fill([0.0; 4]);
-        row_of_mut(self.by_input, index, length).fill([0.0; 4]);
-        let row = row_of(self.rows, sample, length);
-        row_of_mut(self.touched_rows, index, length).iter_mut().zip(row).for_each(|(place, row)| *place = *row);
+        for rows in [&mut *self.by_displacement, &mut *self.by_input] {
+            if let Some(row) = row_of_mut::<N>(rows, index, length) {
+                row.iter_mut().for_each(|block| *block = [0.0; 4]);
+            }
+        }
+        if let Some(row) = row_of::<N>(self.rows, sample, length) {
+            let columns = self.touched_pairs.chunks_exact_mut(self.places.len().max(1));
+            for (column, pair) in columns.zip(row.as_flattened().as_chunks::<2>().0) {
+                if let Some(place) = column.get_mut(index) {
+                    *place = *pair;
+                }
+            }
+        }
         index
     }
 
@@ -499,19 +546,22 @@ impl Sensitivity<'_> {
     pub fn products(&self, index: usize, products: &mut Blocks) {
         let length = self.row_blocks;
         let rows = if index == 0 { &*self.by_displacement } else { &*self.by_input };
-        let used = self.touched * length;
-        let (rows, phi) = (rows.get(..used).unwrap_or(&[]), self.touched_rows.get(..used).unwrap_or(&[]));
-        let mut first = 0;
-        while first < length {
-            let columns = products.chunks_exact_mut((2 * length).max(1));
-            match length - first {
-                1 => products_of::<1>(rows, phi, length, first, columns),
-                2 => products_of::<2>(rows, phi, length, first, columns),
-                3 => products_of::<3>(rows, phi, length, first, columns),
-                4 => products_of::<4>(rows, phi, length, first, columns),
-                _ => products_of::<5>(rows, phi, length, first, columns),
+        let rows = rows.get(..self.touched * length).unwrap_or(&[]);
+        let columns = self.touched_pairs.chunks_exact(self.places.len().max(1));
+        for (columns, phi) in products.chunks_exact_mut((2 * length).max(1)).zip(columns) {
+            match length {
+                1 => products_of::<1>(rows, phi, columns),
+                3 => products_of::<3>(rows, phi, columns),
+                5 => products_of::<5>(rows, phi, columns),
+                _ => {
+                    columns.fill([0.0; 4]);
+                    let (one, two) = columns.split_at_mut_checked(length).unwrap_or((&mut [], &mut []));
+                    for (row, &[a, b]) in rows.chunks_exact(length.max(1)).zip(phi) {
+                        add_scaled(one, a, row);
+                        add_scaled(two, b, row);
+                    }
+                }
             }
-            first += 5;
         }
     }
 }
@@ -523,33 +573,19 @@ struct Cuts<'c> {
     stiffnesses: &'c [f64],
 }
 
-/// N blocks of pairs of columns, from the block `first` of each row on.
+/// A pair of columns of N blocks each.
 #[inline(always)]
-fn products_of<'p, const N: usize>(
-    rows: &Blocks,
-    phi: &Blocks,
-    length: usize,
-    first: usize,
-    columns: impl Iterator<Item = &'p mut Blocks>,
-) {
-    for (pair, columns) in columns.enumerate() {
-        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-        for (row, phi) in rows.chunks_exact(length).zip(phi.chunks_exact(length)) {
-            let row: Option<&[[f64; 4]; N]> = row.get(first..).and_then(<[_]>::first_chunk);
-            let phi = phi.as_flattened().as_chunks::<2>().0.get(pair);
-            let (Some(row), Some(&[a, b])) = (row, phi) else { continue };
-            for block in 0..N {
-                for k in 0..4 {
-                    one[block][k] += a * row[block][k];
-                    two[block][k] += b * row[block][k];
-                }
+fn products_of<const N: usize>(rows: &Blocks, phi: &[[f64; 2]], columns: &mut Blocks) {
+    let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+    for (row, &[a, b]) in rows.as_chunks::<N>().0.iter().zip(phi) {
+        for block in 0..N {
+            for k in 0..4 {
+                one[block][k] += a * row[block][k];
+                two[block][k] += b * row[block][k];
             }
         }
-        for (column, sums) in columns.chunks_exact_mut(length).zip([one, two]) {
-            let column: Option<&mut [[f64; 4]; N]> = column.get_mut(first..).and_then(<[_]>::first_chunk_mut);
-            if let Some(column) = column {
-                *column = sums;
-            }
-        }
+    }
+    for (column, sums) in columns.as_chunks_mut::<N>().0.iter_mut().zip([one, two]) {
+        *column = sums;
     }
 }

@@ -114,7 +114,7 @@ fn stick(
     let eta = samples.eta.get(range.clone()).unwrap_or(&[]);
     for ((slope, &xi), &eta) in slopes.iter_mut().zip(xi).zip(eta) {
         let (falling, rising) = (xi_before - xi, eta - eta_before);
-        *slope = mu * ((rising - falling) / (rising + falling));
+        *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
         (xi_before, eta_before) = (xi, eta);
     }
     let loads = samples.load.get(range).unwrap_or(&[]);

@@ -305,6 +305,9 @@ fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
     Run { kind: Kind::GrossSlip, count, sign: if is_forward { 1.0 } else { -1.0 }, ..EMPTY_RUN }
 }
 
+/// Lower bound of divisors: compilers may divide before they compare.
+const SMALLEST: f64 = 1e-150;
+
 /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
 #[inline(always)]
 fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> Run {
@@ -313,9 +316,10 @@ fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> R
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (x, y) = (span.xi.first().copied().unwrap_or(0.0), span.eta.first().copied().unwrap_or(0.0));
     // The piece leaves the quadrant through ξ = x unless it crosses η = y first.
-    let is_forward = outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling) <= y);
+    let is_forward =
+        outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
     // Changes of the other coordinate along the piece; 0 for a slip zone.
-    let ratio = |change: f64, by: f64| if change > 0.0 { change / by.max(1e-150) } else { 0.0 };
+    let ratio = |change: f64, by: f64| if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
     let (count, [xi, eta], cut) = if is_forward {
         count_slip::<true>(span, &inner, ratio(rising, falling), per_two_mu, places)
     } else {
@@ -329,7 +333,7 @@ fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> R
     } else if rising <= 0.0 {
         -1.0
     } else {
-        (rising - falling) / (rising + falling)
+        (rising - falling) / (rising + falling).max(f64::MIN_POSITIVE)
     };
     Run {
         kind: Kind::Slip,
@@ -405,7 +409,7 @@ fn count_slip<const FORWARD: bool>(
     for ((&xi, &eta), place) in span.xi.iter().zip(span.eta).zip(places) {
         let [x, y] = mirrored::<FORWARD>(xi, eta);
         let cut = inner_y + ratio * (inner_x - x);
-        if count > 0 && !((x >= last) & (x < inner_x) & (cut <= y)) {
+        if count > 0 && (x < last || x >= inner_x || cut > y) {
             break;
         }
         *place = ((cut - x) * per_two_mu).max(0.0);

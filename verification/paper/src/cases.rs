@@ -105,10 +105,10 @@ impl Case {
     }
 
     /// The same contact under a normal force that varies.
-    pub fn element(&self) -> Element {
+    pub fn element(&self, input: NormalInput) -> Element {
         match &self.input {
-            Input::Flat(parameters) => Element::rounded_flat(parameters, NormalInput::Force),
-            Input::Ellipse(parameters) => Element::elliptic(parameters, NormalInput::Force),
+            Input::Flat(parameters) => Element::rounded_flat(parameters, input),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, input),
         }
         .expect("an element of the paper")
     }

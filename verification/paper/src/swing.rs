@@ -3,7 +3,7 @@
 use crate::cases::Case;
 use crate::drawings::even;
 use crate::table::Table;
-use microslip::varying_load::element::Element;
+use microslip::varying_load::element::{Element, NormalInput};
 use microslip::varying_load::state::{Step, advance, state_init, state_length};
 use std::f64::consts::TAU;
 
@@ -24,7 +24,7 @@ enum Motion {
 pub fn tables() -> [Table; 4] {
     let phases = even(0.0, 180.0, PHASES);
     let table = |name, case: Case, motion, amplitudes: [f64; 4]| {
-        let element = case.element();
+        let element = case.element(NormalInput::Force);
         let constant = energy(&case, &element, motion, 0.0, 0.0, STEPS_OF_CYCLE);
         amplitudes.iter().fold(Table::new(name).column("phase", phases.clone()), |table, &amplitude| {
             let ratio = |phase: &f64| energy(&case, &element, motion, amplitude, *phase, STEPS_OF_CYCLE) / constant;
@@ -111,7 +111,7 @@ mod tests {
     #[test]
     fn energies_of_a_cylinder_are_those_of_another_implementation() {
         let case = Case::flat(0.0, LENGTH);
-        let element = case.element();
+        let element = case.element(NormalInput::Force);
         let constant = energy(&case, &element, Motion::Force(0.4), 0.0, 0.0, 24);
         for (phase, expected) in [(0.0, 0.0), (45.0, 2.75), (90.0, 3.0), (135.0, 1.12), (180.0, 0.0)] {
             let ratio = energy(&case, &element, Motion::Force(0.4), 0.4, phase, 24) / constant;
