@@ -444,6 +444,16 @@ static void test_merged_pieces(void)
             CHECK(mslip_element_state_check(1, least, shortest) == MSLIP_OK);
         }
         CHECK(error > 0.0 && error < 0.1 * 400.0);
+        /* A path whose state is discarded merges as well. */
+        double path[STEPS][2], forces[2][STEPS][2];
+        for (int i = 0; i < STEPS; ++i) {
+            path[i][0] = unit * (0.1 * sin(2.6 * i) + 0.004 * i);
+            path[i][1] = 800.0 * (0.1 + 0.02 * i);
+        }
+        init_state(least, state);
+        CHECK(mslip_element_path(&element, least, state, STEPS, path[0], NULL, forces[0][0], NULL, NULL) == MSLIP_OK);
+        CHECK(mslip_element_path(&element, least, state, STEPS, path[0], state, forces[1][0], NULL, NULL) == MSLIP_OK);
+        CHECK(same(forces[0], forces[1], 2 * STEPS) && forces[0][STEPS - 1][0] == merged[0]);
         const double far[2] = { 100.0 * unit, 700.0 }, open[2] = { 0.0, 0.0 };
         memcpy(state, shortest, sizeof state);
         CHECK(mslip_element_update(&element, least, shortest, far, shortest, NULL, NULL, NULL) == MSLIP_OK);

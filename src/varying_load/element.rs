@@ -174,9 +174,6 @@ impl Element {
         input: NormalInput,
         kind: u64,
     ) -> Result<(), Error> {
-        if friction_coefficient > 0.0 {
-            in_range(&[friction_coefficient], &[])?;
-        }
         let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
         if w >= largest {
             return Err(Error::LengthTooShort);
@@ -184,6 +181,9 @@ impl Element {
         let (approach, shift) = (shape.approach(w), shape.shift(w));
         for value in [approach, shift, normal_force] {
             in_range(&[value], &[])?;
+            if friction_coefficient > 0.0 {
+                in_range(&[value, friction_coefficient], &[])?;
+            }
         }
         self.largest_load = shape.load(largest);
         (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
@@ -274,7 +274,8 @@ impl Element {
     #[must_use]
     pub fn half_width_under(&self, normal_force: f64) -> f64 {
         let shape = self.shape();
-        if normal_force > 0.0 { shape.half_width(shape.at_load(normal_force)) } else { 0.0 }
+        let load = normal_force.max(TOUCHING * self.normal_force);
+        if normal_force > 0.0 { shape.half_width(shape.at_load(load)) } else { 0.0 }
     }
 
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.

@@ -462,9 +462,11 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     Ok(())
 }
 
-/// As [`path`], from a copy of the state that holds at most 256 pieces exactly.
+/// As [`path`], from a copy of the state of the same length, but for at most 256 pieces.
 pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
     let mut buffer = [0.0; state_length(PIECES_OF_COPY)];
-    copy(element, state, &mut buffer);
-    path(element, &mut buffer, steps, output)
+    let length = state.len().min(buffer.len());
+    let buffer = buffer.get_mut(..length).ok_or(Error::StateTooShort)?;
+    copy(element, state, buffer);
+    path(element, buffer, steps, output)
 }
