@@ -1,7 +1,7 @@
 !> Response over a range of frequencies by pseudo-arc-length continuation, and its resonance peak.
 !>
-!> Arc length is measured in relative changes: the displacements of each contact are scaled by their present size and the
-!> frequency by a fraction of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
+!> Arc length is measured in relative changes: the displacements of each contact are scaled by their present size, vibration and
+!> mean apart, and the frequency by a fraction of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
 !> counts as much as one that slides a thousand times farther.
 module continuation
   use basics, only: fail, pi, text, wp
@@ -16,7 +16,7 @@ module continuation
   type, public :: response_path
     integer :: points = 0
     real(wp), allocatable :: omega(:)
-    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, contact, point)
+    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, component, point)
   end type response_path
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
@@ -36,13 +36,13 @@ contains
     real(wp), allocatable :: u(:,:), scale(:), tangent(:), previous(:)
     real(wp) :: omega, step, direction
     logical :: converged
-    integer :: m, contacts, iterations
+    integer :: m, components, iterations
 
     m = 2 * problem%harmonics + 1
-    contacts = size(problem%incidence, 2)
+    components = size(problem%incidence, 2)
     direction = sign(1.0_wp, omega_to - omega_from)
-    allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
-    allocate (path%omega(max_points), path%displacement(m, contacts, max_points))
+    allocate (u(m, components), tangent(m * components + 1), previous(m * components + 1), scale(m * components + 1))
+    allocate (path%omega(max_points), path%displacement(m, components, max_points))
 
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
@@ -76,7 +76,7 @@ contains
       call append()
       call set_scale()
       previous = 0.0_wp
-      previous(m * contacts + 1) = direction
+      previous(m * components + 1) = direction
       call path_tangent()
       step = 0.1_wp * max_step
     end subroutine start_path
@@ -92,21 +92,25 @@ contains
 
     !> Scale of each unknown at the present point.
     subroutine set_scale()
+      real(wp) :: vibration
       integer :: i
 
-      do i = 1, contacts
-        scale((i - 1) * m + 1:i * m) = sqrt(real(contacts, wp)) * max(norm2(u(:, i)), 1.0e-6_wp * norm2(u))
+      do i = 1, components
+        vibration = max(norm2(u(2:, i)), 1.0e-6_wp * norm2(u(2:, :)))
+        scale((i - 1) * m + 1) = max(abs(u(1, i)), vibration)
+        scale((i - 1) * m + 2:i * m) = vibration
       end do
-      scale(m * contacts + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
+      scale(:m * components) = sqrt(real(components, wp)) * scale(:m * components)
+      scale(m * components + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
     end subroutine set_scale
 
     !> Unit tangent of the path at the present point, in the direction of `previous`.
     subroutine path_tangent()
-      real(wp) :: right(m * contacts + 1, 1)
+      real(wp) :: right(m * components + 1, 1)
       logical :: singular
 
       right = 0.0_wp
-      right(m * contacts + 1, 1) = 1.0_wp
+      right(m * components + 1, 1) = 1.0_wp
       call bordered_solve(previous, right, singular)
       if (singular) call fail('the path has no tangent at '//hertz(omega))
       tangent = right(:, 1) / norm2(right)
@@ -118,10 +122,10 @@ contains
       real(wp), intent(in) :: border(:)
       real(wp), intent(inout) :: right(:,:)
       logical, intent(out) :: singular
-      real(wp) :: matrix(m * contacts + 1, m * contacts + 1)
+      real(wp) :: matrix(m * components + 1, m * components + 1)
       integer :: n, i
 
-      n = m * contacts
+      n = m * components
       do i = 1, n
         matrix(:n, i) = point%jacobian(:, i) * scale(i) / scale(:n)
       end do
@@ -133,12 +137,12 @@ contains
     !> One step of length `step`: predictor along the tangent, corrector in the plane normal to it. If it does not converge,
     !> or the path bends too sharply, the start is restored.
     subroutine advance()
-      real(wp) :: u_start(m, contacts), omega_start, distance, right(m * contacts + 1, 1)
-      real(wp) :: tangent_start(m * contacts + 1)
+      real(wp) :: u_start(m, components), omega_start, distance, right(m * components + 1, 1)
+      real(wp) :: tangent_start(m * components + 1)
       logical :: singular
       integer :: n
 
-      n = m * contacts
+      n = m * components
       u_start = u
       omega_start = omega
       tangent_start = tangent
