@@ -74,7 +74,7 @@ contains
     call evaluate(problem, omega - step, displacement, behind)
     worst = difference(here%by_omega, (ahead%residual - behind%residual) / (2.0_wp * step))
     do component = 1, size(displacement, 2)
-      step = relative_step * norm2(displacement(:, component))
+      step = relative_step * norm2(displacement(2:, component))
       do coefficient = 1, m
         moved = displacement
         moved(coefficient, component) = displacement(coefficient, component) + step

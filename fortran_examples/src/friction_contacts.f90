@@ -178,11 +178,13 @@ contains
 
   !> Fourier coefficients of all contact forces from those of the displacements, (coefficient, component), the exact Jacobian,
   !> and the energy dissipated per period by each contact. jacobian(:, :, p, j) has the derivatives of the force component p of a
-  !> contact with respect to the displacement component j, which is one of that contact; others have none.
-  subroutine harmonic_force(self, displacement, force, jacobian, dissipated)
+  !> contact with respect to the displacement component j, which is one of that contact; others have none. A trial displacement
+  !> far from any solution may press a contact beyond the range of the law: then `allowed` is false.
+  subroutine harmonic_force(self, displacement, force, jacobian, dissipated, allowed)
     class(contact_set), intent(inout) :: self
     real(wp), intent(in), contiguous :: displacement(:,:)
     real(wp), intent(out), contiguous :: force(:,:), jacobian(:,:,:,:), dissipated(:)
+    logical, intent(out) :: allowed
     integer(mslip_int) :: status
     integer :: i, j, k, m, e
 
@@ -190,6 +192,8 @@ contains
     self%u = displacement(:, self%first)
     call mslip_batch_harmonic_force(self%prepared, self%workspace, self%u, status, active=self%active, &
                                     force=self%f, jacobian=self%df, dissipated=self%energy)
+    allowed = in_range(status)
+    if (.not. allowed) return
     call require(status, 'contacts')
     do i = 1, size(self%count)
       j = self%first(i)
@@ -220,6 +224,8 @@ contains
     end do
     call mslip_batch_element_harmonic_force(self%elements, self%element_workspace, self%element_u, status, &
                                             force=self%element_f, jacobian=self%element_df, dissipated=self%element_energy)
+    allowed = in_range(status)
+    if (.not. allowed) return
     call require(status, 'elements')
     do e = 1, size(self%elements)
       i = self%element_contact(e)
@@ -255,13 +261,15 @@ contains
   end subroutine start_history
 
   !> Forces and tangent stiffnesses, both by component, after a trial step from `history`, which is not modified: a Newton
-  !> iteration may try any displacement. `next` is the history to continue with if the step is accepted.
-  subroutine try_step(self, history, displacement, force, tangent, next)
+  !> iteration may try any displacement. `next` is the history to continue with if the step is accepted. `allowed` as in
+  !> harmonic_force; without it such a displacement ends the program.
+  subroutine try_step(self, history, displacement, force, tangent, next, allowed)
     class(contact_set), intent(in) :: self
     type(contact_history), intent(in) :: history
     real(wp), intent(in), contiguous :: displacement(:)
     real(wp), intent(out), contiguous :: force(:), tangent(:,:)
     type(contact_history), intent(inout) :: next
+    logical, intent(out), optional :: allowed
     real(wp), dimension(size(self%count)) :: u, f, df
     real(wp), dimension(2, size(self%elements)) :: element_u, element_f
     real(wp) :: element_df(2, 2, size(self%elements)), energy
@@ -274,6 +282,7 @@ contains
     df = 0.0_wp
     call mslip_batch_masing_update(self%prepared, history%states, u, next%states, status, active=self%active, &
                                    force=f, stiffness=df)
+    if (rejected()) return
     call require(status, 'contacts')
     tangent = 0.0_wp
     do i = 1, size(self%count)
@@ -299,6 +308,7 @@ contains
     end do
     call mslip_batch_element_update(self%elements, history%element_states, element_u, next%element_states, status, &
                                     force=element_f, tangent=element_df)
+    if (rejected()) return
     call require(status, 'elements')
     do e = 1, size(self%elements)
       i = self%element_contact(e)
@@ -306,6 +316,15 @@ contains
       force(j:j + 1) = self%count(i) * element_f(:, e)
       tangent(j:j + 1, j:j + 1) = self%count(i) * element_df(:, :, e)
     end do
+
+  contains
+
+    logical function rejected()
+      rejected = .false.
+      if (.not. present(allowed)) return
+      allowed = in_range(status)
+      rejected = .not. allowed
+    end function rejected
   end subroutine try_step
 
   !> History and forces, (instant, component), after two periods of a motion from the unloaded state: the second is steady.
@@ -401,6 +420,13 @@ contains
     end if
     call require(status, self%name(i))
   end function force_error
+
+  !> Whether the status of a call is not that of a displacement beyond the range of the law: a contact as wide as it is long, or
+  !> a displacement that is not finite.
+  pure logical function in_range(status)
+    integer(mslip_int), intent(in) :: status
+    in_range = all(status /= [MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_DISPLACEMENT])
+  end function in_range
 
   subroutine require(status, name)
     integer(mslip_int), intent(in) :: status

@@ -51,6 +51,8 @@ module harmonic_balance
   end type balance_point
 
   integer, parameter :: newton_steps = 40, halvings = 8
+  !> A residual that no method accepts, for displacements beyond the range of the law.
+  real(wp), parameter :: beyond_range = 1.0e100_wp
 
 contains
 
@@ -67,6 +69,7 @@ contains
     real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), 2, size(displacement, 2))
     real(wp) :: rows(2, size(displacement, 1))
     integer(int64) :: start, finish, rate_of_clock
+    logical :: allowed
     integer :: n, components, m, k, i, j, c, row, column
 
     n = size(problem%incidence, 1)
@@ -79,10 +82,14 @@ contains
       allocate (point%by_load(n, 0:problem%harmonics))
     end if
     call system_clock(start, rate_of_clock)
-    call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated)
+    call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated, allowed)
     call system_clock(finish)
     problem%contact_seconds = problem%contact_seconds + real(finish - start, wp) / rate_of_clock
     problem%evaluations = problem%evaluations + 1
+    if (.not. allowed) then
+      point%residual = beyond_range
+      return
+    end if
 
     point%free_size = 0.0_wp
     associate (springs => problem%contacts%normal_stiffness, offset => problem%contacts%offset)

@@ -84,8 +84,11 @@ contains
 
     !> A trial step of all contacts from the last accepted history, which is not modified.
     subroutine try()
-      call problem%contacts%try_step(state%contacts, u, force, tangent, state%trial)
-      residual = u_free - u - matmul(scheme%compliance, force)
+      logical :: allowed
+
+      call problem%contacts%try_step(state%contacts, u, force, tangent, state%trial, allowed)
+      residual = huge(u)**0.25_wp
+      if (allowed) residual = u_free - u - matmul(scheme%compliance, force)
     end subroutine try
   end subroutine newmark_step
 
