@@ -40,9 +40,11 @@ program blade_model
   real(wp), parameter :: underside_distance = 0.003_wp    ! e, m
   real(wp), parameter :: damper_distance = 0.014_wp       ! s, m
   real(wp), parameter :: damper_mass = 0.020_wp           ! kg
+  real(wp), parameter :: platform_angle = pi / 4.0_wp     ! of the undersides to the circumferential direction
+  real(wp), parameter :: dashpot = 150.0_wp               ! N s/m
 
   real(wp), parameter :: mistuning = 0.005_wp             ! of the stiffness of the second blade
-  real(wp), parameter :: damping_ratio = 1.0e-3_wp        ! material and air, in all modes
+  real(wp), parameter :: material_damping = 1.0e-3_wp, aerodynamic_damping = 4.0e-3_wp   ! damping ratios, in all modes
   integer, parameter :: modes_kept = 8                    ! of each blade, with its boundary fixed
   integer, parameter :: platform = 2 * platform_node + 1  ! deflection; followed by the rotation
 
@@ -60,17 +62,18 @@ program blade_model
   directory = argument(2, usage)
   boundary = [2, platform, 2 * elements + 1]          ! rotation, deflection, deflection
   boundary_name = [character(len=name_length) :: 'root', 'platform', 'tip']
-  call make_model('blades', 'two blades', [1.0_wp, 1.0_wp], free_bodies=0)
+  call make_model('blades', 'two blades', [1.0_wp, 1.0_wp], material_damping, free_bodies=0)
   boundary = [2, platform, platform + 1, 2 * elements + 1]
   boundary_name = [character(len=name_length) :: 'root', 'platform', 'platform_radial', 'tip']
-  call make_model('wedge', 'two blades with a wedge damper', [-damper_distance, damper_distance], free_bodies=1)
+  call make_model('wedge', 'two blades with a wedge damper', [-damper_distance, damper_distance], &
+                  material_damping + aerodynamic_damping, free_bodies=1)
 
 contains
 
   !> The blades, and after them the translations of the damper.
-  subroutine make_model(name, description, levers, free_bodies)
+  subroutine make_model(name, description, levers, damping_ratio, free_bodies)
     character(len=*), intent(in) :: name, description
-    real(wp), intent(in) :: levers(2)
+    real(wp), intent(in) :: levers(2), damping_ratio
     integer, intent(in) :: free_bodies
     character(len=:), allocatable :: prefix
     real(wp), allocatable :: omega(:), modes(:,:)
@@ -87,7 +90,8 @@ contains
       call assemble(young_modulus * merge(1.0_wp, 1.0_wp + mistuning, blade == 1), &
                     levers(blade), blade_mass, blade_stiffness)
       call reduce(blade_mass, blade_stiffness, mass(first:last, first:last), stiffness(first:last, first:last))
-      damping(first:last, first:last) = modal_damping(mass(first:last, first:last), stiffness(first:last, first:last))
+      damping(first:last, first:last) = modal_damping(mass(first:last, first:last), stiffness(first:last, first:last), &
+                                                          damping_ratio)
       call check_reduction(blade, first, last)
     end do
     ! A free body decays like the first mode of the blades.
@@ -96,6 +100,8 @@ contains
       mass(i, i) = damper_mass
       damping(i, i) = 2.0_wp * damping_ratio * omega(1) * damper_mass
     end do
+
+    if (free_bodies == 1) call add_dashpots()
 
     prefix = trim(directory)//'/'//name//'_'
     select case (argument(1, usage))
@@ -119,6 +125,22 @@ contains
       call fail('usage: '//usage)
     end select
   end subroutine make_model
+
+  !> Dashpots between damper and platforms, normal to the faces.
+  subroutine add_dashpots()
+    real(wp) :: normal(size(mass, 1))
+    integer :: blade, i
+
+    do blade = 1, 2
+      normal = 0.0_wp
+      normal(2 * reduced + 1:) = [merge(-1.0_wp, 1.0_wp, blade == 1) * sin(platform_angle), cos(platform_angle)]
+      i = (blade - 1) * reduced + 2             ! platform, followed by platform_radial
+      normal(i:i + 1) = -normal(2 * reduced + 1:)
+      do i = 1, size(normal)
+        damping(:, i) = damping(:, i) + dashpot * normal(i) * normal
+      end do
+    end do
+  end subroutine add_dashpots
 
   pure function dof_name(i) result(name)
     integer, intent(in) :: i
@@ -232,8 +254,8 @@ contains
   end subroutine reduce
 
   !> The same damping ratio in all modes of the blade with open contacts: D = M Phi diag(2 zeta omega) Phi^T M.
-  function modal_damping(m, k) result(d)
-    real(wp), intent(in) :: m(:,:), k(:,:)
+  function modal_damping(m, k, damping_ratio) result(d)
+    real(wp), intent(in) :: m(:,:), k(:,:), damping_ratio
     real(wp) :: d(size(m, 1), size(m, 1)), omega(size(m, 1)), modes(size(m, 1), size(m, 1)), scaled(size(m, 1), size(m, 1))
     integer :: i
 

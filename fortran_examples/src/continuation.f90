@@ -21,6 +21,7 @@ module continuation
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
   real(wp), parameter :: max_step = 0.2_wp, min_step = 1.0e-6_wp
+  real(wp), parameter :: leap_below = 1.0e-4_wp, shortest_leap = 2.0e-3_wp
   integer, parameter :: steps_over_range = 40, max_points = 5000
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
   real(wp), parameter :: min_tangent_cosine = 0.9_wp
@@ -49,7 +50,8 @@ contains
     if (.not. converged) call fail('no harmonic balance found at the first frequency, '//hertz(omega))
     call start_path()
     do while (direction * (omega - omega_to) < 0.0_wp)
-      call advance()
+      call advance(step, min_tangent_cosine)
+      if (.not. converged .and. step < leap_below) call leap()
       if (converged) then
         call append()
         if (iterations <= few_steps) step = min(1.5_wp * step, max_step)
@@ -62,12 +64,41 @@ contains
 
   contains
 
+    !> Across a corner that shorter and shorter steps approach but do not pass: the first longer step that finds the path again, at
+    !> any angle. Uniform samples make many small corners, one when the contact state at a sample changes.
+    subroutine leap()
+      real(wp) :: length
+
+      length = shortest_leap
+      do while (length <= max_step)
+        call advance(length, -1.0_wp)
+        if (converged) then
+          step = 0.5_wp * length
+          return
+        end if
+        length = 2.0_wp * length
+      end do
+    end subroutine leap
+
     !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
     !> no tangent leads on, or the one that is found leads back.
     subroutine jump()
-      omega = direction * maxval(direction * path%omega(:path%points)) + (omega_to - omega_from) / (10 * steps_over_range)
-      call solve_from_rest(problem, omega, u, point, converged)
-      if (.not. converged) call fail('no harmonic balance found at '//hertz(omega))
+      real(wp) :: reached, distance, last(m, components)
+
+      last = u
+      reached = direction * maxval(direction * path%omega(:path%points))
+      distance = (omega_to - omega_from) / (10 * steps_over_range)
+      do
+        omega = reached + distance
+        u = last
+        call solve_at(problem, omega, u, point, converged)
+        if (.not. converged) call solve_from_rest(problem, omega, u, point, converged)
+        if (converged) exit
+        distance = 1.5_wp * distance
+        if (abs(distance) > abs(omega_to - omega_from) / steps_over_range) then
+          call fail('no harmonic balance found at '//hertz(omega))
+        end if
+      end do
       call start_path()
     end subroutine jump
 
@@ -134,9 +165,10 @@ contains
       call solve(matrix, right, singular)
     end subroutine bordered_solve
 
-    !> One step of length `step`: predictor along the tangent, corrector in the plane normal to it. If it does not converge,
-    !> or the path bends too sharply, the start is restored.
-    subroutine advance()
+    !> One step of this length: predictor along the tangent, corrector in the plane normal to it. If it does not converge, or the
+    !> path bends too sharply, the start is restored.
+    subroutine advance(length, min_cosine)
+      real(wp), intent(in) :: length, min_cosine
       real(wp) :: u_start(m, components), omega_start, distance, right(m * components + 1, 1)
       real(wp) :: tangent_start(m * components + 1)
       logical :: singular
@@ -146,14 +178,14 @@ contains
       u_start = u
       omega_start = omega
       tangent_start = tangent
-      u = u + reshape(step * tangent(:n) * scale(:n), shape(u))
-      omega = omega + step * tangent(n + 1) * scale(n + 1)
+      u = u + reshape(length * tangent(:n) * scale(:n), shape(u))
+      omega = omega + length * tangent(n + 1) * scale(n + 1)
       do iterations = 1, corrector_steps
         call evaluate(problem, omega, u, point)
         converged = newton_error(problem, u, point) <= 1.0_wp
         if (converged) exit
         distance = dot_product(tangent(:n), reshape(u - u_start, [n]) / scale(:n)) &
-                 + tangent(n + 1) * (omega - omega_start) / scale(n + 1) - step
+                 + tangent(n + 1) * (omega - omega_start) / scale(n + 1) - length
         right(:n, 1) = -reshape(point%residual, [n]) / scale(:n)
         right(n + 1, 1) = -distance
         call bordered_solve(tangent, right, singular)
@@ -165,7 +197,7 @@ contains
       if (converged) then
         previous = tangent
         call path_tangent()
-        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. step <= 10.0_wp * min_step
+        converged = dot_product(tangent, previous) >= min_cosine .or. length <= 10.0_wp * min_step
       end if
       if (converged) then
         ! The same direction in the scale of the new point.
