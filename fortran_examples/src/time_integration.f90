@@ -311,7 +311,7 @@ contains
   end subroutine compare_at
 
   !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. If Newton's method
-  !> fails from rest, the response is followed from a frequency below.
+  !> fails from rest, the response is followed from the nearer end of the group &sweep.
   subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
     type(integration_input), intent(in) :: input
     real(wp), intent(in) :: frequency
@@ -333,8 +333,10 @@ contains
     allocate (displacement(2 * harmonics + 1, size(problem%incidence, 2)))
     omega = 2.0_wp * pi * frequency
     call solve_from_rest(problem, omega, displacement, point, converged)
-    if (.not. converged) then
-      call follow_response(problem, 0.97_wp * omega, omega, path)
+    if (.not. converged .and. data%frequency_from > 0.0_wp) then
+      associate (from => data%frequency_from, to => data%frequency_to)
+        call follow_response(problem, 2.0_wp * pi * merge(from, to, 2.0_wp * frequency < from + to), omega, path)
+      end associate
       displacement = path%displacement(:, :, path%points)
       call solve_at(problem, omega, displacement, point, converged)
     end if
