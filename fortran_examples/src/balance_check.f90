@@ -6,9 +6,10 @@
 program balance_check
   use basics, only: argument, fail, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
+  use continuation, only: solve_within
   use fourier_series, only: get_harmonic, series_basis
   use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
   implicit none
 
   ! Rounding of 1e-16/1e-6, more where the residual is a small difference; the curvature of the laws adds about as much.
@@ -30,7 +31,7 @@ program balance_check
     call prepare_problem(data, data%point_load_factor, data%harmonics, data%samples, problem, data%point_excitation_factors(i))
     if (i == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
     omega = 2.0_wp * pi * data%frequencies(i)
-    call solve_from_rest(problem, omega, displacement, point, converged)
+    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], omega, displacement, point, converged)
     if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
     energy = energy_difference()
     derivative = derivative_difference()

@@ -11,7 +11,7 @@ module continuation
     structure_response
   implicit none
   private
-  public :: follow_response, refine_peak
+  public :: follow_response, refine_peak, solve_within
 
   type, public :: response_path
     integer :: points = 0
@@ -213,6 +213,22 @@ contains
       end if
     end subroutine advance
   end subroutine follow_response
+
+  !> At one frequency: from rest or, if that fails, along the response from the nearer end of a range of frequencies.
+  subroutine solve_within(problem, range, omega, displacement, point, converged)
+    type(balance_problem), intent(inout) :: problem
+    real(wp), intent(in) :: range(2), omega
+    real(wp), intent(out), contiguous :: displacement(:,:)
+    type(balance_point), intent(inout) :: point
+    logical, intent(out) :: converged
+    type(response_path) :: path
+
+    call solve_from_rest(problem, omega, displacement, point, converged)
+    if (converged .or. range(2) <= range(1)) return
+    call follow_response(problem, merge(range(1), range(2), 2.0_wp * omega < sum(range)), omega, path)
+    displacement = path%displacement(:, :, path%points)
+    call solve_at(problem, omega, displacement, point, converged)
+  end subroutine solve_within
 
   !> Resonance peak between the points of a path. `amplitude` has the peak over the period of degree of freedom `dof` at every
   !> point. If the frequency is not monotonic around the largest point, that point is the result.

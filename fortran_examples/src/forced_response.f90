@@ -14,10 +14,10 @@ program forced_response
   use, intrinsic :: iso_fortran_env, only: int64
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: follow_response, refine_peak, response_path
+  use continuation, only: follow_response, refine_peak, response_path, solve_within
   use fourier_series, only: harmonic_amplitude, series_basis, series_peak
   use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
   implicit none
 
   character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
@@ -53,7 +53,8 @@ contains
       call prepare_problem(data, data%point_load_factor, data%harmonics, data%samples, problem, &
                            data%point_excitation_factors(i))
       if (i == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
-      call solve_from_rest(problem, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
+      call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], &
+                        2.0_wp * pi * data%frequencies(i), displacement, point, converged)
       if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
       response = structure_response(problem, point)
       do dof = 1, size(response, 2)

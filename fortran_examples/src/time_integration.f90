@@ -130,11 +130,11 @@ program time_integration
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, integration_input, prepare_problem, read_case
-  use continuation, only: follow_response, response_path
+  use continuation, only: solve_within
   use dense_algebra, only: solve, symmetric_modes
   use fourier_series, only: series_basis, series_peak
   use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, solve_at, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, structure_response
   use newmark, only: motion, newmark_scheme, newmark_step, prepare_newmark
   implicit none
 
@@ -310,8 +310,7 @@ contains
     end if
   end subroutine compare_at
 
-  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. If Newton's method
-  !> fails from rest, the response is followed from the nearer end of the group &sweep.
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
   subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
     type(integration_input), intent(in) :: input
     real(wp), intent(in) :: frequency
@@ -320,26 +319,16 @@ contains
     real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
     type(waveform), intent(out) :: waves
     real(wp), intent(out) :: peak
-    type(response_path) :: path
     type(balance_point) :: point
     type(contact_history) :: history
     real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
     real(wp), allocatable :: u(:,:), force(:,:)
-    real(wp) :: omega
     logical :: converged
 
     call prepare_problem(data, input%load_factor, harmonics, samples, problem, input%excitation_factor)
-    if (allocated(displacement)) deallocate (displacement)
     allocate (displacement(2 * harmonics + 1, size(problem%incidence, 2)))
-    omega = 2.0_wp * pi * frequency
-    call solve_from_rest(problem, omega, displacement, point, converged)
-    if (.not. converged .and. data%frequency_from > 0.0_wp) then
-      associate (from => data%frequency_from, to => data%frequency_to)
-        call follow_response(problem, 2.0_wp * pi * merge(from, to, 2.0_wp * frequency < from + to), omega, path)
-      end associate
-      displacement = path%displacement(:, :, path%points)
-      call solve_at(problem, omega, displacement, point, converged)
-    end if
+    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], 2.0_wp * pi * frequency, displacement, &
+                      point, converged)
     if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
     response = structure_response(problem, point)
     peak = series_peak(response(:, data%response_dof))
