@@ -214,7 +214,8 @@ contains
     end subroutine advance
   end subroutine follow_response
 
-  !> At one frequency: from rest or, if that fails, along the response from the nearer end of a range of frequencies.
+  !> At one frequency: from rest or, if that fails, along the response from another frequency, as near as possible, toward the
+  !> nearer end of a range.
   subroutine solve_within(problem, range, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: range(2), omega
@@ -222,10 +223,20 @@ contains
     type(balance_point), intent(inout) :: point
     logical, intent(out) :: converged
     type(response_path) :: path
+    real(wp) :: end_of_range, distance, start
 
     call solve_from_rest(problem, omega, displacement, point, converged)
     if (converged .or. range(2) <= range(1)) return
-    call follow_response(problem, merge(range(1), range(2), 2.0_wp * omega < sum(range)), omega, path)
+    end_of_range = merge(range(1), range(2), 2.0_wp * omega < sum(range))
+    distance = 0.03_wp * omega
+    do
+      start = merge(end_of_range, omega + sign(distance, end_of_range - omega), distance >= abs(end_of_range - omega))
+      call solve_from_rest(problem, start, displacement, point, converged)
+      if (converged) exit
+      if (distance >= abs(end_of_range - omega)) return
+      distance = 1.5_wp * distance
+    end do
+    call follow_response(problem, start, omega, path)
     displacement = path%displacement(:, :, path%points)
     call solve_at(problem, omega, displacement, point, converged)
   end subroutine solve_within
