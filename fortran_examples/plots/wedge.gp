@@ -23,7 +23,7 @@ do for [extension in 'svg png'] {
   set title 'response'
   set logscale y
   set xrange [300:500]
-  set yrange [5:1000]
+  set yrange [5:3000]
   set xlabel 'frequency (Hz)'
   set ylabel 'amplitude of the tip over the excitation (µm/N)' offset 1, 0
   set key top right Left reverse samplen 2 font ',12.5'

@@ -21,7 +21,7 @@ module continuation
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
   real(wp), parameter :: max_step = 0.2_wp, min_step = 1.0e-6_wp
-  real(wp), parameter :: leap_below = 1.0e-4_wp, shortest_leap = 2.0e-3_wp
+  real(wp), parameter :: leap_below = 1.0e-4_wp, shortest_leap = 2.0e-4_wp
   integer, parameter :: steps_over_range = 40, max_points = 5000
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
   real(wp), parameter :: min_tangent_cosine = 0.9_wp
