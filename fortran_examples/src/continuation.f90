@@ -95,7 +95,7 @@ contains
         if (.not. converged) call solve_from_rest(problem, omega, u, point, converged)
         if (converged) exit
         distance = 1.5_wp * distance
-        if (abs(distance) > abs(omega_to - omega_from) / steps_over_range) then
+        if (abs(distance) > 0.25_wp * abs(omega_to - omega_from)) then
           call fail('no harmonic balance found at '//hertz(omega))
         end if
       end do
@@ -214,18 +214,27 @@ contains
     end subroutine advance
   end subroutine follow_response
 
-  !> At one frequency: from rest or, if that fails, along the response from another frequency, as near as possible, toward the
-  !> nearer end of a range.
-  subroutine solve_within(problem, range, omega, displacement, point, converged)
+  !> At one frequency: from a guess with any number of harmonics, if given; if that fails, from rest; and then along the response
+  !> from another frequency, as near as possible, toward the nearer end of a range.
+  subroutine solve_within(problem, range, omega, displacement, point, converged, guess)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: range(2), omega
     real(wp), intent(out), contiguous :: displacement(:,:)
     type(balance_point), intent(inout) :: point
     logical, intent(out) :: converged
+    real(wp), intent(in), optional :: guess(:,:)
     type(response_path) :: path
     real(wp) :: end_of_range, distance, start
+    integer :: m
 
-    call solve_from_rest(problem, omega, displacement, point, converged)
+    converged = .false.
+    if (present(guess)) then
+      m = min(size(guess, 1), size(displacement, 1))
+      displacement = 0.0_wp
+      displacement(:m, :) = guess(:m, :)
+      call solve_at(problem, omega, displacement, point, converged)
+    end if
+    if (.not. converged) call solve_from_rest(problem, omega, displacement, point, converged)
     if (converged .or. range(2) <= range(1)) return
     end_of_range = merge(range(1), range(2), 2.0_wp * omega < sum(range))
     distance = 0.03_wp * omega

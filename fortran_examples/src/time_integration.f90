@@ -310,15 +310,18 @@ contains
     end if
   end subroutine compare_at
 
-  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. On entry `displacement`
+  !> may have those of another number of harmonics.
   subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
     type(integration_input), intent(in) :: input
     real(wp), intent(in) :: frequency
     integer, intent(in) :: harmonics, samples
     type(balance_problem), intent(out) :: problem
-    real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
+    real(wp), allocatable, intent(inout) :: displacement(:,:)
+    real(wp), allocatable, intent(out) :: response(:,:)
     type(waveform), intent(out) :: waves
     real(wp), intent(out) :: peak
+    real(wp), allocatable :: neighbour(:,:)
     type(balance_point) :: point
     type(contact_history) :: history
     real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
@@ -326,9 +329,11 @@ contains
     logical :: converged
 
     call prepare_problem(data, input%load_factor, harmonics, samples, problem, input%excitation_factor)
+    if (allocated(displacement)) call move_alloc(displacement, neighbour)
     allocate (displacement(2 * harmonics + 1, size(problem%incidence, 2)))
+    ! An array that is not allocated is an argument that is not present.
     call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], 2.0_wp * pi * frequency, displacement, &
-                      point, converged)
+                      point, converged, neighbour)
     if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
     response = structure_response(problem, point)
     peak = series_peak(response(:, data%response_dof))
