@@ -2,8 +2,9 @@
 ! solution of the same equations by other means.
 !
 ! RESULTS has law.inp and, for the jobs static and dynamic, tables of time, displacement of the tip, displacement and force of
-! the contact, and dissipated energy; frequency.csv has the square of the lowest angular frequency. JOBS has matrices.sti,
-! .mas and .dof and the loads over time; the curves of the figure are written there.
+! the contact, and dissipated energy; frequency.csv has the square of the lowest angular frequency; element.inp and the tables of
+! the jobs lifting and lifting_dynamic are those of the element with a normal direction. JOBS has matrices.sti, .mas and .dof and
+! the loads over time; the curves of the figure are written there.
 program compare
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -13,9 +14,12 @@ program compare
   ! CalculiX prints seven digits. Its forces and corrections are converged to 1e-9 and its loads have 12 digits, which may add up
   ! to as much again in the structural solution.
   real(wp), parameter :: rounding = 5e-7_wp, structural = 2*rounding
+  ! Impacts amplify the differences.
+  real(wp), parameter :: lifting_tolerance = 1e-5_wp
   integer, parameter :: tip = 2, displacement = 3, force = 4, dissipated = 5      ! columns
   character(len=256) :: results, jobs
   type(mslip_contact) :: contact
+  type(mslip_element) :: element
   integer :: passed = 0, failed = 0
   external :: dposv, dsygv
 
@@ -24,6 +28,9 @@ program compare
   call initialise_contact()
   call compare_law('static', 100)
   call compare_law('dynamic', 2)
+  call initialise_element()
+  call compare_element('lifting')
+  call compare_element('lifting_dynamic')
   if (jobs /= '') call compare_structure()
   print '(i0, a, i0, a)', passed, ' passed, ', failed, ' failed'
   if (failed > 0) stop 1
@@ -44,6 +51,48 @@ contains
     call mslip_contact_init(p, contact, status)
     call require(status)
   end subroutine initialise_contact
+
+  subroutine initialise_element()
+    type(mslip_parameters) :: p
+    real(wp) :: c(10)
+    integer :: unit, status
+
+    open (newunit=unit, file=trim(results)//'/element.inp', status='old', action='read')
+    read (unit, *)  ! the keyword
+    read (unit, *) c
+    close (unit)
+    p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
+      material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
+    call mslip_element_init(p, 1, MSLIP_APPROACH, element, status)
+    call require(status)
+  end subroutine initialise_element
+
+  !> The element along the displacements that CalculiX printed, a step for each increment.
+  subroutine compare_element(job)
+    character(len=*), intent(in) :: job
+    integer, parameter :: u = 4, t = 6, energy = 8     ! columns: u, w, T, N, dissipated
+    real(wp), allocatable :: table(:, :), f(:, :), dissipated(:), state(:)
+    real(wp) :: slip, error_u, error_w, error_t
+    integer :: i, n, status
+
+    call read_table(trim(results)//'/'//job//'.csv', 8, table)
+    n = size(table, 2)
+    allocate (f(2, n), dissipated(n), state(mslip_element_state_length(1, 64_mslip_size)))
+    call mslip_element_state_init(1, state, status)
+    call mslip_element_path_advance(element, state, table(u:u + 1, :), status, force=f, dissipated=dissipated)
+    call require(status)
+    error_u = rounding*maxval(abs(table(u, :)))
+    error_w = rounding*maxval(abs(table(u + 1, :)))
+    slip = element%friction_coefficient*maxval(f(2, :))
+    error_t = 2*element%tangential_stiffness*error_u + 2*element%friction_coefficient*element%normal_stiffness*error_w &
+      + rounding*slip
+    call check(job//': normal force along the path', maxval(abs(f(2, :) - table(t + 1, :))), &
+      element%normal_stiffness*error_w + rounding*maxval(f(2, :)), maxval(f(2, :)))
+    call check(job//': force along the path', maxval(abs(f(1, :) - table(t, :))), error_t, slip)
+    dissipated = [(sum(dissipated(:i)), i=1, n)]
+    call check(job//': energy along the path', maxval(abs(dissipated - table(energy, :))), &
+      20*(slip*error_u + error_t*maxval(abs(table(u, :)))) + rounding*dissipated(n), dissipated(n))
+  end subroutine compare_element
 
   !> The law along the displacements that CalculiX printed, with straight segments of `parts` steps between them.
   subroutine compare_law(job, parts)
@@ -100,6 +149,9 @@ contains
     call read_table(trim(results)//'/dynamic.csv', 5, table)
     call compare_motion('dynamic', table, loads(2, 2:), 2/loads(1, 2), stiffness, mass, end, rubbing)
 
+    call compare_lifting('lifting', stiffness, mass)
+    call compare_lifting('lifting_dynamic', stiffness, mass)
+
     call read_table(trim(results)//'/frequency.csv', 1, table)
     stiffness(rubbing, rubbing) = stiffness(rubbing, rubbing) + contact%initial_stiffness
     allocate (inverse_squares(n), work(64*n))
@@ -150,6 +202,92 @@ contains
       call check(job//': structural solution, '//trim(names(i)), maxval(abs(own(i, :) - table(i, :))), structural*largest, largest)
     end do
   end subroutine compare_motion
+
+  !> As compare_motion, with the element: forces at the tip in y and z; it slides in y and closes in -z. Dynamic if the loads have
+  !> the times of the results.
+  subroutine compare_lifting(job, stiffness, mass)
+    character(len=*), intent(in) :: job
+    real(wp), intent(in) :: stiffness(:, :), mass(:, :)
+    character(len=*), parameter :: names(2:7) = [character(len=23) :: 'tip in y', 'tip in z', 'displacement', 'approach', 'force', &
+      'normal force']
+    real(wp), allocatable :: loads(:, :), table(:, :), own(:, :)
+    real(wp) :: state(mslip_element_state_length(1, 64_mslip_size)), rate, largest, side(size(mass, 1), 2)
+    real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
+    real(wp), dimension(size(mass, 1), size(mass, 1)) :: matrix, inverse
+    integer :: tip_equations(2), i, status
+
+    call read_table(trim(jobs)//'/'//job//'_load.csv', 3, loads)
+    call read_table(trim(results)//'/'//job//'.csv', 8, table)
+    rate = 0
+    if (size(loads, 2) == size(table, 2) + 1) rate = 2/loads(1, 2)
+    tip_equations = [equation('113.2'), equation('113.3')]
+    side = 0
+    side(equation('103.2'), 1) = 1
+    side(equation('103.3'), 2) = -1
+    matrix = stiffness + rate**2*mass
+    inverse = 0
+    do i = 1, size(mass, 1)
+      inverse(i, i) = 1
+    end do
+    call dposv('U', size(mass, 1), size(mass, 1), matrix, size(mass, 1), inverse, size(mass, 1), status)
+    if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
+    call mslip_element_state_init(1, state, status)
+    allocate (own, mold=table)
+    u = 0
+    velocity = 0
+    acceleration = 0
+    do i = 1, size(table, 2)
+      inertia = rate**2*u + 2*rate*velocity + acceleration
+      u = matmul(mass, inertia)
+      u(tip_equations) = u(tip_equations) + [at_time(loads(1:2, :), table(1, i)), at_time(loads(1:3:2, :), table(1, i))]
+      u = matmul(inverse, u)
+      call element_equilibrium(matmul(u, side), matmul(transpose(side), matmul(inverse, side)), state, own(4:5, i), own(6:7, i))
+      u = u - matmul(inverse, matmul(side, own(6:7, i)))
+      own(2:3, i) = u(tip_equations)
+      inertia = rate**2*u - inertia  ! the new acceleration
+      if (rate > 0) velocity = velocity + (acceleration + inertia)/rate
+      acceleration = inertia
+    end do
+    do i = 2, 7
+      largest = maxval(abs(own(i, :)))
+      call check(job//': structural solution, '//trim(names(i)), maxval(abs(own(i, :) - table(i, :))), lifting_tolerance*largest, &
+        largest)
+    end do
+  end subroutine compare_lifting
+
+  !> Equilibrium u = free - compliance*force of element and structure: Newton's method with the tangent of the element; a step that
+  !> does not reduce the residual is halved.
+  subroutine element_equilibrium(free, compliance, state, u, f)
+    real(wp), intent(in) :: free(2), compliance(2, 2)
+    real(wp), intent(inout) :: state(:)
+    real(wp), intent(out) :: u(2), f(2)
+    real(wp) :: trial(size(state)), tangent(2, 2), matrix(2, 2), residual(2), step(2), last
+    integer :: i, status
+
+    u = free
+    step = 0
+    last = huge(last)
+    do i = 1, 200
+      call mslip_element_update(element, state, u + step, trial, status, f, tangent)
+      residual = free - u - step - matmul(compliance, f)
+      if (status /= MSLIP_OK .or. norm2(residual) >= last) then
+        if (norm2(step) <= 4*spacing(norm2(u))) exit
+        step = step/2
+        cycle
+      end if
+      u = u + step
+      last = norm2(residual)
+      matrix = matmul(compliance, tangent)
+      matrix(1, 1) = matrix(1, 1) + 1
+      matrix(2, 2) = matrix(2, 2) + 1
+      step = [matrix(2, 2)*residual(1) - matrix(1, 2)*residual(2), matrix(1, 1)*residual(2) - matrix(2, 1)*residual(1)]
+      step = step/(matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
+    end do
+    if (i > 200) call stop_with('no equilibrium')
+    call mslip_element_update(element, state, u, trial, status, f)
+    call require(status)
+    state = trial
+  end subroutine element_equilibrium
 
   !> Equilibrium u = free - compliance*force of contact and structure: Newton's method within a bracket, because the force
   !> increases with the displacement and is at most mu N. Trial steps start from `state`, which becomes that of the solution.

@@ -1,43 +1,54 @@
-! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one direction. The routines
-! below have the names and arguments that CalculiX calls for this element, and replace those of its own U1, a beam.
+! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one direction and, with a tenth
+! constant, press on each other and separate. The routines below have the names and arguments that CalculiX calls for this element,
+! and replace those of its own U1, a beam.
 !
 !   *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
 !   *ELEMENT, TYPE=U1, ELSET=rubbing
 !   number, first node, second node
 !   *MATERIAL, NAME=law
-!   *USER MATERIAL, CONSTANTS=9
+!   *USER MATERIAL, CONSTANTS=9               or CONSTANTS=10
 !   a, R, L, N, mu, E1, nu1, E2,
-!   nu2
+!   nu2                                       or nu2, interference
 !   *DEPVAR
-!   3 + the length of a state
-!   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
-!   direction of sliding
+!   3 + the length of a state                 or 5 + the length of the state of an element
+!   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3     or CONSTANTS=6
+!   direction of sliding                      or direction of sliding, direction in which the second node approaches the first
 !
-! The displacement is that of the second node relative to the first in the direction of sliding, which is normalised and does not
-! rotate with the structure. State variables: 1 force, positive with the displacement, 2 displacement, 3 energy dissipated so far,
-! 4... the state of the law.
+! The displacement is that of the second node relative to the first in these directions, which are normalised and do not rotate with
+! the structure; the interference, negative if there is a gap, is added to the approach. With ten constants N is the largest normal
+! force expected, not a load. State variables: force, displacement (positive together), energy dissipated so far, the state of the
+! law; or tangential and normal force, tangential displacement and approach, energy, state.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
   implicit none
   private
-  public :: prepare, direction, update, fail
+  public :: prepare, directions, update, fail
 
   integer, parameter, public :: wp = mslip_real
-  integer, parameter, public :: printed = 3  ! state variables before the state of the law
+
+  type, public :: contact_law
+    integer :: components = 1                !! 1: constant normal force, 2: tangential and normal
+    type(mslip_contact) :: contact
+    type(mslip_element) :: element
+    real(wp) :: offset(2) = 0                !! added to the displacement
+    real(wp) :: initial_stiffness(2) = 0     !! sticking, at N
+  end type contact_law
 
 contains
 
   !> The contact of the element's material. It is initialised in every call, in 20 us: CalculiX calls from several threads, and
   !> nothing is kept between calls.
-  subroutine prepare(element, kind_and_count, constants, contact)
+  subroutine prepare(element, kind_and_count, constants, law)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
-    type(mslip_contact), intent(out) :: contact
+    type(contact_law), intent(out) :: law
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    if (kind_and_count /= -109) call fail(element, 'its material must be a *USER MATERIAL with 9 constants')
+    law%components = -kind_and_count - 108
+    if (law%components /= 1 .and. law%components /= 2) &
+      call fail(element, 'its material must be a *USER MATERIAL with 9 or 10 constants')
     call mslip_parameters_default(p)
     p%flat_half_width = constants(1)
     p%edge_radius = constants(2)
@@ -45,47 +56,68 @@ contains
     p%normal_force = constants(4)
     p%friction_coefficient = constants(5)
     p%material = [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))]
-    call mslip_contact_init(p, contact, status)
+    if (law%components == 1) then
+      call mslip_contact_init(p, law%contact, status)
+      law%initial_stiffness(1) = law%contact%initial_stiffness
+    else
+      call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, law%element, status)
+      law%initial_stiffness = [law%element%tangential_stiffness, law%element%normal_stiffness]
+      law%offset(2) = constants(10)
+    end if
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
   end subroutine prepare
 
-  !> Unit vector of sliding.
-  function direction(element, property, properties) result(d)
-    integer, intent(in) :: element, property
+  !> Unit vectors of sliding and approach.
+  function directions(element, components, property, properties) result(d)
+    integer, intent(in) :: element, components, property
     real(wp), intent(in) :: properties(*)
-    real(wp) :: d(3)
+    real(wp) :: d(3, components)
+    integer :: i
 
-    d = properties(property + 1:property + 3)
-    if (.not. norm2(d) > 0) call fail(element, 'its *USER SECTION must have a direction')
-    d = d/norm2(d)
-  end function direction
+    d = reshape(properties(property + 1:property + 3*components), [3, components])
+    do i = 1, components
+      if (.not. norm2(d(:, i)) > 0) call fail(element, 'its *USER SECTION must have the directions')
+      d(:, i) = d(:, i)/norm2(d(:, i))
+    end do
+  end function directions
 
-  !> A trial step: force and stiffness at a displacement, from the variables of the last accepted increment to those of this
-  !> attempt. `accepted` is false if the displacement is not finite: Newton's method has diverged.
-  subroutine update(element, contact, displacement, start, before, after, stiffness, accepted)
+  !> A trial step: forces and stiffness at a displacement, from the variables of the last accepted increment to those of this
+  !> attempt. `accepted` is false if the displacement is not finite or beyond the range of the law: Newton's method has diverged.
+  subroutine update(element, law, displacement, start, before, after, stiffness, accepted)
     integer, intent(in) :: element
-    type(mslip_contact), intent(in) :: contact
-    real(wp), intent(in) :: displacement, start, before(:)
+    type(contact_law), intent(in) :: law
+    real(wp), intent(in) :: displacement(:), start(:), before(:)
     real(wp), intent(inout) :: after(:)
-    real(wp), intent(out) :: stiffness
+    real(wp), intent(out) :: stiffness(:, :)
     logical, intent(out) :: accepted
-    real(wp), dimension(size(before) - printed) :: state, trial
-    real(wp) :: force, dissipated
+    real(wp), dimension(size(before) - 2*law%components - 1) :: state, trial
+    real(wp) :: force(law%components), dissipated
     integer(mslip_int) :: status
+    integer :: printed
 
+    printed = 2*law%components + 1
     status = MSLIP_OK
     state = before(printed + 1:)
     if (all(abs(state) <= 0)) then  ! initial state variables of CalculiX
-      if (abs(start) > 0) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
+      if (any(abs(start) > 0)) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
         'have state variables only if the model has a *CONTACT PAIR)')
-      call mslip_state_init(state, status)
+      if (law%components == 1) then
+        call mslip_state_init(state, status)
+      else
+        call mslip_element_state_init(1_mslip_int, state, status)
+      end if
     end if
-    if (status == MSLIP_OK) &
-      call mslip_masing_update(contact, state, displacement, trial, status, force, stiffness, dissipated)
-    accepted = status /= MSLIP_BAD_DISPLACEMENT
+    if (status == MSLIP_OK) then
+      if (law%components == 1) then
+        call mslip_masing_update(law%contact, state, displacement(1), trial, status, force(1), stiffness(1, 1), dissipated)
+      else
+        call mslip_element_update(law%element, state, displacement + law%offset, trial, status, force, stiffness, dissipated)
+      end if
+    end if
+    accepted = all(status /= [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT])
     if (.not. accepted) return
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
-    after(1:printed) = [force, displacement, before(3) + dissipated]
+    after(1:printed) = [force, displacement + law%offset(:law%components), before(printed) + dissipated]
     after(printed + 1:) = trial
   end subroutine update
 
@@ -107,7 +139,6 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
     mi, ielas, icmd, ncmat_, nstate_, stiini, vini, ener, eei, enerini, istep, iinc, reltime, calcul_fn, calcul_qa, &
     calcul_cauchy, nener, ikin, nal, ne0, thicke, emeini, i, ielprop, prop, t0g, t1g)
   use contact_element
-  use microslip, only: mslip_contact
   implicit none
   ! Used: node numbers of element i from kon(ipkon(i) + 1); displacements of this iteration, v, of the previous one, vold, and at
   ! the start of the increment, vini; constants of the material; properties of the section; state variables at the start
@@ -124,52 +155,64 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   real(wp) :: co(*), stx(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), prestr(*), eme(*), veold(*), dtime
   real(wp) :: time, ttime, plicon(*), plkcon(*), stiini(*), ener(*), eei(*), enerini(*), reltime, thicke(*)
   real(wp) :: emeini(*), t0g(*), t1g(*)
-  type(mslip_contact) :: contact
-  real(wp) :: d(3), force, stiffness
+  type(contact_law) :: law
   integer :: first, second, material
-  logical :: accepted
 
   first = kon(ipkon(i) + 1)
   second = kon(ipkon(i) + 2)
   material = ielmat(1, i)
-  d = direction(i, ielprop(i), prop)
-  call prepare(i, nelcon(1, material), elcon(1, 1, material), contact)
-  if (iperturb(1) >= 2) then
-    call update(i, contact, slide(v), slide(vini), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
-    if (.not. accepted) then
-      qa(3) = 0.25_wp  ! requests a quarter of the increment
-      return
-    end if
-    force = xstate(1, 1, i)
-  else
-    ! Small vibrations about any state have the initial stiffness. So has the first iteration of a step with moving supports (-1),
-    ! which requires the change of the force alone.
-    if (nmethod == 1 .and. iperturb(1) /= -1) &
-      call fail(i, 'the step is linear; after *FREQUENCY a static step needs NLGEOM')
-    stiffness = contact%initial_stiffness
-    force = stiffness*slide(v)
-    if (iperturb(1) == -1) force = force - stiffness*slide(vold)
-  end if
-
-  if (icmd /= 3) xstiff(1, 1, i) = stiffness
-  if (calcul_fn == 1) then
-    fn(1:3, second) = fn(1:3, second) + force*d
-    fn(1:3, first) = fn(1:3, first) - force*d
-  end if
-  if (calcul_qa == 1) then  ! the sum whose mean the residual is compared with
-    qa(1) = qa(1) + 2*abs(force)*sum(abs(d))
-    nal = nal + 6
-  end if
+  call prepare(i, nelcon(1, material), elcon(1, 1, material), law)
+  call evaluate(directions(i, law%components, ielprop(i), prop))
 
 contains
 
-  !> Displacement of the second node relative to the first.
-  function slide(nodal)
-    real(wp), intent(in) :: nodal(0:mi(2), *)
-    real(wp) :: slide
+  subroutine evaluate(d)
+    real(wp), intent(in) :: d(:, :)
+    real(wp) :: force(size(d, 2)), stiffness(size(d, 2), size(d, 2)), nodal_force(3)
+    logical :: accepted
+    integer :: j
 
-    slide = dot_product(d, nodal(1:3, second) - nodal(1:3, first))
-  end function slide
+    if (iperturb(1) >= 2) then
+      call update(i, law, relative(v, d), relative(vini, d), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
+      if (.not. accepted) then
+        qa(3) = 0.25_wp  ! requests a quarter of the increment
+        return
+      end if
+      force = xstate(1:size(force), 1, i)
+    else
+      ! Small vibrations about any state have the initial stiffness. So has the first iteration of a step with moving supports
+      ! (-1), which requires the change of the force alone.
+      if (nmethod == 1 .and. iperturb(1) /= -1) &
+        call fail(i, 'the step is linear; after *FREQUENCY a static step needs NLGEOM')
+      stiffness = 0
+      do j = 1, size(force)
+        stiffness(j, j) = law%initial_stiffness(j)
+      end do
+      force = matmul(stiffness, relative(v, d))
+      if (iperturb(1) == -1) force = force - matmul(stiffness, relative(vold, d))
+    end if
+
+    ! The matrix of CalculiX is symmetric: the tangential force follows the normal one, not the reverse, and this coupling is
+    ! left to the iterations.
+    if (icmd /= 3) xstiff(1:size(force), 1, i) = [(stiffness(j, j), j=1, size(force))]
+    nodal_force = matmul(d, force)
+    if (calcul_fn == 1) then
+      fn(1:3, second) = fn(1:3, second) + nodal_force
+      fn(1:3, first) = fn(1:3, first) - nodal_force
+    end if
+    if (calcul_qa == 1) then  ! the sum whose mean the residual is compared with
+      qa(1) = qa(1) + 2*sum(abs(nodal_force))
+      nal = nal + 6
+    end if
+  end subroutine evaluate
+
+  !> Displacement of the second node relative to the first.
+  function relative(nodal, d)
+    real(wp), intent(in) :: nodal(0:mi(2), *), d(:, :)
+    real(wp) :: relative(size(d, 2))
+
+    relative = matmul(nodal(1:3, second) - nodal(1:3, first), d)
+  end function relative
 
 end subroutine resultsmech_u1
 
@@ -182,25 +225,30 @@ subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nele
     ntie, nasym, ielprop, prop)
   use contact_element
   implicit none
-  integer :: nelem, mi(*), ielprop(*)
+  integer :: nelem, mi(*), nelcon(2, *), ielmat(mi(3), *), ielprop(*)
   real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*)
   ! Not used.
   character(len=8) :: lakonl
   character(len=20) :: sideload(*)
   character(len=80) :: matname(*)
   character(len=81) :: tieset(3, *)
-  integer :: kon(*), nbody, nmethod, nelcon(*), nrhcon(*), nalcon(*), ielmat(*), ielorien(*), norien, ntmat_, ithermal(*)
+  integer :: kon(*), nbody, nmethod, nrhcon(*), nalcon(*), ielorien(*), norien, ntmat_, ithermal(*)
   integer :: iperturb(*), nelemload(*), nload, idist, iexpl, nplicon(*), nplkcon(*), npmat_, ncmat_, mass(*), stiffness
   integer :: buckling, rhsi, intscheme, istep, iinc, coriolis, ipompc(*), nodempc(*), nmpc, ikmpc(*), ilmpc(*), ne0
   integer :: ipkon(*), integerglob(*), istartset(*), iendset(*), ialset(*), ntie, nasym
   real(wp) :: co(*), p1(*), p2(*), omx, bodyfx(*), elcon(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), vold(*)
   real(wp) :: xload(*), sti(*), stx(*), plicon(*), plkcon(*), dtime, ttime, time, xloadold(*), reltime, coefmpc(*)
   real(wp) :: veold(*), thicke(*), doubleglob(*)
-  real(wp) :: slide(6)
+  real(wp) :: row(6), d(3, 2)
+  integer :: components, j
 
-  slide(4:6) = direction(nelem, ielprop(nelem), prop)
-  slide(1:3) = -slide(4:6)
-  s(1:6, 1:6) = xstiff(1, 1, nelem)*spread(slide, 2, 6)*spread(slide, 1, 6)
+  components = -nelcon(1, ielmat(1, nelem)) - 108
+  d(:, :components) = directions(nelem, components, ielprop(nelem), prop)
+  s(1:6, 1:6) = 0
+  do j = 1, components
+    row = [-d(:, j), d(:, j)]
+    s(1:6, 1:6) = s(1:6, 1:6) + xstiff(j, 1, nelem)*spread(row, 2, 6)*spread(row, 1, 6)
+  end do
   sm(1:6, 1:6) = 0
   ff(1:6) = 0
 end subroutine e_c3d_u1

@@ -12,6 +12,8 @@
 #   frequency.inp  natural frequencies of the sticking blade
 #   matrices.inp   stiffness and mass of the blade alone, for compare.f90
 #   *_load.csv     force at the tip over time, linear in between
+#   lifting.inp, lifting_dynamic.inp
+#                  the same blade on the element with a normal direction: forces in y and z; the loads are time, y, z
 set -eu
 
 # Columns: x, then y, then z.
@@ -115,3 +117,48 @@ awk 'BEGIN {
 
 printf '%s\n' '*INCLUDE, INPUT=blade.inp' '*STEP' '*FREQUENCY' '4' '*END STEP' > frequency.inp
 printf '%s\n' '*INCLUDE, INPUT=blade_alone.inp' '*STEP' '*FREQUENCY, SOLVER=MATRIXSTORAGE' '4' '*END STEP' > matrices.inp
+
+# The element with a normal direction: the contact slides in y and closes in -z. 273 state variables: 5 results, and a state that
+# holds 64 pieces exactly: a normal force that rises in as many increments leaves as many.
+cat > element.inp << 'END'
+*USER MATERIAL, CONSTANTS=10
+0., 50., 3., 800., 0.5, 114.e3, 0.33, 114.e3,
+0.33, 0.
+END
+
+cat > lifting_blade.inp << 'END'
+*INCLUDE, INPUT=blade_alone.inp
+*USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
+*ELEMENT, TYPE=U1, ELSET=rubbing
+5000, 5000, 103
+*MATERIAL, NAME=law
+*INCLUDE, INPUT=element.inp
+*DEPVAR
+273
+*USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=6
+0., 1., 0., 0., 0., -1.
+END
+
+# Pressed, loaded sideways beyond gross slip, unloaded, lifted, pressed again while displaced, and slid back.
+lifting='0,0 0,-40 400,-40 400,-15 100,20 -300,20 -300,-40 -450,-40 300,-25 0,-40'
+n=0
+for load in $lifting; do printf '%d., %s.\n' "$n" "$(echo "$load" | sed 's/,/., /')"; n=$((n + 1)); done > lifting_load.csv
+{
+    printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' "$tip"
+    for load in ${lifting#* }; do
+        printf '%s\n' '*STEP, INC=500' '*STATIC' '0.1, 1., 1.e-5, 0.1' "$controls" \
+            '*CLOAD' "113, 2, ${load%,*}." "113, 3, ${load#*,}." "$output" '*END STEP'
+    done
+} > lifting.inp
+
+# Four periods of 300 Hz across, of 200 Hz sideways: the blade bounces.
+awk 'BEGIN {
+    pi = atan2(0, -1)
+    for (n = 0; n <= 1000; n++) { t = n/75000; printf "%.12g, %.12g, %.12g\n", t, 150*sin(2*pi*200*t), -8*sin(2*pi*300*t) }
+}' > lifting_dynamic_load.csv
+awk -F, '{ print $1 "," $2 }' lifting_dynamic_load.csv > sideways.csv
+awk -F, '{ print $1 "," $3 }' lifting_dynamic_load.csv > across.csv
+printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' "$tip" '*AMPLITUDE, NAME=sideways' '*INCLUDE, INPUT=sideways.csv' \
+    '*AMPLITUDE, NAME=across' '*INCLUDE, INPUT=across.csv' \
+    '*STEP, INC=2000' '*DYNAMIC, DIRECT, ALPHA=0.' '1.33333333333e-5, 1.33333333333e-2' "$controls" \
+    '*CLOAD, AMPLITUDE=sideways' '113, 2, 1.' '*CLOAD, AMPLITUDE=across' '113, 3, 1.' "$output" '*END STEP' > lifting_dynamic.inp

@@ -62,14 +62,24 @@ table() {
          NF == 46 && $1 == 5000     { print time "," tip "," $4 "," $3 "," $5 }' "$1.dat"
 }
 
-for name in static dynamic frequency matrices; do job "$name"; done
+# table_element NAME: the same of the element with a normal direction.
+table_element() {
+    awk 'BEGIN { print "time,tip_y,tip_z,displacement,approach,force,normal_force,dissipated" }
+         / and time /               { time = $NF }
+         NF == 4 && $1 == 113       { tip = $3 "," $4 }
+         NF == 101 && $1 == 5000     { print time "," tip "," $5 "," $6 "," $3 "," $4 "," $7 }' "$1.dat"
+}
+
+for name in static dynamic frequency matrices lifting lifting_dynamic; do job "$name"; done
 cp static.rout resumed.rin
 job resumed
 table static > ../../results/static.csv
 table dynamic > ../../results/dynamic.csv
 table resumed > resumed.csv
 awk '$1 == 1 && NF == 5 { print $2; exit }' frequency.dat > ../../results/frequency.csv
-cp law.inp ../../results/
+table_element lifting > ../../results/lifting.csv
+table_element lifting_dynamic > ../../results/lifting_dynamic.csv
+cp law.inp element.inp ../../results/
 
 tail -n +2 resumed.csv > resumed.tail
 tail -n "$(wc -l < resumed.tail)" ../../results/static.csv | cmp - resumed.tail ||
@@ -81,3 +91,4 @@ echo "rejected increments: $rejected; the results after a restart are equal"
 cd ../..
 build/compare results build/jobs
 "$GNUPLOT" loops.gp
+"$GNUPLOT" lifting.gp

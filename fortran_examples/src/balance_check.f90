@@ -1,40 +1,46 @@
 !> Checks of the harmonic balance without stored results, at the frequencies of the group &points:
-!> the derivatives of the residual against central differences, and the energy supplied against that dissipated.
+!> the derivatives of the residual against central differences, the energy supplied against that dissipated, and the harmonic
+!> force of the contacts against two periods of time steps.
 !>
 !>     balance_check CASE
 program balance_check
   use basics, only: argument, fail, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use fourier_series, only: get_harmonic
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
+  use continuation, only: solve_within
+  use fourier_series, only: get_harmonic, series_basis
+  use friction_contacts, only: contact_history
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
   implicit none
 
   ! Rounding of 1e-16/1e-6, more where the residual is a small difference; the curvature of the laws adds about as much.
   real(wp), parameter :: relative_step = 1.0e-6_wp, derivative_tolerance = 1.0e-5_wp
   ! Energies are those of the continuous motion, the balance that of the samples: they differ by about 1e-3 with 64.
   real(wp), parameter :: energy_tolerance = 1.0e-2_wp
+  real(wp), parameter :: step_tolerance = 1.0e-10_wp
   type(case_data) :: data
   type(balance_problem) :: problem
   type(balance_point) :: point
   real(wp), allocatable :: displacement(:,:)
-  real(wp) :: omega, energy, derivative
+  real(wp) :: omega, energy, derivative, steps
   logical :: converged
   integer :: i
 
   call read_case(trim(argument(1, 'balance_check CASE')), data)
   if (size(data%frequencies) == 0) call fail('a group &points is needed')
-  call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
-  allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
   do i = 1, size(data%frequencies)
+    call prepare_problem(data, data%point_load_factor, data%harmonics, data%samples, problem, data%point_excitation_factors(i))
+    if (i == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
     omega = 2.0_wp * pi * data%frequencies(i)
-    call solve_from_rest(problem, omega, displacement, point, converged)
+    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], omega, displacement, point, converged)
     if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
     energy = energy_difference()
     derivative = derivative_difference()
+    steps = step_difference()
     call progress(text(data%frequencies(i), '(f12.2)')//' Hz: energy balance '//text(energy, '(es8.1)')// &
-                  ', derivatives '//text(derivative, '(es8.1)'))
+                  ', derivatives '//text(derivative, '(es8.1)')//', time steps '//text(steps, '(es8.1)'))
     if (.not. energy <= energy_tolerance) call fail('the energy balance is violated')
     if (.not. derivative <= derivative_tolerance) call fail('the derivatives differ from central differences')
+    if (.not. steps <= step_tolerance) call fail('the harmonic force differs from that of time steps')
   end do
 
 contains
@@ -60,7 +66,7 @@ contains
   real(wp) function derivative_difference() result(worst)
     type(balance_point) :: here, ahead, behind
     real(wp) :: moved(size(displacement, 1), size(displacement, 2)), step
-    integer :: coefficient, contact, m
+    integer :: coefficient, component, m
 
     m = size(displacement, 1)
     call evaluate(problem, omega, displacement, here)
@@ -68,19 +74,36 @@ contains
     call evaluate(problem, omega + step, displacement, ahead)
     call evaluate(problem, omega - step, displacement, behind)
     worst = difference(here%by_omega, (ahead%residual - behind%residual) / (2.0_wp * step))
-    do contact = 1, size(displacement, 2)
-      step = relative_step * norm2(displacement(:, contact))
+    do component = 1, size(displacement, 2)
+      step = relative_step * norm2(displacement(2:, component))
       do coefficient = 1, m
         moved = displacement
-        moved(coefficient, contact) = displacement(coefficient, contact) + step
+        moved(coefficient, component) = displacement(coefficient, component) + step
         call evaluate(problem, omega, moved, ahead)
-        moved(coefficient, contact) = displacement(coefficient, contact) - step
+        moved(coefficient, component) = displacement(coefficient, component) - step
         call evaluate(problem, omega, moved, behind)
-        worst = max(worst, difference(reshape(here%jacobian(:, (contact - 1) * m + coefficient), shape(moved)), &
+        worst = max(worst, difference(reshape(here%jacobian(:, (component - 1) * m + coefficient), shape(moved)), &
                                       (ahead%residual - behind%residual) / (2.0_wp * step)))
       end do
     end do
   end function derivative_difference
+
+  !> Largest difference of the force coefficients of a contact from those of the forces of time steps at the samples, relative.
+  real(wp) function step_difference() result(worst)
+    type(contact_history) :: history
+    real(wp) :: basis(data%samples, size(displacement, 1)), force(data%samples, size(displacement, 2))
+    real(wp) :: coefficients(size(displacement, 1), size(displacement, 2))
+    integer :: j
+
+    basis = series_basis(data%harmonics, data%samples)
+    call problem%contacts%steady_cycle(matmul(basis, displacement), history, force)
+    coefficients = 2.0_wp / data%samples * matmul(transpose(basis), force)
+    coefficients(1, :) = 0.5_wp * coefficients(1, :)
+    worst = 0.0_wp
+    do j = 1, size(displacement, 2)
+      worst = max(worst, maxval(abs(coefficients(:, j) - point%force(:, j))) / maxval(abs(point%force(:, j))))
+    end do
+  end function step_difference
 
   pure real(wp) function difference(column, reference)
     real(wp), intent(in) :: column(:,:), reference(:,:)

@@ -8,11 +8,16 @@
 !> is carried by friction: a rotation theta of the foot slides the two flanks, a lever r away from the axis of the
 !> blade, by +r theta and -r theta. By symmetry both flanks have the same loop, so one coordinate, r theta, serves both.
 !>
-!> The platform is a rigid mass 30 mm above the foot. The damper is pressed against the undersides of the two platforms
-!> and seated in the second one, so that it slides on the first. At the damper an underside moves by w - e theta, with e the
-!> distance from the axis of the platform to its underside.
+!> The platform is a rigid mass 30 mm above the foot. There are two models:
+!>
+!> blades   The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on
+!>          the first. At the damper an underside moves by w - e theta, with e the distance from the axis of the platform to its
+!>          underside.
+!> wedge    The damper is a rigid body that moves in the circumferential and the radial direction, x and r. It lies between two
+!>          inclined undersides, at a distance s from the axes of the blades, where these also move radially: the rotation theta
+!>          moves that of the first blade by -s theta and that of the second, on the other side of its axis, by +s theta.
 program blade_model
-  use basics, only: argument, fail, name_length, open_table, pi, progress, text, wp
+  use basics, only: argument, fail, name_length, open_table, path_length, pi, progress, text, wp
   use dense_algebra, only: solve, symmetric_modes
   use linear_structure, only: read_matrix, write_matrix
   implicit none
@@ -33,57 +38,109 @@ program blade_model
   real(wp), parameter :: platform_mass = 0.012_wp         ! kg
   real(wp), parameter :: platform_inertia = 4.0e-7_wp     ! kg m2
   real(wp), parameter :: underside_distance = 0.003_wp    ! e, m
+  real(wp), parameter :: damper_distance = 0.014_wp       ! s, m
+  real(wp), parameter :: damper_mass = 0.020_wp           ! kg
+  real(wp), parameter :: platform_angle = pi / 4.0_wp     ! of the undersides to the circumferential direction
+  real(wp), parameter :: dashpot = 150.0_wp               ! N s/m
 
   real(wp), parameter :: mistuning = 0.005_wp             ! of the stiffness of the second blade
-  real(wp), parameter :: damping_ratio = 1.0e-3_wp        ! material and air, in all modes
+  real(wp), parameter :: material_damping = 1.0e-3_wp, aerodynamic_damping = 4.0e-3_wp   ! damping ratios, in all modes
   integer, parameter :: modes_kept = 8                    ! of each blade, with its boundary fixed
-  character(len=8), parameter :: boundary_name(3) = ['root    ', 'platform', 'tip     ']
-  integer, parameter :: boundary(3) = [2, 2 * platform_node + 1, 2 * elements + 1]      ! rotation, deflection, deflection
-  integer, parameter :: reduced = size(boundary) + modes_kept
+  integer, parameter :: platform = 2 * platform_node + 1  ! deflection; followed by the rotation
 
   ! Largest change of a natural frequency by the reduction, and of an entry of the matrices, relative to the diagonal: another
   ! LAPACK changes the modes by its rounding error times the condition of the stiffness matrix, about 1e-16 * 1e6.
   real(wp), parameter :: reduction_tolerance = 1.0e-3_wp, file_tolerance = 1.0e-9_wp
 
-  real(wp), dimension(2 * reduced, 2 * reduced) :: mass, damping, stiffness
+  character(len=path_length) :: directory
+  real(wp), allocatable, dimension(:,:) :: mass, damping, stiffness
   real(wp) :: blade_mass(n, n), blade_stiffness(n, n)
-  character(len=:), allocatable :: prefix
-  integer :: blade, first, last, unit, i
+  character(len=name_length), allocatable :: boundary_name(:)
+  integer, allocatable :: boundary(:)
+  integer :: reduced
 
-  mass = 0.0_wp
-  damping = 0.0_wp
-  stiffness = 0.0_wp
-  do blade = 1, 2
-    first = (blade - 1) * reduced + 1
-    last = blade * reduced
-    call assemble(young_modulus * merge(1.0_wp, 1.0_wp + mistuning, blade == 1), blade_mass, blade_stiffness)
-    call reduce(blade_mass, blade_stiffness, mass(first:last, first:last), stiffness(first:last, first:last))
-    damping(first:last, first:last) = modal_damping(mass(first:last, first:last), stiffness(first:last, first:last))
-    call check_reduction()
-  end do
-
-  prefix = trim(argument(2, usage))//'/blades_'
-  select case (argument(1, usage))
-  case ('write')
-    call write_matrix(prefix//'mass.mtx', 'mass of two blades, kg', mass)
-    call write_matrix(prefix//'damping.mtx', 'damping of two blades, N s/m', damping)
-    call write_matrix(prefix//'stiffness.mtx', 'stiffness of two blades, contacts open, N/m', stiffness)
-    unit = open_table(prefix//'dof.txt', '# degrees of freedom of two blades; modes are mass-normalised')
-    do blade = 1, 2
-      do i = 1, reduced
-        write (unit, '(4a)') text(i + (blade - 1) * reduced), ' ', trim(dof_name(i)), '_'//text(blade)
-      end do
-    end do
-    close (unit)
-  case ('check')
-    call compare('mass', mass)
-    call compare('damping', damping)
-    call compare('stiffness', stiffness)
-  case default
-    call fail('usage: '//usage)
-  end select
+  directory = argument(2, usage)
+  boundary = [2, platform, 2 * elements + 1]          ! rotation, deflection, deflection
+  boundary_name = [character(len=name_length) :: 'root', 'platform', 'tip']
+  call make_model('blades', 'two blades', [1.0_wp, 1.0_wp], material_damping, free_bodies=0)
+  boundary = [2, platform, platform + 1, 2 * elements + 1]
+  boundary_name = [character(len=name_length) :: 'root', 'platform', 'platform_radial', 'tip']
+  call make_model('wedge', 'two blades with a wedge damper', [-damper_distance, damper_distance], &
+                  material_damping + aerodynamic_damping, free_bodies=1)
 
 contains
+
+  !> The blades, and after them the translations of the damper.
+  subroutine make_model(name, description, levers, damping_ratio, free_bodies)
+    character(len=*), intent(in) :: name, description
+    real(wp), intent(in) :: levers(2), damping_ratio
+    integer, intent(in) :: free_bodies
+    character(len=:), allocatable :: prefix
+    real(wp), allocatable :: omega(:), modes(:,:)
+    integer :: blade, first, last, unit, i
+
+    reduced = size(boundary) + modes_kept
+    last = 2 * reduced + 2 * free_bodies
+    if (allocated(mass)) deallocate (mass, damping, stiffness)
+    allocate (mass(last, last), damping(last, last), stiffness(last, last), source=0.0_wp)
+    allocate (omega(reduced), modes(reduced, reduced))
+    do blade = 1, 2
+      first = (blade - 1) * reduced + 1
+      last = blade * reduced
+      call assemble(young_modulus * merge(1.0_wp, 1.0_wp + mistuning, blade == 1), &
+                    levers(blade), blade_mass, blade_stiffness)
+      call reduce(blade_mass, blade_stiffness, mass(first:last, first:last), stiffness(first:last, first:last))
+      damping(first:last, first:last) = modal_damping(mass(first:last, first:last), stiffness(first:last, first:last), &
+                                                          damping_ratio)
+      call check_reduction(blade, first, last)
+    end do
+    ! A free body decays like the first mode of the blades.
+    call symmetric_modes(stiffness(:reduced, :reduced), mass(:reduced, :reduced), omega, modes)
+    do i = 2 * reduced + 1, size(mass, 1)
+      mass(i, i) = damper_mass
+      damping(i, i) = 2.0_wp * damping_ratio * omega(1) * damper_mass
+    end do
+
+    if (free_bodies == 1) call add_dashpots()
+
+    prefix = trim(directory)//'/'//name//'_'
+    select case (argument(1, usage))
+    case ('write')
+      call write_matrix(prefix//'mass.mtx', 'mass of '//description//', kg', mass)
+      call write_matrix(prefix//'damping.mtx', 'damping of '//description//', N s/m', damping)
+      call write_matrix(prefix//'stiffness.mtx', 'stiffness of '//description//', contacts open, N/m', stiffness)
+      unit = open_table(prefix//'dof.txt', '# degrees of freedom of '//description//'; modes are mass-normalised')
+      do blade = 1, 2
+        do i = 1, reduced
+          write (unit, '(4a)') text(i + (blade - 1) * reduced), ' ', trim(dof_name(i)), '_'//text(blade)
+        end do
+      end do
+      if (free_bodies == 1) write (unit, '(2a)') text(2 * reduced + 1), ' damper_x', text(2 * reduced + 2), ' damper_r'
+      close (unit)
+    case ('check')
+      call compare(prefix, 'mass', mass)
+      call compare(prefix, 'damping', damping)
+      call compare(prefix, 'stiffness', stiffness)
+    case default
+      call fail('usage: '//usage)
+    end select
+  end subroutine make_model
+
+  !> Dashpots between damper and platforms, normal to the faces.
+  subroutine add_dashpots()
+    real(wp) :: normal(size(mass, 1))
+    integer :: blade, i
+
+    do blade = 1, 2
+      normal = 0.0_wp
+      normal(2 * reduced + 1:) = [merge(-1.0_wp, 1.0_wp, blade == 1) * sin(platform_angle), cos(platform_angle)]
+      i = (blade - 1) * reduced + 2             ! platform, followed by platform_radial
+      normal(i:i + 1) = -normal(2 * reduced + 1:)
+      do i = 1, size(normal)
+        damping(:, i) = damping(:, i) + dashpot * normal(i) * normal
+      end do
+    end do
+  end subroutine add_dashpots
 
   pure function dof_name(i) result(name)
     integer, intent(in) :: i
@@ -135,9 +192,10 @@ contains
   end subroutine beam_element
 
   !> All degrees of freedom of one blade, deflection and rotation of nodes 0, 1, ...; the rotation of the foot is replaced by
-  !> the sliding of the flanks, and the deflection of the platform by that of its underside.
-  subroutine assemble(modulus, m, k)
-    real(wp), intent(in) :: modulus
+  !> the sliding of the flanks, the deflection of the platform by that of its underside, and the rotation of the platform by the
+  !> radial displacement of that side, `lever` times as large.
+  subroutine assemble(modulus, lever, m, k)
+    real(wp), intent(in) :: modulus, lever
     real(wp), intent(out) :: m(n, n), k(n, n)
     real(wp) :: element_stiffness(4, 4), element_mass(4, 4), change(n, n)
     integer :: d, i
@@ -149,18 +207,17 @@ contains
       k(d:d + 3, d:d + 3) = k(d:d + 3, d:d + 3) + element_stiffness
       m(d:d + 3, d:d + 3) = m(d:d + 3, d:d + 3) + element_mass
     end do
-    associate (platform => boundary(2))
-      k(1, 1) = k(1, 1) + foot_stiffness
-      k(2, 2) = k(2, 2) + rocking_stiffness
-      m(platform, platform) = m(platform, platform) + platform_mass
-      m(platform + 1, platform + 1) = m(platform + 1, platform + 1) + platform_inertia
-      change = 0.0_wp
-      do i = 1, n
-        change(i, i) = 1.0_wp
-      end do
-      change(2, 2) = 1.0_wp / flank_lever
-      change(platform, platform + 1) = underside_distance
-    end associate
+    k(1, 1) = k(1, 1) + foot_stiffness
+    k(2, 2) = k(2, 2) + rocking_stiffness
+    m(platform, platform) = m(platform, platform) + platform_mass
+    m(platform + 1, platform + 1) = m(platform + 1, platform + 1) + platform_inertia
+    change = 0.0_wp
+    do i = 1, n
+      change(i, i) = 1.0_wp
+    end do
+    change(2, 2) = 1.0_wp / flank_lever
+    change(platform, platform + 1) = underside_distance / lever
+    change(platform + 1, platform + 1) = 1.0_wp / lever
     m = matmul(transpose(change), matmul(m, change))
     k = matmul(transpose(change), matmul(k, change))
   end subroutine assemble
@@ -197,8 +254,8 @@ contains
   end subroutine reduce
 
   !> The same damping ratio in all modes of the blade with open contacts: D = M Phi diag(2 zeta omega) Phi^T M.
-  function modal_damping(m, k) result(d)
-    real(wp), intent(in) :: m(:,:), k(:,:)
+  function modal_damping(m, k, damping_ratio) result(d)
+    real(wp), intent(in) :: m(:,:), k(:,:), damping_ratio
     real(wp) :: d(size(m, 1), size(m, 1)), omega(size(m, 1)), modes(size(m, 1), size(m, 1)), scaled(size(m, 1), size(m, 1))
     integer :: i
 
@@ -212,7 +269,8 @@ contains
   end function modal_damping
 
   !> Natural frequencies of the reduced blade against those of all its elements, with open contacts.
-  subroutine check_reduction()
+  subroutine check_reduction(blade, first, last)
+    integer, intent(in) :: blade, first, last
     real(wp) :: full(n), few(reduced), modes(n, n)
     integer :: i
 
@@ -225,8 +283,8 @@ contains
     end do
   end subroutine check_reduction
 
-  subroutine compare(name, expected)
-    character(len=*), intent(in) :: name
+  subroutine compare(prefix, name, expected)
+    character(len=*), intent(in) :: prefix, name
     real(wp), intent(in) :: expected(:,:)
     real(wp), allocatable :: stored(:,:)
     integer :: i, j

@@ -1,7 +1,7 @@
 !> A case: a file of namelist groups (cases/README.md), and the harmonic balance that it describes.
 module case_input
   use basics, only: fail, name_length, path_length, pi, text, wp
-  use friction_contacts, only: contact_input, law_microslip, law_slider
+  use friction_contacts, only: add_incidence, contact_input, law_element, law_microslip, law_slider
   use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
   use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP
@@ -15,9 +15,10 @@ module case_input
   !> A group &time_integration.
   type, public :: integration_input
     real(wp), allocatable :: frequencies(:)                !! Hz
-    integer, allocatable :: harmonics(:)                   !! of the balances to compare with
-    real(wp) :: load_factor = 1.0_wp, steady_tolerance = 1.0e-5_wp, allowed_difference = huge(1.0_wp)
-    integer :: samples = 1024, steps_per_period = 1024, max_periods = 1000
+    integer, allocatable :: harmonics(:), samples(:)       !! of the balances to compare with
+    real(wp) :: load_factor = 1.0_wp, excitation_factor = 1.0_wp
+    real(wp) :: steady_tolerance = 1.0e-5_wp, allowed_difference = huge(1.0_wp)
+    integer :: steps_per_period = 1024, max_periods = 1000
   end type integration_input
 
   type, public :: case_data
@@ -27,11 +28,15 @@ module case_input
     integer, allocatable :: excited_dof(:)
     real(wp), allocatable :: excitation_amplitude(:), excitation_phase(:)   !! N, degrees
     integer :: response_dof = 0
+    integer, allocatable :: loaded_dof(:)                                   !! static loads; empty without the group &static_load
+    real(wp), allocatable :: static_load(:)                                 !! N
     integer :: harmonics = 5, samples = 128
     real(wp) :: tolerance = 1.0e-9_wp
     real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp             !! Hz, of &sweep
-    real(wp), allocatable :: load_factors(:)                               !! of &sweep; empty without the group
+    real(wp), allocatable :: load_factors(:), excitation_factors(:)        !! of &sweep; empty without the group
     real(wp), allocatable :: frequencies(:)                                !! Hz, of &points; empty without the group
+    real(wp) :: point_load_factor = 1.0_wp
+    real(wp), allocatable :: point_excitation_factors(:)
     type(integration_input), allocatable :: integrations(:)
   end type case_data
 
@@ -50,6 +55,7 @@ contains
     call read_output()
     call read_model()
     call read_excitation()
+    call read_static_load()
     call read_contacts()
     call read_harmonic_balance()
     call read_sweep()
@@ -61,7 +67,8 @@ contains
 
     !> A misspelt group, or a last one without its end, would otherwise be ignored.
     subroutine check_group_names()
-      character(len=*), parameter :: known = ' output model excitation contact harmonic_balance sweep points time_integration '
+      character(len=*), parameter :: known = &
+        ' output model excitation static_load contact harmonic_balance sweep points time_integration '
       character(len=512) :: line
       logical :: open
       integer :: first
@@ -146,20 +153,42 @@ contains
       data%response_dof = response_dof
     end subroutine read_excitation
 
+    subroutine read_static_load()
+      integer :: dof(max_list_size), n
+      real(wp) :: force(max_list_size)
+      namelist /static_load/ dof, force
+
+      dof = -1
+      force = unset
+      call start('static_load')
+      read (unit, nml=static_load, iostat=status, iomsg=message)
+      n = 0
+      if (found(.false.)) then
+        n = count(dof /= -1)
+        call require(n > 0 .and. all(force(:n) > unset), 'dof and force must be given')
+        call check_dof(dof(:n), 1)
+      end if
+      data%loaded_dof = dof(:n)
+      data%static_load = force(:n)
+    end subroutine read_static_load
+
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law, displacement_reference
-      integer :: dof(2), count
+      integer :: dof(4), count
       logical :: load_varied
+      real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
       type(contact_input) :: c
-      namelist /contact/ name, law, dof, count, load_varied, flat_half_width, edge_radius, length, normal_force, &
-        friction_coefficient, young_modulus, poisson_ratio, displacement_reference
+      namelist /contact/ name, law, dof, angle, interference, count, load_varied, flat_half_width, edge_radius, length, &
+        normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference
 
       law = ' '
       displacement_reference = 'centre point'
       count = 1
       load_varied = .true.
+      angle = 0.0_wp
+      interference = 0.0_wp
       flat_half_width = unset
       edge_radius = unset
       length = unset
@@ -175,16 +204,24 @@ contains
         read (unit, nml=contact, iostat=status, iomsg=message)
         if (.not. found(size(data%contacts) == 0)) exit
         call require(len_trim(name) > 0 .and. all(data%contacts%name /= name), 'name must be given, another for each contact')
-        call require(any(law == [character(len=name_length) :: law_microslip, law_slider]), &
-                     'law must be "'//law_microslip//'" or "'//law_slider//'"')
+        call require(any(law == [character(len=name_length) :: law_microslip, law_slider, law_element]), &
+                     'law must be "'//law_microslip//'", "'//law_slider//'" or "'//law_element//'"')
         call require(any(displacement_reference == [character(len=name_length) :: 'centre point', 'rigid strip']), &
                      'displacement_reference must be "centre point" or "rigid strip"')
-        call check_dof(dof, 0)
-        call require(dof(1) /= dof(2), 'dof must be two different degrees of freedom; 0 is the ground')
+        if (dof(3) == -1) then
+          call check_dof(dof(:2), 0)
+          call require(dof(1) /= dof(2), 'dof must be two different degrees of freedom; 0 is the ground')
+          call require(law /= law_element .and. abs(interference) <= 0.0_wp, 'an element has four degrees of freedom')
+        else
+          call check_dof(dof, 0)
+          call require(any(dof(:2) /= dof(3:)), 'the two bodies must not be the same')
+        end if
         call require(count > 0, 'count must be 1 or more')
         c%name = name
         c%law = law
         c%dof = dof
+        c%angle = angle
+        c%interference = interference
         c%count = count
         c%load_varied = load_varied
         c%parameters%flat_half_width = flat_half_width
@@ -219,38 +256,57 @@ contains
     end subroutine read_harmonic_balance
 
     subroutine read_sweep()
-      real(wp) :: frequency_from, frequency_to, load_factors(max_list_size)
-      namelist /sweep/ frequency_from, frequency_to, load_factors
+      real(wp) :: frequency_from, frequency_to, load_factors(max_list_size), excitation_factors(max_list_size)
+      namelist /sweep/ frequency_from, frequency_to, load_factors, excitation_factors
 
       frequency_from = unset
       frequency_to = unset
       load_factors = unset
+      load_factors(1) = 1.0_wp
+      excitation_factors = unset
+      excitation_factors(1) = 1.0_wp
       call start('sweep')
-      allocate (data%load_factors(0))
+      allocate (data%load_factors(0), data%excitation_factors(0))
       read (unit, nml=sweep, iostat=status, iomsg=message)
       if (.not. found(.false.)) return
       call require(frequency_from > 0.0_wp .and. frequency_to > frequency_from, '0 < frequency_from < frequency_to is required')
       data%frequency_from = frequency_from
       data%frequency_to = frequency_to
       data%load_factors = positive('load_factors', load_factors)
+      data%excitation_factors = positive('excitation_factors', excitation_factors)
+      if (size(data%load_factors) == 1) data%load_factors = spread(data%load_factors(1), 1, size(data%excitation_factors))
+      if (size(data%excitation_factors) == 1) data%excitation_factors = spread(data%excitation_factors(1), 1, &
+                                                                               size(data%load_factors))
+      call require(size(data%load_factors) == size(data%excitation_factors), 'load_factors and excitation_factors differ in number')
     end subroutine read_sweep
 
     subroutine read_points()
-      real(wp) :: frequency(max_list_size)
-      namelist /points/ frequency
+      real(wp) :: frequency(max_list_size), load_factor, excitation_factor(max_list_size)
+      namelist /points/ frequency, load_factor, excitation_factor
 
       frequency = unset
+      load_factor = 1.0_wp
+      excitation_factor = unset
+      excitation_factor(1) = 1.0_wp
       call start('points')
-      allocate (data%frequencies(0))
+      allocate (data%frequencies(0), data%point_excitation_factors(0))
       read (unit, nml=points, iostat=status, iomsg=message)
-      if (found(.false.)) data%frequencies = positive('frequency', frequency)
+      if (.not. found(.false.)) return
+      data%frequencies = positive('frequency', frequency)
+      data%point_load_factor = load_factor
+      data%point_excitation_factors = positive('excitation_factor', excitation_factor)
+      associate (n => size(data%frequencies))
+        if (size(data%point_excitation_factors) == 1) data%point_excitation_factors = spread(excitation_factor(1), 1, n)
+        call require(load_factor > 0.0_wp .and. size(data%point_excitation_factors) == n, &
+                     'load_factor must be positive, excitation_factor one or as many as the frequencies')
+      end associate
     end subroutine read_points
 
     subroutine read_time_integration()
       type(integration_input) :: defaults, group_data
-      real(wp) :: frequency(max_list_size), load_factor, steady_tolerance, allowed_difference
-      integer :: harmonics(max_list_size), samples, steps_per_period, max_periods
-      namelist /time_integration/ frequency, load_factor, harmonics, samples, steps_per_period, max_periods, &
+      real(wp) :: frequency(max_list_size), load_factor, excitation_factor, steady_tolerance, allowed_difference
+      integer :: harmonics(max_list_size), samples(max_list_size), steps_per_period, max_periods
+      namelist /time_integration/ frequency, load_factor, excitation_factor, harmonics, samples, steps_per_period, max_periods, &
         steady_tolerance, allowed_difference
 
       call start('time_integration')
@@ -259,19 +315,24 @@ contains
         frequency = unset
         harmonics = 0
         load_factor = defaults%load_factor
-        samples = defaults%samples
+        excitation_factor = defaults%excitation_factor
+        samples = 0
+        samples(1) = 1024
         steps_per_period = defaults%steps_per_period
         max_periods = defaults%max_periods
         steady_tolerance = defaults%steady_tolerance
         allowed_difference = defaults%allowed_difference
         read (unit, nml=time_integration, iostat=status, iomsg=message)
         if (.not. found(.false.)) exit
-        call require(any(harmonics > 0) .and. all(harmonics >= 0) .and. samples > 2 * maxval(harmonics), &
+        if (samples(2) == 0) samples = samples(1)
+        call require(any(harmonics > 0) .and. all(harmonics >= 0) .and. all(samples > 2 * harmonics .or. harmonics == 0), &
                      'harmonics must be 1 or more, samples above twice that')
         call require(steps_per_period >= 16 .and. max_periods >= 2, 'steps_per_period >= 16 and max_periods >= 2 are required')
-        call require(min(load_factor, steady_tolerance, allowed_difference) > 0.0_wp, 'a factor or tolerance is not positive')
-        group_data = integration_input(positive('frequency', frequency), pack(harmonics, harmonics > 0), load_factor, &
-                                       steady_tolerance, allowed_difference, samples, steps_per_period, max_periods)
+        call require(min(load_factor, excitation_factor, steady_tolerance, allowed_difference) > 0.0_wp, &
+                     'a factor or tolerance is not positive')
+        group_data = integration_input(positive('frequency', frequency), pack(harmonics, harmonics > 0), &
+                                       pack(samples, harmonics > 0), load_factor, excitation_factor, steady_tolerance, &
+                                       allowed_difference, steps_per_period, max_periods)
         data%integrations = [data%integrations, group_data]
       end do
     end subroutine read_time_integration
@@ -293,31 +354,40 @@ contains
     end subroutine check_dof
   end subroutine read_case
 
-  subroutine prepare_problem(data, load_factor, harmonics, samples, problem)
+  !> The load factor multiplies static loads and the normal forces of the contacts with `load_varied`.
+  subroutine prepare_problem(data, load_factor, harmonics, samples, problem, excitation_factor)
     type(case_data), intent(in) :: data
     real(wp), intent(in) :: load_factor
     integer, intent(in) :: harmonics, samples
     type(balance_problem), intent(out) :: problem
+    real(wp), intent(in), optional :: excitation_factor
     real(wp) :: phase
-    integer :: i
+    integer :: i, dofs
 
+    dofs = size(data%model%dof_name)
     problem%model = data%model
     problem%harmonics = harmonics
     problem%tolerance = data%tolerance
     call problem%contacts%prepare(data%contacts, load_factor, harmonics, samples)
-    allocate (problem%incidence(size(data%model%dof_name), size(data%contacts)), source=0.0_wp)
-    do i = 1, size(data%contacts)
-      associate (dof => data%contacts(i)%dof)
-        if (dof(1) > 0) problem%incidence(dof(1), i) = 1.0_wp
-        if (dof(2) > 0) problem%incidence(dof(2), i) = -1.0_wp
-      end associate
-    end do
-    allocate (problem%excitation(size(data%model%dof_name)), source=(0.0_wp, 0.0_wp))
+    associate (first => problem%contacts%first, last => problem%contacts%last)
+      allocate (problem%incidence(dofs, maxval(last)), source=0.0_wp)
+      do i = 1, size(data%contacts)
+        call add_incidence(data%contacts(i), problem%incidence(:, first(i):last(i)))
+      end do
+    end associate
+    allocate (problem%excitation(dofs), source=(0.0_wp, 0.0_wp))
     do i = 1, size(data%excited_dof)
       associate (force => problem%excitation(data%excited_dof(i)))
         ! amplitude * cos(omega t + phase)
         phase = data%excitation_phase(i) * pi / 180.0_wp
         force = force + data%excitation_amplitude(i) * cmplx(cos(phase), sin(phase), wp)
+      end associate
+    end do
+    if (present(excitation_factor)) problem%excitation = excitation_factor * problem%excitation
+    allocate (problem%static_load(dofs), source=0.0_wp)
+    do i = 1, size(data%loaded_dof)
+      associate (force => problem%static_load(data%loaded_dof(i)))
+        force = force + load_factor * data%static_load(i)
       end associate
     end do
   end subroutine prepare_problem

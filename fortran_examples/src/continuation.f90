@@ -1,7 +1,7 @@
 !> Response over a range of frequencies by pseudo-arc-length continuation, and its resonance peak.
 !>
-!> Arc length is measured in relative changes: the displacements of each contact are scaled by their present size and the
-!> frequency by a fraction of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
+!> Arc length is measured in relative changes: the displacements of each contact are scaled by their present size, vibration and
+!> mean apart, and the frequency by a fraction of its range. So a step means the same on a sharp resonance and far from it, and a stuck contact
 !> counts as much as one that slides a thousand times farther.
 module continuation
   use basics, only: fail, pi, text, wp
@@ -11,16 +11,17 @@ module continuation
     structure_response
   implicit none
   private
-  public :: follow_response, refine_peak
+  public :: follow_response, refine_peak, solve_within
 
   type, public :: response_path
     integer :: points = 0
     real(wp), allocatable :: omega(:)
-    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, contact, point)
+    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, component, point)
   end type response_path
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
   real(wp), parameter :: max_step = 0.2_wp, min_step = 1.0e-6_wp
+  real(wp), parameter :: leap_below = 1.0e-4_wp, shortest_leap = 2.0e-4_wp
   integer, parameter :: steps_over_range = 40, max_points = 5000
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
   real(wp), parameter :: min_tangent_cosine = 0.9_wp
@@ -36,20 +37,21 @@ contains
     real(wp), allocatable :: u(:,:), scale(:), tangent(:), previous(:)
     real(wp) :: omega, step, direction
     logical :: converged
-    integer :: m, contacts, iterations
+    integer :: m, components, iterations
 
     m = 2 * problem%harmonics + 1
-    contacts = size(problem%incidence, 2)
+    components = size(problem%incidence, 2)
     direction = sign(1.0_wp, omega_to - omega_from)
-    allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
-    allocate (path%omega(max_points), path%displacement(m, contacts, max_points))
+    allocate (u(m, components), tangent(m * components + 1), previous(m * components + 1), scale(m * components + 1))
+    allocate (path%omega(max_points), path%displacement(m, components, max_points))
 
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
     if (.not. converged) call fail('no harmonic balance found at the first frequency, '//hertz(omega))
     call start_path()
     do while (direction * (omega - omega_to) < 0.0_wp)
-      call advance()
+      call advance(step, min_tangent_cosine)
+      if (.not. converged .and. step < leap_below) call leap()
       if (converged) then
         call append()
         if (iterations <= few_steps) step = min(1.5_wp * step, max_step)
@@ -62,12 +64,41 @@ contains
 
   contains
 
+    !> Across a corner that shorter and shorter steps approach but do not pass: the first longer step that finds the path again, at
+    !> any angle. Uniform samples make many small corners, one when the contact state at a sample changes.
+    subroutine leap()
+      real(wp) :: length
+
+      length = shortest_leap
+      do while (length <= max_step)
+        call advance(length, -1.0_wp)
+        if (converged) then
+          step = 0.5_wp * length
+          return
+        end if
+        length = 2.0_wp * length
+      end do
+    end subroutine leap
+
     !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
     !> no tangent leads on, or the one that is found leads back.
     subroutine jump()
-      omega = direction * maxval(direction * path%omega(:path%points)) + (omega_to - omega_from) / (10 * steps_over_range)
-      call solve_from_rest(problem, omega, u, point, converged)
-      if (.not. converged) call fail('no harmonic balance found at '//hertz(omega))
+      real(wp) :: reached, distance, last(m, components)
+
+      last = u
+      reached = direction * maxval(direction * path%omega(:path%points))
+      distance = (omega_to - omega_from) / (10 * steps_over_range)
+      do
+        omega = reached + distance
+        u = last
+        call solve_at(problem, omega, u, point, converged)
+        if (.not. converged) call solve_from_rest(problem, omega, u, point, converged)
+        if (converged) exit
+        distance = 1.5_wp * distance
+        if (abs(distance) > 0.25_wp * abs(omega_to - omega_from)) then
+          call fail('no harmonic balance found at '//hertz(omega))
+        end if
+      end do
       call start_path()
     end subroutine jump
 
@@ -76,7 +107,7 @@ contains
       call append()
       call set_scale()
       previous = 0.0_wp
-      previous(m * contacts + 1) = direction
+      previous(m * components + 1) = direction
       call path_tangent()
       step = 0.1_wp * max_step
     end subroutine start_path
@@ -92,21 +123,25 @@ contains
 
     !> Scale of each unknown at the present point.
     subroutine set_scale()
+      real(wp) :: vibration
       integer :: i
 
-      do i = 1, contacts
-        scale((i - 1) * m + 1:i * m) = sqrt(real(contacts, wp)) * max(norm2(u(:, i)), 1.0e-6_wp * norm2(u))
+      do i = 1, components
+        vibration = max(norm2(u(2:, i)), 1.0e-6_wp * norm2(u(2:, :)))
+        scale((i - 1) * m + 1) = max(abs(u(1, i)), vibration)
+        scale((i - 1) * m + 2:i * m) = vibration
       end do
-      scale(m * contacts + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
+      scale(:m * components) = sqrt(real(components, wp)) * scale(:m * components)
+      scale(m * components + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
     end subroutine set_scale
 
     !> Unit tangent of the path at the present point, in the direction of `previous`.
     subroutine path_tangent()
-      real(wp) :: right(m * contacts + 1, 1)
+      real(wp) :: right(m * components + 1, 1)
       logical :: singular
 
       right = 0.0_wp
-      right(m * contacts + 1, 1) = 1.0_wp
+      right(m * components + 1, 1) = 1.0_wp
       call bordered_solve(previous, right, singular)
       if (singular) call fail('the path has no tangent at '//hertz(omega))
       tangent = right(:, 1) / norm2(right)
@@ -118,10 +153,10 @@ contains
       real(wp), intent(in) :: border(:)
       real(wp), intent(inout) :: right(:,:)
       logical, intent(out) :: singular
-      real(wp) :: matrix(m * contacts + 1, m * contacts + 1)
+      real(wp) :: matrix(m * components + 1, m * components + 1)
       integer :: n, i
 
-      n = m * contacts
+      n = m * components
       do i = 1, n
         matrix(:n, i) = point%jacobian(:, i) * scale(i) / scale(:n)
       end do
@@ -130,26 +165,27 @@ contains
       call solve(matrix, right, singular)
     end subroutine bordered_solve
 
-    !> One step of length `step`: predictor along the tangent, corrector in the plane normal to it. If it does not converge,
-    !> or the path bends too sharply, the start is restored.
-    subroutine advance()
-      real(wp) :: u_start(m, contacts), omega_start, distance, right(m * contacts + 1, 1)
-      real(wp) :: tangent_start(m * contacts + 1)
+    !> One step of this length: predictor along the tangent, corrector in the plane normal to it. If it does not converge, or the
+    !> path bends too sharply, the start is restored.
+    subroutine advance(length, min_cosine)
+      real(wp), intent(in) :: length, min_cosine
+      real(wp) :: u_start(m, components), omega_start, distance, right(m * components + 1, 1)
+      real(wp) :: tangent_start(m * components + 1)
       logical :: singular
       integer :: n
 
-      n = m * contacts
+      n = m * components
       u_start = u
       omega_start = omega
       tangent_start = tangent
-      u = u + reshape(step * tangent(:n) * scale(:n), shape(u))
-      omega = omega + step * tangent(n + 1) * scale(n + 1)
+      u = u + reshape(length * tangent(:n) * scale(:n), shape(u))
+      omega = omega + length * tangent(n + 1) * scale(n + 1)
       do iterations = 1, corrector_steps
         call evaluate(problem, omega, u, point)
         converged = newton_error(problem, u, point) <= 1.0_wp
         if (converged) exit
         distance = dot_product(tangent(:n), reshape(u - u_start, [n]) / scale(:n)) &
-                 + tangent(n + 1) * (omega - omega_start) / scale(n + 1) - step
+                 + tangent(n + 1) * (omega - omega_start) / scale(n + 1) - length
         right(:n, 1) = -reshape(point%residual, [n]) / scale(:n)
         right(n + 1, 1) = -distance
         call bordered_solve(tangent, right, singular)
@@ -161,7 +197,7 @@ contains
       if (converged) then
         previous = tangent
         call path_tangent()
-        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. step <= 10.0_wp * min_step
+        converged = dot_product(tangent, previous) >= min_cosine .or. length <= 10.0_wp * min_step
       end if
       if (converged) then
         ! The same direction in the scale of the new point.
@@ -177,6 +213,42 @@ contains
       end if
     end subroutine advance
   end subroutine follow_response
+
+  !> At one frequency: from a guess with any number of harmonics, if given; if that fails, from rest; and then along the response
+  !> from another frequency, as near as possible, toward the nearer end of a range.
+  subroutine solve_within(problem, range, omega, displacement, point, converged, guess)
+    type(balance_problem), intent(inout) :: problem
+    real(wp), intent(in) :: range(2), omega
+    real(wp), intent(out), contiguous :: displacement(:,:)
+    type(balance_point), intent(inout) :: point
+    logical, intent(out) :: converged
+    real(wp), intent(in), optional :: guess(:,:)
+    type(response_path) :: path
+    real(wp) :: end_of_range, distance, start
+    integer :: m
+
+    converged = .false.
+    if (present(guess)) then
+      m = min(size(guess, 1), size(displacement, 1))
+      displacement = 0.0_wp
+      displacement(:m, :) = guess(:m, :)
+      call solve_at(problem, omega, displacement, point, converged)
+    end if
+    if (.not. converged) call solve_from_rest(problem, omega, displacement, point, converged)
+    if (converged .or. range(2) <= range(1)) return
+    end_of_range = merge(range(1), range(2), 2.0_wp * omega < sum(range))
+    distance = 0.03_wp * omega
+    do
+      start = merge(end_of_range, omega + sign(distance, end_of_range - omega), distance >= abs(end_of_range - omega))
+      call solve_from_rest(problem, start, displacement, point, converged)
+      if (converged) exit
+      if (distance >= abs(end_of_range - omega)) return
+      distance = 1.5_wp * distance
+    end do
+    call follow_response(problem, start, omega, path)
+    displacement = path%displacement(:, :, path%points)
+    call solve_at(problem, omega, displacement, point, converged)
+  end subroutine solve_within
 
   !> Resonance peak between the points of a path. `amplitude` has the peak over the period of degree of freedom `dof` at every
   !> point. If the frequency is not monotonic around the largest point, that point is the result.

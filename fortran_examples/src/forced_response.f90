@@ -3,20 +3,21 @@
 !>     forced_response CASE DIRECTORY
 !>
 !> CASE is a file of namelist groups (cases/README.md). Written to DIRECTORY, for a case called NAME:
-!> * with a group &sweep, for every load factor,
+!> * with a group &sweep, for every load factor and excitation factor,
 !>   NAME_response.csv  the response along the frequency,
 !>   NAME_peaks.csv     the resonance peaks,
 !>   NAME_loops.csv     displacement and force of every contact over a period of the peak;
 !> * with a group &points,
 !>   NAME_coefficients.csv  the harmonic coefficients of all degrees of freedom at single frequencies.
 program forced_response
+  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_fortran_env, only: int64
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: follow_response, refine_peak, response_path
+  use continuation, only: follow_response, refine_peak, response_path, solve_within
   use fourier_series, only: harmonic_amplitude, series_basis, series_peak
   use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
   implicit none
 
   character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
@@ -37,7 +38,7 @@ contains
   !> Columns: frequency_hz, dof, then c0, cos1, sin1, ... in metres: x(t) = c0 + sum of cosk cos(k omega t) +
   !> sink sin(k omega t) under the excitation amplitude * cos(omega t + phase).
   subroutine solve_points()
-    real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts))
+    real(wp), allocatable :: displacement(:,:)
     real(wp) :: response(2 * data%harmonics + 1, size(data%model%dof_name))
     character(len=:), allocatable :: header
     logical :: converged
@@ -48,9 +49,12 @@ contains
       header = header//',cos'//text(k)//',sin'//text(k)
     end do
     table = open_table(prefix//'_coefficients.csv', header)
-    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
     do i = 1, size(data%frequencies)
-      call solve_from_rest(problem, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
+      call prepare_problem(data, data%point_load_factor, data%harmonics, data%samples, problem, &
+                           data%point_excitation_factors(i))
+      if (i == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
+      call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], &
+                        2.0_wp * pi * data%frequencies(i), displacement, point, converged)
       if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
       response = structure_response(problem, point)
       do dof = 1, size(response, 2)
@@ -65,8 +69,8 @@ contains
 
   subroutine solve_sweep()
     type(response_path) :: path
-    real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts)), omega, factor, seconds, contact_seconds
-    real(wp), allocatable :: amplitude(:)
+    real(wp) :: omega, seconds, contact_seconds
+    real(wp), allocatable :: displacement(:,:), amplitude(:)
     character(len=:), allocatable :: header
     integer(int64) :: start, finish, rate
     integer :: responses, peaks, loops, load, i, points, iterations
@@ -74,14 +78,14 @@ contains
     header = response_header()
     responses = open_table(prefix//'_response.csv', header)
     peaks = open_table(prefix//'_peaks.csv', header)
-    loops = open_table(prefix//'_loops.csv', 'load,contact,phase_rad,displacement_m,force_N,slip_part_m')
+    loops = open_table(prefix//'_loops.csv', 'load,contact,phase_rad,displacement_m,force_N,slip_part_m,approach_m,normal_force_N')
     points = 0
     iterations = 0
     contact_seconds = 0.0_wp
     call system_clock(start, rate)
     do load = 1, size(data%load_factors)
-      factor = data%load_factors(load)
-      call prepare_problem(data, factor, data%harmonics, data%samples, problem)
+      call prepare_problem(data, data%load_factors(load), data%harmonics, data%samples, problem, data%excitation_factors(load))
+      if (load == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
       call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
       points = points + path%points
       allocate (amplitude(path%points))
@@ -94,7 +98,8 @@ contains
       call write_row(peaks, load, omega, displacement, amplitude(1))
       call write_loops(loops, load, displacement)
       call progress(trim(data%name)//' '//text(load)//'/'//text(size(data%load_factors))//': load factor '// &
-                    text(factor, '(f10.2)')//', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')//' um at '// &
+                    text(data%load_factors(load), '(f10.2)')//', excitation '//text(data%excitation_factors(load), '(f10.3)')// &
+                    ', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')//' um at '// &
                     text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points')
       deallocate (amplitude)
       iterations = iterations + problem%evaluations
@@ -114,58 +119,86 @@ contains
     character(len=:), allocatable :: header, name
     integer :: i
 
-    header = 'load,load_factor,frequency_hz,peak_m'
+    header = 'load,load_factor,excitation_factor,frequency_hz,peak_m'
     do i = 0, data%harmonics
       header = header//',harmonic_'//text(i)//'_m'
     end do
+    header = header//',friction_damping_ratio'
     do i = 1, size(data%contacts)
       name = ','//trim(data%contacts(i)%name)
-      header = header//name//'_normal_force_N'//name//'_dissipated_J'//name//'_min_stick_half_width_m'
+      header = header//name//'_normal_force_N'//name//'_dissipated_J'
+      if (problem_components(i) == 1) then
+        header = header//name//'_min_stick_half_width_m'
+      else
+        header = header//name//'_min_normal_force_N'//name//'_max_normal_force_N'//name//'_open_fraction'
+      end if
     end do
   end function response_header
 
-  !> `amplitude` is the peak over the period of the response.
+  pure integer function problem_components(i)
+    integer, intent(in) :: i
+    problem_components = merge(2, 1, data%contacts(i)%dof(3) >= 0)
+  end function problem_components
+
+  !> `amplitude` is the peak over the period of the response. The normal force is the mean one. The damping ratio of friction is
+  !> the dissipated energy over 4 pi times the amplitude of the kinetic energy.
   subroutine write_row(table, load, omega, displacement, amplitude)
     integer, intent(in) :: table, load
     real(wp), intent(in) :: omega
     real(wp), intent(in), contiguous :: displacement(:,:)
     real(wp), intent(out) :: amplitude
-    real(wp) :: response(size(displacement, 1), size(data%model%dof_name)), by_contact(3, size(displacement, 2))
+    real(wp) :: response(size(displacement, 1), size(data%model%dof_name)), kinetic, extremes(3)
+    real(wp) :: velocity(size(data%model%dof_name), 2)
+    character(len=:), allocatable :: by_contact
     integer :: i
 
     call evaluate(problem, omega, displacement, point)
     response = structure_response(problem, point)
     amplitude = series_peak(response(:, data%response_dof))
+    velocity = omega * transpose(response(2:3, :))
+    kinetic = 0.5_wp * sum(velocity * matmul(problem%model%mass, velocity))
+    by_contact = ''
     do i = 1, size(data%contacts)
-      associate (c => data%contacts(i))
-        by_contact(:, i) = [c%parameters%normal_force * merge(data%load_factors(load), 1.0_wp, c%load_varied), &
-                            point%dissipated(i), problem%contacts%min_stick_half_width(i, displacement(:, i))]
+      associate (c => data%contacts(i), first => problem%contacts%first(i), last => problem%contacts%last(i))
+        if (first == last) then
+          by_contact = by_contact//csv([c%parameters%normal_force * merge(data%load_factors(load), 1.0_wp, c%load_varied), &
+                                        point%dissipated(i), problem%contacts%min_stick_half_width(i, displacement(:, first))])
+        else
+          call problem%contacts%normal_extremes(i, displacement(:, last), extremes(1), extremes(2), extremes(3))
+          by_contact = by_contact//csv([point%force(1, last), point%dissipated(i), extremes])
+        end if
       end associate
     end do
-    write (table, '(a)') text(load)//csv([data%load_factors(load), omega / (2.0_wp * pi), amplitude, &
-                                          harmonic_amplitude(response(:, data%response_dof)), by_contact])
+    write (table, '(a)') text(load)//csv([data%load_factors(load), data%excitation_factors(load), omega / (2.0_wp * pi), &
+                                          amplitude, harmonic_amplitude(response(:, data%response_dof)), &
+                                          sum(point%dissipated) / (4.0_wp * pi * kinetic)])//by_contact
   end subroutine write_row
 
-  !> Hysteresis loops of all contacts. The slip part is the displacement minus that of a contact that sticks everywhere.
+  !> Hysteresis loops of all contacts. The slip part is the displacement minus that of a contact that sticks everywhere under the
+  !> normal force of the case.
   subroutine write_loops(table, load, displacement)
     integer, intent(in) :: table, load
     real(wp), intent(in) :: displacement(:,:)
     type(contact_history) :: history
     real(wp), dimension(loop_points, size(displacement, 2)) :: u, force
-    real(wp) :: basis(loop_points, size(displacement, 1)), f
+    real(wp) :: basis(loop_points, size(displacement, 1)), f, normal(2)
     integer :: contact, i, j
 
     basis = series_basis(data%harmonics, loop_points)
     u = matmul(basis, displacement)
     call problem%contacts%steady_cycle(u, history, force)
-    do contact = 1, size(u, 2)
-      do i = 0, loop_points      ! the first point again closes the loop
-        j = modulo(i, loop_points) + 1
-        f = force(j, contact) / data%contacts(contact)%count
-        write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
-          csv([2.0_wp * pi * i / loop_points, u(j, contact), f, &
-               u(j, contact) - f / max(problem%contacts%sliders(contact)%stiffness, tiny(f))])
-      end do
+    do contact = 1, size(data%contacts)
+      associate (first => problem%contacts%first(contact), last => problem%contacts%last(contact), &
+                 sticking => problem%contacts%sliders(contact)%stiffness, items => data%contacts(contact)%count)
+        do i = 0, loop_points      ! the first point again closes the loop
+          j = modulo(i, loop_points) + 1
+          f = force(j, first) / items
+          normal = ieee_value(f, ieee_quiet_nan)
+          if (last > first) normal = [u(j, last), force(j, last) / items]
+          write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
+            csv([2.0_wp * pi * i / loop_points, u(j, first), f, u(j, first) - f / max(sticking, tiny(f)), normal])
+        end do
+      end associate
     end do
   end subroutine write_loops
 end program forced_response

@@ -24,7 +24,7 @@ contains
     end do
   end function series_basis
 
-  !> Largest absolute value over the period: the largest sample, refined by the parabola through its neighbours.
+  !> Largest distance from the mean over the period: the largest sample, refined by the parabola through its neighbours.
   pure function series_peak(coefficients) result(peak)
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: peak
@@ -35,7 +35,7 @@ contains
 
     samples = size(signal)
     basis = series_basis(size(coefficients) / 2, samples)
-    signal = abs(matmul(basis, coefficients))
+    signal = abs(matmul(basis(:, 2:), coefficients(2:)))
     i = maxloc(signal, dim=1)
     peak = signal(i)
     associate (before => signal(modulo(i - 2, samples) + 1), after => signal(modulo(i, samples) + 1))

@@ -1,25 +1,39 @@
-!> The friction contacts of a model, each with the microslip law or as a spring-slider. All calls of the library that a
-!> harmonic balance or a time integration needs are in this module:
+!> The friction contacts of a model. All calls of the library that a harmonic balance or a time integration needs are in this
+!> module:
 !>
-!>     once            mslip_contact_init, mslip_harmonic_workspace_init        in prepare
-!>     balance         mslip_batch_harmonic_force                               in harmonic_force
-!>     time step       mslip_state_init, mslip_batch_masing_update              in start_history, try_step
-!>     results         mslip_monotonic_force, mslip_state_error                 in min_stick_half_width, force_error
+!>                     constant normal force                           varying normal force
+!>     once            mslip_contact_init,                             mslip_element_init,
+!>                     mslip_harmonic_workspace_init                   mslip_element_workspace_init       in prepare
+!>     balance         mslip_batch_harmonic_force                      mslip_batch_element_harmonic_force in harmonic_force
+!>     time step       mslip_state_init, mslip_batch_masing_update     mslip_element_state_init,
+!>                                                                     mslip_batch_element_update         in start_history, try_step
+!>     results         mslip_monotonic_force, mslip_state_error        mslip_normal_force_at,
+!>                                                                     mslip_element_state_error
+!>
+!> A contact has one component, the tangential displacement, or two, the tangential displacement and the normal approach. The
+!> components of all contacts are numbered one after the other. An element has two. A contact of constant normal force may have
+!> two as well; then its normal force is that of a linear spring and does not change its friction.
 module friction_contacts
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use basics, only: fail, name_length, wp
+  use basics, only: fail, name_length, pi, wp
   use fourier_series, only: series_basis
   use microslip
   use spring_slider, only: make_slider_tables, slider, slider_harmonic_force, slider_step, slider_tables
   implicit none
   private
+  public :: add_incidence
 
-  character(len=*), parameter, public :: law_microslip = 'microslip', law_slider = 'spring-slider'
+  character(len=*), parameter, public :: law_microslip = 'microslip', law_slider = 'spring-slider', law_element = 'element'
 
   type, public :: contact_input
     character(len=name_length) :: name = ' '
     character(len=name_length) :: law = ' '
-    integer :: dof(2) = -1                !! relative displacement: first minus second; 0 is the ground
+    !> One component: the displacement is that of dof(1) minus that of dof(2). Two: (x, y) of the first body, dof(1:2), minus
+    !> (x, y) of the second, dof(3:4). 0 is the ground.
+    integer :: dof(4) = -1
+    real(wp) :: angle = 0.0_wp            !! from x to the tangential direction, degrees; the normal, 90 degrees ahead, points into
+                                          !! the second body
+    real(wp) :: interference = 0.0_wp     !! approach of the undeformed structure; a gap is negative
     integer :: count = 1                  !! number of identical contacts that share the displacement
     logical :: load_varied = .true.       !! the load factor multiplies the normal force
     type(mslip_parameters) :: parameters
@@ -28,12 +42,20 @@ module friction_contacts
   type, public :: contact_set
     character(len=name_length), allocatable :: name(:)
     integer, allocatable :: count(:)
-    integer(mslip_int), allocatable :: active(:)            !! 1: microslip law, 0: spring-slider
-    type(mslip_contact), allocatable :: prepared(:)
+    integer, allocatable :: first(:), last(:)               !! components of each contact
+    integer(mslip_int), allocatable :: active(:)            !! 1: microslip law, 0: another
+    type(mslip_contact), allocatable :: prepared(:)         !! at the normal force of the case
     type(slider), allocatable :: sliders(:)                 !! with initial stiffness and slip force of the microslip contacts
     type(slider_tables) :: tables                           !! of the spring-sliders
-    real(wp), allocatable :: workspace(:)                   !! of the microslip law
+    integer, allocatable :: element_contact(:)              !! contact of each element
+    type(mslip_element), allocatable :: elements(:)
+    real(wp), allocatable :: offset(:)                      !! of each component without any displacement of the structure
+    real(wp), allocatable :: normal_stiffness(:)            !! of each component: of normal ones at the normal force of the case, else 0
+    real(wp), allocatable :: workspace(:), element_workspace(:)
     real(wp), allocatable :: fine_basis(:,:)                !! Fourier functions at the instants searched for extremes
+    ! Arguments of the calls, item after item.
+    real(wp), allocatable, private :: u(:,:), f(:,:), df(:,:,:), energy(:)
+    real(wp), allocatable, private :: element_u(:,:), element_f(:,:), element_df(:,:,:), element_energy(:)
   contains
     procedure :: prepare
     procedure :: harmonic_force
@@ -41,6 +63,7 @@ module friction_contacts
     procedure :: try_step
     procedure :: steady_cycle
     procedure :: min_stick_half_width
+    procedure :: normal_extremes
     procedure :: force_error
   end type contact_set
 
@@ -48,12 +71,44 @@ module friction_contacts
   type, public :: contact_history
     real(wp), allocatable :: states(:,:)                    !! of the microslip law
     real(wp), allocatable :: displacement(:), force(:)      !! of the spring-sliders
+    real(wp), allocatable :: element_states(:,:)
   end type contact_history
 
-  !> Nested reversals that a state holds exactly. A steady state with some harmonics has a few.
+  !> Nested reversals, or pieces, that a state holds exactly. A steady state with some harmonics has a few.
   integer(mslip_size), parameter, public :: max_reversals = 32
+  integer(mslip_int), parameter :: directions = 1
+  !> The force up to which elements are tabulated, relative to the normal force of the case.
+  real(wp), parameter :: load_range = 4.0_wp
 
 contains
+
+  pure integer function components(input)
+    type(contact_input), intent(in) :: input
+    components = merge(2, 1, input%dof(3) >= 0)
+  end function components
+
+  !> The columns B of the components of a contact: displacement = B^T x, and forces on the structure = B f.
+  pure subroutine add_incidence(input, columns)
+    type(contact_input), intent(in) :: input
+    real(wp), intent(inout) :: columns(:,:)
+    real(wp) :: direction(2, 2)
+    integer :: i
+
+    if (components(input) == 1) then
+      do i = 1, 2
+        if (input%dof(i) > 0) columns(input%dof(i), 1) = columns(input%dof(i), 1) + 3 - 2*i
+      end do
+    else
+      associate (angle => input%angle * pi / 180.0_wp)
+        direction(:, 1) = [cos(angle), sin(angle)]
+        direction(:, 2) = [-sin(angle), cos(angle)]
+      end associate
+      do i = 1, 4
+        if (input%dof(i) > 0) columns(input%dof(i), :) = columns(input%dof(i), :) &
+                                                         + merge(1, -1, i <= 2) * direction(modulo(i - 1, 2) + 1, :)
+      end do
+    end if
+  end subroutine add_incidence
 
   !> `load_factor` multiplies the normal force of the contacts with `load_varied`.
   subroutine prepare(self, inputs, load_factor, harmonics, samples)
@@ -62,57 +117,130 @@ contains
     real(wp), intent(in) :: load_factor
     integer, intent(in) :: harmonics, samples
     type(mslip_parameters) :: parameters
+    type(mslip_element) :: element
+    real(wp) :: normal_force, compliance
     integer(mslip_size) :: h, n
     integer(mslip_int) :: status
-    integer :: i
+    integer :: i, m, items
 
     if (mslip_abi_version() /= MSLIP_MODULE_ABI_VERSION) call fail('libmicroslip and the module are of different versions')
+    items = size(inputs)
     self%name = inputs%name
     self%count = inputs%count
+    self%last = [(sum([(components(inputs(m)), m=1, i)]), i=1, items)]
+    self%first = [(self%last(i) - components(inputs(i)) + 1, i=1, items)]
     self%active = merge(1_mslip_int, 0_mslip_int, inputs%law == law_microslip)
-    self%prepared = [(mslip_contact(), i=1, size(inputs))]
-    do i = 1, size(inputs)
+    self%prepared = [(mslip_contact(), i=1, items)]
+    self%element_contact = pack([(i, i=1, items)], inputs%law == law_element)
+    self%elements = [(mslip_element(), i=1, size(self%element_contact))]
+    if (allocated(self%offset)) deallocate (self%offset, self%normal_stiffness)
+    allocate (self%offset(self%last(items)), self%normal_stiffness(self%last(items)), source=0.0_wp)
+    m = 0
+    do i = 1, items
       parameters = inputs(i)%parameters
       if (inputs(i)%load_varied) parameters%normal_force = load_factor * parameters%normal_force
       call mslip_contact_init(parameters, self%prepared(i), status)
       call require(status, self%name(i))
+      if (self%last(i) == self%first(i)) cycle
+      normal_force = parameters%normal_force
+      parameters%normal_force = load_range * normal_force
+      call mslip_element_init(parameters, directions, MSLIP_APPROACH, element, status)
+      call require(status, self%name(i))
+      call mslip_normal_approach(element, normal_force, status, compliance=compliance)
+      call require(status, self%name(i))
+      self%normal_stiffness(self%last(i)) = inputs(i)%count / compliance
+      self%offset(self%last(i)) = inputs(i)%interference
+      if (inputs(i)%law == law_element) then
+        m = m + 1
+        self%elements(m) = element
+      end if
     end do
-    self%sliders = [(slider(self%prepared(i)%initial_stiffness, self%prepared(i)%slip_force), i=1, size(inputs))]
+    self%sliders = [(slider(self%prepared(i)%initial_stiffness, self%prepared(i)%slip_force), i=1, items)]
 
     h = harmonics
     n = samples
-    if (allocated(self%workspace)) deallocate (self%workspace)
+    m = 2 * harmonics + 1
+    if (allocated(self%workspace)) deallocate (self%workspace, self%element_workspace, self%u, self%f, self%df, self%energy, &
+                                               self%element_u, self%element_f, self%element_df, self%element_energy)
     allocate (self%workspace(mslip_harmonic_workspace_length(h, n)))
     call mslip_harmonic_workspace_init(h, n, self%workspace, status)
     call require(status, 'workspace')
+    allocate (self%element_workspace(mslip_element_workspace_length(directions, h, n)))
+    call mslip_element_workspace_init(directions, h, n, self%element_workspace, status)
+    call require(status, 'workspace')
+    allocate (self%u(m, items), self%f(m, items), self%df(m, m, items), self%energy(items))
+    items = size(self%elements)
+    allocate (self%element_u(2*m, items), self%element_f(2*m, items), self%element_df(2*m, 2*m, items))
+    allocate (self%element_energy(items))
     call make_slider_tables(harmonics, samples, self%tables)
     self%fine_basis = series_basis(harmonics, 256)
   end subroutine prepare
 
-  !> Fourier coefficients of all contact forces from those of the displacements, (coefficient, contact), the exact Jacobian
-  !> jacobian(:, :, i) = d force(:, i) / d displacement(:, i), and the energy dissipated per period.
-  subroutine harmonic_force(self, displacement, force, jacobian, dissipated)
+  !> Fourier coefficients of all contact forces from those of the displacements, (coefficient, component), the exact Jacobian,
+  !> and the energy dissipated per period by each contact. jacobian(:, :, p, j) has the derivatives of the force component p of a
+  !> contact with respect to the displacement component j, which is one of that contact; others have none. A trial displacement
+  !> far from any solution may press a contact beyond the range of the law: then `allowed` is false.
+  subroutine harmonic_force(self, displacement, force, jacobian, dissipated, allowed)
     class(contact_set), intent(inout) :: self
     real(wp), intent(in), contiguous :: displacement(:,:)
-    real(wp), intent(out), contiguous :: force(:,:), jacobian(:,:,:), dissipated(:)
+    real(wp), intent(out), contiguous :: force(:,:), jacobian(:,:,:,:), dissipated(:)
+    logical, intent(out) :: allowed
     integer(mslip_int) :: status
-    integer :: i
+    integer :: i, j, k, m, e
 
-    call mslip_batch_harmonic_force(self%prepared, self%workspace, displacement, status, active=self%active, &
-                                    force=force, jacobian=jacobian, dissipated=dissipated)
+    m = size(displacement, 1)
+    self%u = displacement(:, self%first)
+    call mslip_batch_harmonic_force(self%prepared, self%workspace, self%u, status, active=self%active, &
+                                    force=self%f, jacobian=self%df, dissipated=self%energy)
+    allowed = in_range(status)
+    if (.not. allowed) return
     call require(status, 'contacts')
     do i = 1, size(self%count)
-      if (self%active(i) == 0) then
-        call slider_harmonic_force(self%sliders(i), self%tables, displacement(:, i), force(:, i), jacobian(:, :, i), &
-                                   dissipated(i))
+      j = self%first(i)
+      k = self%last(i)
+      if (k > j .and. .not. any(self%element_contact == i)) then
+        force(:, k) = self%normal_stiffness(k) * displacement(:, k)
+        jacobian(:, :, 1, k) = 0.0_wp
+        jacobian(:, :, 2, j:k) = 0.0_wp
+        do e = 1, m
+          jacobian(e, e, 2, k) = self%normal_stiffness(k)
+        end do
       end if
-      force(:, i) = self%count(i) * force(:, i)
-      jacobian(:, :, i) = self%count(i) * jacobian(:, :, i)
-      dissipated(i) = self%count(i) * dissipated(i)
+      if (any(self%element_contact == i)) cycle
+      if (self%active(i) == 0) then
+        call slider_harmonic_force(self%sliders(i), self%tables, displacement(:, j), self%f(:, i), self%df(:, :, i), &
+                                   self%energy(i))
+      end if
+      force(:, j) = self%count(i) * self%f(:, i)
+      jacobian(:, :, 1, j) = self%count(i) * self%df(:, :, i)
+      dissipated(i) = self%count(i) * self%energy(i)
+    end do
+
+    if (size(self%elements) == 0) return
+    do e = 1, size(self%elements)
+      j = self%first(self%element_contact(e))
+      self%element_u(:m, e) = displacement(:, j)
+      self%element_u(m+1:, e) = displacement(:, j + 1)
+    end do
+    call mslip_batch_element_harmonic_force(self%elements, self%element_workspace, self%element_u, status, &
+                                            force=self%element_f, jacobian=self%element_df, dissipated=self%element_energy)
+    allowed = in_range(status)
+    if (.not. allowed) return
+    call require(status, 'elements')
+    do e = 1, size(self%elements)
+      i = self%element_contact(e)
+      j = self%first(i)
+      force(:, j) = self%count(i) * self%element_f(:m, e)
+      force(:, j + 1) = self%count(i) * self%element_f(m+1:, e)
+      jacobian(:, :, 1, j) = self%count(i) * self%element_df(:m, :m, e)
+      jacobian(:, :, 2, j) = self%count(i) * self%element_df(m+1:, :m, e)
+      jacobian(:, :, 1, j + 1) = self%count(i) * self%element_df(:m, m+1:, e)
+      jacobian(:, :, 2, j + 1) = self%count(i) * self%element_df(m+1:, m+1:, e)
+      dissipated(i) = self%count(i) * self%element_energy(e)
     end do
   end subroutine harmonic_force
 
-  !> The unloaded contacts at displacement zero.
+  !> The unloaded contacts at displacement zero; elements are open.
   subroutine start_history(self, history)
     class(contact_set), intent(in) :: self
     type(contact_history), intent(out) :: history
@@ -125,57 +253,116 @@ contains
       call mslip_state_init(history%states(:, i), status)
       call require(status, self%name(i))
     end do
+    allocate (history%element_states(mslip_element_state_length(directions, max_reversals), size(self%elements)))
+    do i = 1, size(self%elements)
+      call mslip_element_state_init(directions, history%element_states(:, i), status)
+      call require(status, self%name(self%element_contact(i)))
+    end do
   end subroutine start_history
 
-  !> Forces and tangent stiffnesses after a trial step from `history`, which is not modified: a Newton iteration may try any
-  !> displacement. `next` is the history to continue with if the step is accepted.
-  subroutine try_step(self, history, displacement, force, stiffness, next)
+  !> Forces and tangent stiffnesses, both by component, after a trial step from `history`, which is not modified: a Newton
+  !> iteration may try any displacement. `next` is the history to continue with if the step is accepted. `allowed` as in
+  !> harmonic_force; without it such a displacement ends the program.
+  subroutine try_step(self, history, displacement, force, tangent, next, allowed)
     class(contact_set), intent(in) :: self
     type(contact_history), intent(in) :: history
     real(wp), intent(in), contiguous :: displacement(:)
-    real(wp), intent(out), contiguous :: force(:), stiffness(:)
+    real(wp), intent(out), contiguous :: force(:), tangent(:,:)
     type(contact_history), intent(inout) :: next
-    real(wp) :: energy
+    logical, intent(out), optional :: allowed
+    real(wp), dimension(size(self%count)) :: u, f, df
+    real(wp), dimension(2, size(self%elements)) :: element_u, element_f
+    real(wp) :: element_df(2, 2, size(self%elements)), energy
     integer(mslip_int) :: status
-    integer :: i
+    integer :: i, j, e
 
     if (.not. allocated(next%states)) next = history
-    call mslip_batch_masing_update(self%prepared, history%states, displacement, next%states, status, &
-                                   active=self%active, force=force, stiffness=stiffness)
+    u = displacement(self%first)
+    f = 0.0_wp
+    df = 0.0_wp
+    call mslip_batch_masing_update(self%prepared, history%states, u, next%states, status, active=self%active, &
+                                   force=f, stiffness=df)
+    if (rejected()) return
     call require(status, 'contacts')
+    tangent = 0.0_wp
     do i = 1, size(self%count)
       if (self%active(i) == 0) then
-        call slider_step(self%sliders(i), history%displacement(i), history%force(i), displacement(i), &
-                         force(i), stiffness(i), energy)
+        call slider_step(self%sliders(i), history%displacement(i), history%force(i), u(i), f(i), df(i), energy)
+      end if
+      j = self%first(i)
+      force(j) = self%count(i) * f(i)
+      tangent(j, j) = self%count(i) * df(i)
+      j = self%last(i)
+      if (j > self%first(i)) then
+        force(j) = self%normal_stiffness(j) * displacement(j)
+        tangent(j, j) = self%normal_stiffness(j)
       end if
     end do
-    next%displacement = displacement
-    next%force = force
-    force = self%count * force
-    stiffness = self%count * stiffness
+    next%displacement = u
+    next%force = f
+
+    if (size(self%elements) == 0) return
+    do e = 1, size(self%elements)
+      j = self%first(self%element_contact(e))
+      element_u(:, e) = displacement(j:j + 1)
+    end do
+    call mslip_batch_element_update(self%elements, history%element_states, element_u, next%element_states, status, &
+                                    force=element_f, tangent=element_df)
+    if (rejected()) return
+    call require(status, 'elements')
+    do e = 1, size(self%elements)
+      i = self%element_contact(e)
+      j = self%first(i)
+      force(j:j + 1) = self%count(i) * element_f(:, e)
+      tangent(j:j + 1, j:j + 1) = self%count(i) * element_df(:, :, e)
+    end do
+
+  contains
+
+    logical function rejected()
+      rejected = .false.
+      if (.not. present(allowed)) return
+      allowed = in_range(status)
+      rejected = .not. allowed
+    end function rejected
   end subroutine try_step
 
-  !> History and forces, (instant, contact), after two periods of a motion from the unloaded state: the second is steady.
+  !> History and forces, (instant, component), after two periods of a motion from the unloaded state: the second is steady.
+  !> As in mslip_element_harmonic_force, elements start in the instant of the largest normal force, to which they are pressed
+  !> and then displaced.
   subroutine steady_cycle(self, displacement, history, force)
     class(contact_set), intent(in) :: self
     real(wp), intent(in) :: displacement(:,:)
     type(contact_history), intent(out) :: history
     real(wp), intent(out) :: force(:,:)
     type(contact_history) :: next
-    real(wp), dimension(size(force, 2)) :: f, stiffness
-    integer :: period, i
+    real(wp) :: f(size(force, 2)), tangent(size(force, 2), size(force, 2))
+    integer(mslip_int) :: status
+    integer :: period, largest, i, j, e
 
     call self%start_history(history)
+    do e = 1, size(self%elements)
+      j = self%first(self%element_contact(e))
+      associate (motion => displacement(:, j:j + 1), element => self%elements(e), state => history%element_states(:, e))
+        largest = maxloc(motion(:, 2), dim=1)
+        call mslip_element_advance(element, state, [0.0_wp, motion(largest, 2)], status)
+        do i = largest, size(motion, 1)
+          if (status == MSLIP_OK) call mslip_element_advance(element, state, motion(i, :), status)
+        end do
+      end associate
+      call require(status, self%name(self%element_contact(e)))
+    end do
     do period = 1, 2
       do i = 1, size(displacement, 1)
-        call self%try_step(history, displacement(i, :), f, stiffness, next)
+        call self%try_step(history, displacement(i, :), f, tangent, next)
         history = next
         force(i, :) = f
       end do
     end do
   end subroutine steady_cycle
 
-  !> Smallest half-width of the stick zone during a period, 0 in gross slip; NaN for a spring-slider.
+  !> Smallest half-width of the stick zone during a period, 0 in gross slip, of a contact with constant normal force; NaN for
+  !> others.
   real(wp) function min_stick_half_width(self, i, coefficients) result(half_width)
     class(contact_set), intent(in) :: self
     integer, intent(in) :: i
@@ -192,6 +379,30 @@ contains
     call require(status, self%name(i))
   end function min_stick_half_width
 
+  !> Smallest and largest normal force of a contact of two components during a period, and the fraction of the period in which it
+  !> is open; `coefficients` are those of the approach.
+  subroutine normal_extremes(self, i, coefficients, smallest, largest, open_fraction)
+    class(contact_set), intent(in) :: self
+    integer, intent(in) :: i
+    real(wp), intent(in) :: coefficients(:)
+    real(wp), intent(out) :: smallest, largest, open_fraction
+    real(wp), dimension(size(self%fine_basis, 1)) :: approach, normal_force
+    integer(mslip_int) :: status
+
+    approach = matmul(self%fine_basis, coefficients)
+    normal_force = self%normal_stiffness(self%last(i)) * approach
+    open_fraction = 0.0_wp
+    if (any(self%element_contact == i)) then
+      call mslip_normal_force_at(self%elements(findloc(self%element_contact, i, dim=1)), approach, status, &
+                              normal_force=normal_force)
+      call require(status, self%name(i))
+      normal_force = self%count(i) * normal_force
+      open_fraction = count(approach <= 0.0_wp) / real(size(approach), wp)
+    end if
+    smallest = minval(normal_force)
+    largest = maxval(normal_force)
+  end subroutine normal_extremes
+
   !> Bound on the error of the forces of one contact (of `count` identical ones): reversals in excess of `max_reversals` are
   !> merged into others.
   real(wp) function force_error(self, history, i)
@@ -199,10 +410,23 @@ contains
     type(contact_history), intent(in) :: history
     integer, intent(in) :: i
     integer(mslip_int) :: status
+    integer :: e
 
-    call mslip_state_error(history%states(:, i), force_error, status)
+    e = findloc(self%element_contact, i, dim=1)
+    if (e > 0) then
+      call mslip_element_state_error(directions, history%element_states(:, e), force_error, status)
+    else
+      call mslip_state_error(history%states(:, i), force_error, status)
+    end if
     call require(status, self%name(i))
   end function force_error
+
+  !> Whether the status of a call is not that of a displacement beyond the range of the law: a contact as wide as it is long, or
+  !> a displacement that is not finite.
+  pure logical function in_range(status)
+    integer(mslip_int), intent(in) :: status
+    in_range = all(status /= [MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_DISPLACEMENT])
+  end function in_range
 
   subroutine require(status, name)
     integer(mslip_int), intent(in) :: status

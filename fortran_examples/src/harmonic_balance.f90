@@ -7,7 +7,13 @@
 !>
 !> with u_free the relative displacements without contact forces. A contact force is an internal force, positive with
 !> the relative displacement, hence its sign. The unknowns of Newton's method are u alone, the Fourier coefficients of every
-!> contact; f and df/du come from contacts%harmonic_force.
+!> component of every contact; f and df/du come from contacts%harmonic_force.
+!>
+!> Harmonic 0 is the static equilibrium, solved together with the others. A body that is held by its contacts alone, such as a
+!> damper, has no static compliance without them. So for k = 0 springs S of the normal stiffness at the normal force of the
+!> case are added to the structure and subtracted from the contacts:
+!>
+!>     C_0 = B^T (K + B S B^T)^-1 B,    f replaced by f - S u.
 module harmonic_balance
   use, intrinsic :: iso_fortran_env, only: int64
   use basics, only: wp
@@ -24,6 +30,7 @@ module harmonic_balance
     type(contact_set) :: contacts
     real(wp), allocatable :: incidence(:,:)       !! B: contact forces to degrees of freedom
     complex(wp), allocatable :: excitation(:)     !! F in Re(F exp(i omega t)), for each degree of freedom
+    real(wp), allocatable :: static_load(:)       !! for each degree of freedom
     integer :: harmonics = 0
     real(wp) :: tolerance = 0.0_wp                !! of R, relative to the displacement of each contact
     integer :: evaluations = 0                    !! of R and its derivatives
@@ -32,17 +39,20 @@ module harmonic_balance
 
   !> The balance at one frequency and one set of displacements.
   type, public :: balance_point
-    real(wp), allocatable :: residual(:,:)        !! R, (coefficient, contact)
+    real(wp), allocatable :: residual(:,:)        !! R, (coefficient, component)
     real(wp), allocatable :: jacobian(:,:)        !! dR/du, both in array element order
     real(wp), allocatable :: by_omega(:,:)        !! dR/domega
     real(wp), allocatable :: force(:,:)           !! f(u)
     real(wp), allocatable :: dissipated(:)        !! per period and contact
     real(wp) :: free_size = 0.0_wp                !! largest relative displacement without contact forces
-    !> Response of all degrees of freedom to contact forces, (dof, contact, harmonic), and to the excitation.
-    complex(wp), allocatable, private :: by_force(:,:,:), by_excitation(:)
+    real(wp), allocatable, private :: spring_force(:)     !! S u for the mean u
+    !> Response of all degrees of freedom to contact forces, (dof, component, harmonic), and to loads, (dof, harmonic).
+    complex(wp), allocatable, private :: by_force(:,:,:), by_load(:,:)
   end type balance_point
 
   integer, parameter :: newton_steps = 40, halvings = 8
+  !> A residual that no method accepts, for displacements beyond the range of the law.
+  real(wp), parameter :: beyond_range = 1.0e100_wp
 
 contains
 
@@ -55,73 +65,111 @@ contains
     complex(wp), dimension(size(problem%incidence, 1), size(problem%incidence, 1)) :: stiffness, rate
     complex(wp) :: solution(size(problem%incidence, 1), size(problem%incidence, 2) + 1)
     complex(wp), dimension(size(problem%incidence, 2), size(problem%incidence, 2) + 1) :: seen, seen_rate
-    complex(wp) :: residual, residual_rate
-    real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), size(displacement, 2))
+    complex(wp) :: residual, residual_rate, force
+    real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), 2, size(displacement, 2))
+    real(wp) :: rows(2, size(displacement, 1))
     integer(int64) :: start, finish, rate_of_clock
-    integer :: n, contacts, m, k, i, j, row, column
+    logical :: allowed
+    integer :: n, components, m, k, i, j, c, row, column
 
     n = size(problem%incidence, 1)
-    contacts = size(problem%incidence, 2)
+    components = size(problem%incidence, 2)
     m = size(displacement, 1)
     if (.not. allocated(point%force)) then
-      allocate (point%residual(m, contacts), point%by_omega(m, contacts), point%force(m, contacts))
-      allocate (point%jacobian(m * contacts, m * contacts), point%dissipated(contacts))
-      allocate (point%by_force(n, contacts, 0:problem%harmonics), point%by_excitation(n))
+      allocate (point%residual(m, components), point%by_omega(m, components), point%force(m, components))
+      allocate (point%jacobian(m * components, m * components), point%dissipated(size(problem%contacts%first)))
+      allocate (point%spring_force(components), point%by_force(n, components, 0:problem%harmonics))
+      allocate (point%by_load(n, 0:problem%harmonics))
     end if
     call system_clock(start, rate_of_clock)
-    call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated)
+    call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated, allowed)
     call system_clock(finish)
     problem%contact_seconds = problem%contact_seconds + real(finish - start, wp) / rate_of_clock
     problem%evaluations = problem%evaluations + 1
+    if (.not. allowed) then
+      point%residual = beyond_range
+      return
+    end if
 
-    do k = 0, problem%harmonics
-      stiffness = cmplx(problem%model%stiffness - (k * omega)**2 * problem%model%mass, &
-                        k * omega * problem%model%damping, wp)
-      rate = cmplx(-2.0_wp * k**2 * omega * problem%model%mass, k * problem%model%damping, wp)
-      solution(:, :contacts) = problem%incidence
-      solution(:, contacts + 1) = merge(problem%excitation, (0.0_wp, 0.0_wp), k == 1)
-      call solve(stiffness, solution)
-      ! The matrices are symmetric: B^T d(Z^-1) = -(Z^-1 B)^T dZ Z^-1.
-      seen = matmul(transpose(problem%incidence), solution)
-      seen_rate = -matmul(transpose(solution(:, :contacts)), matmul(rate, solution))
+    point%free_size = 0.0_wp
+    associate (springs => problem%contacts%normal_stiffness, offset => problem%contacts%offset)
+      point%spring_force = springs * displacement(1, :)
+      do k = 0, problem%harmonics
+        stiffness = cmplx(problem%model%stiffness - (k * omega)**2 * problem%model%mass, &
+                          k * omega * problem%model%damping, wp)
+        rate = cmplx(-2.0_wp * k**2 * omega * problem%model%mass, k * problem%model%damping, wp)
+        solution(:, :components) = problem%incidence
+        solution(:, components + 1) = merge(problem%excitation, (0.0_wp, 0.0_wp), k == 1)
+        if (k == 0) then
+          do i = 1, components
+            if (springs(i) > 0.0_wp) call add_spring(springs(i), problem%incidence(:, i), stiffness)
+          end do
+          solution(:, components + 1) = problem%static_load - matmul(problem%incidence, springs * offset)
+        end if
+        call solve(stiffness, solution)
+        ! The matrices are symmetric: B^T d(Z^-1) = -(Z^-1 B)^T dZ Z^-1.
+        seen = matmul(transpose(problem%incidence), solution)
+        seen_rate = -matmul(transpose(solution(:, :components)), matmul(rate, solution))
+        if (k == 0) seen(:, components + 1) = seen(:, components + 1) + offset
 
-      point%by_force(:, :, k) = solution(:, :contacts)
-      if (k == 1) then
-        point%by_excitation = solution(:, contacts + 1)
-        point%free_size = maxval(abs(seen(:, contacts + 1)))
-      end if
-      do i = 1, contacts
-        residual = get_harmonic(displacement(:, i), k) - seen(i, contacts + 1)
-        residual_rate = -seen_rate(i, contacts + 1)
-        do j = 1, contacts
-          residual = residual + seen(i, j) * get_harmonic(point%force(:, j), k)
-          residual_rate = residual_rate + seen_rate(i, j) * get_harmonic(point%force(:, j), k)
+        point%by_force(:, :, k) = solution(:, :components)
+        point%by_load(:, k) = solution(:, components + 1)
+        point%free_size = max(point%free_size, maxval(abs(seen(:, components + 1))))
+        do i = 1, components
+          residual = get_harmonic(displacement(:, i), k) - seen(i, components + 1)
+          residual_rate = -seen_rate(i, components + 1)
+          do j = 1, components
+            force = get_harmonic(point%force(:, j), k)
+            if (k == 0) force = force - point%spring_force(j)
+            residual = residual + seen(i, j) * force
+            residual_rate = residual_rate + seen_rate(i, j) * force
+          end do
+          call set_harmonic(point%residual(:, i), k, residual)
+          call set_harmonic(point%by_omega(:, i), k, residual_rate)
+
           row = (i - 1) * m + max(2*k, 1)
-          column = (j - 1) * m
-          call add_compliance(seen(i, j), k, contact_jacobian(:, :, j), &
-                              point%jacobian(row:row + min(k, 1), column + 1:column + m))
+          do c = 1, size(problem%contacts%first)
+            associate (first => problem%contacts%first(c), last => problem%contacts%last(c))
+              do j = first, last
+                rows = 0.0_wp
+                call add_compliance(seen(i, first), k, contact_jacobian(:, :, 1, j), rows)
+                if (last > first) call add_compliance(seen(i, last), k, contact_jacobian(:, :, 2, j), rows)
+                if (k == 0) rows(1, 1) = rows(1, 1) - real(seen(i, j)) * springs(j)
+                column = (j - 1) * m
+                point%jacobian(row:row + min(k, 1), column + 1:column + m) = rows(:1 + min(k, 1), :)
+              end do
+            end associate
+          end do
         end do
-        call set_harmonic(point%residual(:, i), k, residual)
-        call set_harmonic(point%by_omega(:, i), k, residual_rate)
       end do
-    end do
-    do i = 1, m * contacts
+    end associate
+    do i = 1, m * components
       point%jacobian(i, i) = point%jacobian(i, i) + 1.0_wp
     end do
   end subroutine evaluate
 
-  !> Rows of harmonic k of (compliance times contact Jacobian), with X = cos - i sin.
+  pure subroutine add_spring(spring, direction, stiffness)
+    real(wp), intent(in) :: spring, direction(:)
+    complex(wp), intent(inout) :: stiffness(:,:)
+    integer :: j
+
+    do j = 1, size(direction)
+      stiffness(:, j) = stiffness(:, j) + spring * direction(j) * direction
+    end do
+  end subroutine add_spring
+
+  !> Adds rows of harmonic k of (compliance times contact Jacobian), with X = cos - i sin.
   pure subroutine add_compliance(compliance, k, contact_jacobian, rows)
     complex(wp), intent(in) :: compliance
     integer, intent(in) :: k
     real(wp), intent(in) :: contact_jacobian(:,:)
-    real(wp), intent(out) :: rows(:,:)
+    real(wp), intent(inout) :: rows(:,:)
 
     if (k == 0) then
-      rows(1, :) = real(compliance) * contact_jacobian(1, :)
+      rows(1, :) = rows(1, :) + real(compliance) * contact_jacobian(1, :)
     else
-      rows(1, :) = real(compliance) * contact_jacobian(2*k, :) + aimag(compliance) * contact_jacobian(2*k + 1, :)
-      rows(2, :) = real(compliance) * contact_jacobian(2*k + 1, :) - aimag(compliance) * contact_jacobian(2*k, :)
+      rows(1, :) = rows(1, :) + real(compliance) * contact_jacobian(2*k, :) + aimag(compliance) * contact_jacobian(2*k + 1, :)
+      rows(2, :) = rows(2, :) + real(compliance) * contact_jacobian(2*k + 1, :) - aimag(compliance) * contact_jacobian(2*k, :)
     end if
   end subroutine add_compliance
 
@@ -130,14 +178,16 @@ contains
     type(balance_problem), intent(in) :: problem
     type(balance_point), intent(in) :: point
     real(wp) :: response(2 * problem%harmonics + 1, size(problem%incidence, 1))
-    complex(wp) :: amplitude
+    complex(wp) :: amplitude, force
     integer :: dof, k, j
 
     do dof = 1, size(response, 2)
       do k = 0, problem%harmonics
-        amplitude = merge(point%by_excitation(dof), (0.0_wp, 0.0_wp), k == 1)
+        amplitude = point%by_load(dof, k)
         do j = 1, size(problem%incidence, 2)
-          amplitude = amplitude - point%by_force(dof, j, k) * get_harmonic(point%force(:, j), k)
+          force = get_harmonic(point%force(:, j), k)
+          if (k == 0) force = force - point%spring_force(j)
+          amplitude = amplitude - point%by_force(dof, j, k) * force
         end do
         call set_harmonic(response(:, dof), k, amplitude)
       end do
@@ -194,11 +244,12 @@ contains
     converged = newton_error(problem, displacement, point) <= 1.0_wp
   end subroutine solve_at
 
-  !> Without a neighbouring solution: the excitation grows in steps that shrink if Newton's method fails.
+  !> Without a neighbouring solution: from the static equilibrium, if there is a load, the excitation grows in steps that shrink
+  !> if Newton's method fails. Newton's method for the equilibrium starts with the springs in place of the contacts.
   subroutine solve_from_rest(problem, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega
-    real(wp), intent(out) :: displacement(:,:)
+    real(wp), intent(out), contiguous :: displacement(:,:)
     type(balance_point), intent(inout) :: point
     logical, intent(out) :: converged
     complex(wp) :: full(size(problem%excitation))
@@ -207,6 +258,14 @@ contains
 
     full = problem%excitation
     displacement = 0.0_wp
+    if (any(abs(problem%static_load) > 0.0_wp) .or. any(abs(problem%contacts%offset) > 0.0_wp)) then
+      problem%excitation = 0.0_wp
+      call evaluate(problem, omega, displacement, point)
+      displacement(1, :) = -point%residual(1, :)
+      call solve_at(problem, omega, displacement, point, converged)
+      problem%excitation = full
+      if (.not. converged) return
+    end if
     reached = 0.0_wp
     growth = 1.0_wp
     do

@@ -20,7 +20,7 @@ module newmark
     real(wp), allocatable :: inverse(:,:)        !! of M + step/2 D + step**2/4 K
     real(wp), allocatable :: by_force(:,:)       !! inverse times B
     real(wp), allocatable :: compliance(:,:)     !! step**2/4 B^T inverse B
-    real(wp), allocatable :: contact_scale(:)    !! size of the relative displacement of each contact
+    real(wp), allocatable :: contact_scale(:)    !! size of each component
   end type newmark_scheme
 
 contains
@@ -36,8 +36,9 @@ contains
     integer, parameter :: newton_steps = 50, halvings = 8
     real(wp), parameter :: newton_tolerance = 1.0e-12_wp
     real(wp), dimension(size(excitation)) :: displacement, velocity, acceleration
-    real(wp), dimension(size(problem%incidence, 2)) :: u, u_free, force, stiffness, residual, start
-    real(wp) :: matrix(size(u), size(u)), correction(size(u), 1), fraction, size_before
+    real(wp), dimension(size(problem%incidence, 2)) :: u, u_free, force, residual, start
+    real(wp), dimension(size(u), size(u)) :: tangent, matrix
+    real(wp) :: correction(size(u), 1), fraction, size_before
     integer :: iteration, halving, i
 
     associate (h => scheme%step, contacts => problem%contacts, model => problem%model)
@@ -45,14 +46,14 @@ contains
       velocity = state%velocity + 0.5_wp * h * state%acceleration
       acceleration = matmul(scheme%inverse, excitation - matmul(model%damping, velocity) &
                             - matmul(model%stiffness, displacement))
-      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence)
+      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence) + contacts%offset
 
-      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence)
+      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence) + contacts%offset
       call try()
       do iteration = 1, newton_steps
         if (all(abs(residual) <= newton_tolerance * scheme%contact_scale)) exit
+        matrix = matmul(scheme%compliance, tangent)
         do i = 1, size(u)
-          matrix(:, i) = scheme%compliance(:, i) * stiffness(i)
           matrix(i, i) = matrix(i, i) + 1.0_wp
         end do
         correction(:, 1) = residual
@@ -83,8 +84,11 @@ contains
 
     !> A trial step of all contacts from the last accepted history, which is not modified.
     subroutine try()
-      call problem%contacts%try_step(state%contacts, u, force, stiffness, state%trial)
-      residual = u_free - u - matmul(scheme%compliance, force)
+      logical :: allowed
+
+      call problem%contacts%try_step(state%contacts, u, force, tangent, state%trial, allowed)
+      residual = huge(u)**0.25_wp
+      if (allowed) residual = u_free - u - matmul(scheme%compliance, force)
     end subroutine try
   end subroutine newmark_step
 
@@ -117,26 +121,29 @@ end module newmark
 !> the balance with the most harmonics, so that the transient is small, and is integrated until it is periodic. Written to
 !> DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every load factor, frequency and number of harmonics;
-!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact.
+!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact; approach and
+!>   normal force too if it has two components, otherwise NaN.
 !>
 !> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
 !> allowed_difference of the group.
 program time_integration
+  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, integration_input, prepare_problem, read_case
+  use continuation, only: solve_within
   use dense_algebra, only: solve, symmetric_modes
   use fourier_series, only: series_basis, series_peak
   use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, solve_from_rest, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, structure_response
   use newmark, only: motion, newmark_scheme, newmark_step, prepare_newmark
   implicit none
 
   character(len=*), parameter :: usage = 'time_integration CASE DIRECTORY'
   integer, parameter :: shown_contact = 1, waveform_points = 256
 
-  !> One period of the response, and of displacement and force of the shown contact.
+  !> One period of the response, and of displacement and force of the shown contact, (instant, component).
   type :: waveform
-    real(wp), allocatable :: response(:), displacement(:), force(:)
+    real(wp), allocatable :: response(:), displacement(:,:), force(:,:)
   end type waveform
 
   character(len=:), allocatable :: prefix
@@ -146,11 +153,12 @@ program time_integration
   call read_case(trim(argument(1, usage)), data)
   prefix = trim(argument(2, usage))//'/'//trim(data%name)
   if (size(data%integrations) == 0) call fail('a group &time_integration is needed')
-  table = open_table(prefix//'_comparison.csv', 'load_factor,frequency_hz,harmonics,samples,peak_balance_m,'// &
+  table = open_table(prefix//'_comparison.csv', 'load_factor,excitation_factor,frequency_hz,harmonics,samples,peak_balance_m,'// &
     'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference,'// &
-    'periods,steps_per_period,change_per_period,remaining_transient')
+    'normal_force_difference,periods,steps_per_period,change_per_period,remaining_transient')
   waveforms = open_table(prefix//'_waveforms.csv', &
-    'load_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,contact_force_N')
+    'load_factor,excitation_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,'// &
+    'contact_approach_m,contact_force_N,contact_normal_force_N')
   do k = 1, size(data%integrations)
     do i = 1, size(data%integrations(k)%frequencies)
       call compare_at(data%integrations(k), data%integrations(k)%frequencies(i))
@@ -178,7 +186,10 @@ contains
                          [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
     call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation)
     allocate (waves%response(input%steps_per_period), source=0.0_wp)
-    allocate (waves%displacement, waves%force, mold=waves%response)
+    associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
+      allocate (waves%displacement(input%steps_per_period, last - first + 1))
+    end associate
+    allocate (waves%force, mold=waves%displacement)
     decay = exp(-slowest_decay(problem) / frequency)
     do periods = 1, input%max_periods
       before = waves%response
@@ -186,8 +197,10 @@ contains
         k = modulo(j, input%steps_per_period) + 1
         call newmark_step(scheme, problem, excitation(:, k), state)
         waves%response(k) = state%displacement(data%response_dof)
-        waves%displacement(k) = state%contact_displacement(shown_contact)
-        waves%force(k) = state%contact_force(shown_contact) / data%contacts(shown_contact)%count
+        associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
+          waves%displacement(k, :) = state%contact_displacement(first:last)
+          waves%force(k, :) = state%contact_force(first:last) / data%contacts(shown_contact)%count
+        end associate
       end do
       change = relative_difference(before, waves%response)
       ! The sum of all further changes by a transient that shrinks by the factor `decay` in each period.
@@ -197,7 +210,7 @@ contains
     if (periods > input%max_periods) call fail('not periodic after '//text(input%max_periods)//' periods, change '// &
                                                text(change, '(es8.1)')//': raise max_periods or steady_tolerance')
     ! Each period of a slowly decaying motion lies within the one before: more reversals than a state holds.
-    force_error = maxval([(problem%contacts%force_error(state%contacts, j), j=1, size(state%contact_force))])
+    force_error = maxval([(problem%contacts%force_error(state%contacts, j), j=1, size(data%contacts))])
     call progress(text(frequency, '(f10.2)')//' Hz: periodic after '//text(periods)//' periods of '// &
                   text(input%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
                   ', remaining transient '//text(remaining, '(es8.1)')//', force error of merged reversals '// &
@@ -217,7 +230,8 @@ contains
 
     basis = series_basis(size(response, 1) / 2, size(excitation, 2))
     do k = 1, size(excitation, 1)
-      excitation(k, :) = real(problem%excitation(k)) * basis(:, 2) - aimag(problem%excitation(k)) * basis(:, 3)
+      excitation(k, :) = problem%static_load(k) + real(problem%excitation(k)) * basis(:, 2) &
+                         - aimag(problem%excitation(k)) * basis(:, 3)
     end do
     rate = 0.0_wp
     do k = 1, size(rate) / 2
@@ -255,11 +269,11 @@ contains
     type(waveform) :: balances(1 + size(input%harmonics)), integrated
     real(wp), allocatable :: displacement(:,:), response(:,:)
     integer, dimension(size(balances)) :: harmonics, samples
-    real(wp) :: peak(size(balances)), change, remaining, integrated_peak, difference(4)
+    real(wp) :: peak(size(balances)), change, remaining, integrated_peak, difference(5)
     integer :: k, most, periods
 
     harmonics = [data%harmonics, input%harmonics]
-    samples = [data%samples, spread(input%samples, 1, size(input%harmonics))]
+    samples = [data%samples, input%samples]
     most = maxloc(harmonics, dim=1)
     do k = 1, size(harmonics)
       if (k /= most) call solve_balance(input, frequency, harmonics(k), samples(k), problem, displacement, response, &
@@ -269,14 +283,19 @@ contains
                        balances(most), peak(most))
     call integrate(input, frequency, problem, displacement, response, integrated, periods, change, remaining)
 
-    integrated_peak = maxval(abs(integrated%response))
+    integrated_peak = maxval(abs(integrated%response - sum(integrated%response) / size(integrated%response)))
     call write_waveform(input, frequency, 'time_integration', 0, input%steps_per_period, integrated)
     do k = 1, size(balances)
       difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
                     relative_difference(balances(k)%response, integrated%response), &
-                    relative_difference(balances(k)%displacement, integrated%displacement), &
-                    relative_difference(balances(k)%force, integrated%force)]
-      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency])//','//text(harmonics(k))//','// &
+                    relative_difference(balances(k)%displacement(:, 1), integrated%displacement(:, 1)), &
+                    relative_difference(balances(k)%force(:, 1), integrated%force(:, 1)), &
+                    ieee_value(1.0_wp, ieee_quiet_nan)]
+      associate (force => balances(k)%force, reference => integrated%force)
+        if (size(force, 2) == 2) difference(5) = relative_difference(force(:, 2), reference(:, 2))
+      end associate
+      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
+        text(harmonics(k))//','// &
         text(samples(k))//csv([peak(k), integrated_peak, difference])//','//text(periods)//','// &
         text(input%steps_per_period)//csv([change, remaining])
       call write_waveform(input, frequency, 'balance', harmonics(k), samples(k), balances(k))
@@ -291,33 +310,42 @@ contains
     end if
   end subroutine compare_at
 
-  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms.
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. On entry `displacement`
+  !> may have those of another number of harmonics.
   subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
     type(integration_input), intent(in) :: input
     real(wp), intent(in) :: frequency
     integer, intent(in) :: harmonics, samples
     type(balance_problem), intent(out) :: problem
-    real(wp), allocatable, intent(out) :: displacement(:,:), response(:,:)
+    real(wp), allocatable, intent(inout) :: displacement(:,:)
+    real(wp), allocatable, intent(out) :: response(:,:)
     type(waveform), intent(out) :: waves
     real(wp), intent(out) :: peak
+    real(wp), allocatable :: neighbour(:,:)
     type(balance_point) :: point
     type(contact_history) :: history
     real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
-    real(wp), dimension(input%steps_per_period, size(data%contacts)) :: u, force
+    real(wp), allocatable :: u(:,:), force(:,:)
     logical :: converged
 
-    call prepare_problem(data, input%load_factor, harmonics, samples, problem)
-    allocate (displacement(2 * harmonics + 1, size(data%contacts)))
-    call solve_from_rest(problem, 2.0_wp * pi * frequency, displacement, point, converged)
+    call prepare_problem(data, input%load_factor, harmonics, samples, problem, input%excitation_factor)
+    if (allocated(displacement)) call move_alloc(displacement, neighbour)
+    allocate (displacement(2 * harmonics + 1, size(problem%incidence, 2)))
+    ! An array that is not allocated is an argument that is not present.
+    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], 2.0_wp * pi * frequency, displacement, &
+                      point, converged, neighbour)
     if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
     response = structure_response(problem, point)
     peak = series_peak(response(:, data%response_dof))
     basis = series_basis(harmonics, input%steps_per_period)
     u = matmul(basis, displacement)
+    allocate (force, mold=u)
     call problem%contacts%steady_cycle(u, history, force)
     waves%response = matmul(basis, response(:, data%response_dof))
-    waves%displacement = u(:, shown_contact)
-    waves%force = force(:, shown_contact) / data%contacts(shown_contact)%count
+    associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
+      waves%displacement = u(:, first:last)
+      waves%force = force(:, first:last) / data%contacts(shown_contact)%count
+    end associate
   end subroutine solve_balance
 
   !> `points` are the samples of a balance, or the steps of time integration.
@@ -327,13 +355,17 @@ contains
     character(len=*), intent(in) :: source
     integer, intent(in) :: harmonics, points
     type(waveform), intent(in) :: waves
+    real(wp) :: contact(4)
     integer :: j, k
 
+    contact = ieee_value(1.0_wp, ieee_quiet_nan)
     do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
       k = modulo(j, input%steps_per_period) + 1
-      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency])//','//source//','// &
-        text(harmonics)//','//text(points)//csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), &
-                                                  waves%displacement(k), waves%force(k)])
+      contact(:size(waves%force, 2)) = waves%displacement(k, :)
+      contact(3:2 + size(waves%force, 2)) = waves%force(k, :)
+      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
+        source//','//text(harmonics)//','//text(points)// &
+        csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), contact])
     end do
   end subroutine write_waveform
 
