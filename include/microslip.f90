@@ -1520,7 +1520,8 @@ contains
       !! [u, w] at the end of the step: tangential displacement [m]; normal approach [m], open if not positive, or normal force [N],
       !! >= 0.
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
-      !! State after the step, of the same size; for a step in place use `mslip_element_advance`.
+      !! State after the step, of the same size; for a step in place use `mslip_element_advance`. Only what is in use of it is
+      !! written: initialise both states to store or compare whole arrays.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! [T, N] at the end of the step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :)

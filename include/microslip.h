@@ -693,8 +693,9 @@ int32_t mslip_element_state_error(int32_t directions,
 // Advances the state of an element to displacement[2]: the tangential displacement [m], and the normal approach [m] or the normal
 // force [N]. force[2] [N] is the tangential and the normal force, tangent[4] [N/m] is d force_i / d displacement_j, 2 x 2,
 // column-major, consistent with the step and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may
-// alias state_old; if NULL, the new state is discarded. Within a step the path is straight in the tangential displacement and the
-// tangential shift S of the contact size.
+// alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise both states to store or
+// compare whole arrays. Within a step the path is straight in the tangential displacement and the tangential shift S of the contact
+// size.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT,
 // MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length.
