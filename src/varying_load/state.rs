@@ -444,7 +444,7 @@ pub(crate) fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -
 /// Advances a state through displacements, two doubles per step, that were checked.
 ///
 /// # Errors
-/// `StateTooShort` or `BadState`, and those of [`check_path`]; the state is unchanged then.
+/// `StateTooShort` or `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
