@@ -114,11 +114,13 @@ bench: all
 	@tools/dependencies.sh bench accuracy
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
-## figures: compute the figures of the paper into docs/, draw them, and check its claims
+## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims
 figures:
 	@tools/dependencies.sh figures
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package paper
 	verification/paper/draw.sh
+	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package validation
+	verification/validation/draw.sh
 
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all
@@ -130,7 +132,7 @@ stress:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)
 
-## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
+## fuzz: fuzz the C interface with TIME= seconds for each of three targets, JOBS= processes at once
 fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh

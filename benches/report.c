@@ -1,6 +1,6 @@
 /* report.c: errors within their bounds, times at equal error, and medians over contacts and amplitudes as tables. */
 #include "report.h"
-#include "measure.h"
+#include "cases.h"
 
 #include <math.h>
 #include <string.h>
@@ -177,6 +177,52 @@ void write_readme_table(FILE *file)
     fprintf(file, "| initialisation of a contact | %s | – |\n", cell(&s->own));
 }
 
+/* Median over the shapes of the time of an element over that of a spring-slider, and the largest. */
+static const char *ratios(const char *task, const char *method, int motion, int harmonics, int jacobian)
+{
+    static char text[8][48];
+    static int next;
+    char *t = text[next++ % 8];
+    sample s = { .n = 0 };
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (strcmp(e->task, task) || strcmp(e->method, "microslip") || e->harmonics != harmonics || e->jacobian != jacobian
+            || e->parameter != motion) {
+            continue;
+        }
+        for (const entry *o = entries; o < entries + entry_count; ++o) {
+            if (!strcmp(o->method, method) && same_call(e, o) && o->parameter == motion) {
+                put(&s, e->median / o->median);
+            }
+        }
+    }
+    if (!s.n) {
+        return "–";
+    }
+    const double median = median_of(s.value, s.n);
+    snprintf(t, sizeof text[0], "%.2f (%.2f)", median, s.value[s.n - 1]);
+    return t;
+}
+
+static void write_element_table(FILE *file)
+{
+    fputs("\nTime of an element under a varying normal force over that of one spring-slider with a varying limit: median over the "
+          "shapes, in brackets the largest.\nH = 1, 5, 9 with 64, 128, 256 samples.\n\n"
+          "| motion | force, H = 1 | H = 5 | H = 9 | with Jacobian, H = 1 | H = 5 | H = 9 | step |\n"
+          "|---|---:|---:|---:|---:|---:|---:|---:|\n", file);
+    static const char *const methods[] = { "spring-slider", "spring-slider, folded transforms" };
+    for (int k = 0; k < 2; ++k) {
+        for (int motion = 0; element_motion(motion); ++motion) {
+            fprintf(file, "| %s%s", element_motion(motion), k ? ", slider with folded transforms" : "");
+            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
+                for (int h = 1; h <= 9; h += 4) {
+                    fprintf(file, " | %s", ratios("element", methods[k], motion, h, jacobian));
+                }
+            }
+            fprintf(file, " | %s |\n", ratios("element step", methods[k], motion, 0, 0));
+        }
+    }
+}
+
 void write_tables(FILE *file, const char *machine)
 {
     char title[96];
@@ -229,4 +275,5 @@ void write_tables(FILE *file, const char *machine)
             fprintf(file, "| %g | %s | %s | %s | %s |\n", n, cell(&s[0]), cell(&s[1]), cell(&s[2]), cell(&s[3]));
         }
     }
+    write_element_table(file);
 }

@@ -213,7 +213,11 @@ static void test_parameters(int shape)
         bad_parameter(shape, i, -DBL_MAX, "the smallest double");
         for (int sign = -1; sign <= 1; sign += 2) {
             if (shapes[shape].field[i].zero_is_valid) {
+                const double good = *parameter(shape, i);
                 extreme_parameter(shape, i, sign * 0.0);
+                *parameter(shape, i) = sign * 0.0;
+                CHECK(init(shape) == MSLIP_OK);
+                *parameter(shape, i) = good;
             } else {
                 bad_parameter(shape, i, sign * 0.0, "zero");
             }
@@ -381,6 +385,9 @@ static const struct {
     { NORMAL_FORCE, 1.0000001e150, MSLIP_BAD_NORMAL_FORCE }, { NORMAL_FORCE, DBL_MAX, MSLIP_BAD_NORMAL_FORCE },
     { NORMAL_FORCE, -1.0, MSLIP_BAD_NORMAL_FORCE }, { NORMAL_FORCE, -5e-324, MSLIP_BAD_NORMAL_FORCE },
     { NORMAL_FORCE, -DBL_MAX, MSLIP_BAD_NORMAL_FORCE },
+    { APPROACH_COEFFICIENT, 1.0000001e150, MSLIP_BAD_DISPLACEMENT }, { APPROACH_COEFFICIENT, -DBL_MAX, MSLIP_BAD_DISPLACEMENT },
+    { FORCE_COEFFICIENT, 1.0000001e150, MSLIP_BAD_DISPLACEMENT }, { FORCE_COEFFICIENT, -DBL_MAX, MSLIP_BAD_DISPLACEMENT },
+    { APPROACH_COEFFICIENT, 1e150, MSLIP_LENGTH_TOO_SHORT }, { APPROACH_COEFFICIENT, 1.0, MSLIP_LENGTH_TOO_SHORT },
     { APPROACH, 1.0, MSLIP_LENGTH_TOO_SHORT }, { APPROACH, 1e150, MSLIP_LENGTH_TOO_SHORT },
     { NORMAL_FORCE, 1e12, MSLIP_LENGTH_TOO_SHORT }, { NORMAL_FORCE, 1e150, MSLIP_LENGTH_TOO_SHORT },
     { APPROACH, 0.0, 0 }, { APPROACH, -0.0, 0 }, { APPROACH, 5e-324, 0 }, { APPROACH, 1e-300, 0 }, { APPROACH, 1e-150, 0 },
@@ -403,8 +410,10 @@ static void test_value(const function *f, int kind, double *place, const char *w
         rejected(f, status_of_non_finite(kind), what);
     }
     for (size_t i = 0; i < LENGTH(values); ++i) {
-        /* The elliptical elements of a batch have no length. */
-        if (values[i].kind == kind && !((f->takes & IS_BATCH) && values[i].status == MSLIP_LENGTH_TOO_SHORT)) {
+        /* Elliptical elements have no length. The compliance of a cylinder and of an ellipse at N = 0 is infinite. */
+        const int has_ellipse = (f->takes & IS_BATCH) || first_kind == ELLIPSE;
+        const int is_infinite = first_kind != FLAT && values[i].value == 0.0 && strcmp(f->name, "mslip_normal_approach") == 0;
+        if (values[i].kind == kind && !(has_ellipse && values[i].status == MSLIP_LENGTH_TOO_SHORT) && !is_infinite) {
             *place = value_of(i);
             rejected_unless_skipped(f, values[i].status == MSLIP_OK, ITEMS, values[i].status, what);
         }
@@ -429,7 +438,7 @@ static void test_values(const function *f)
                 ++count;
             }
         }
-        if (count > 0) {
+        if (count > 0 && !(first_kind != FLAT && values[k].value == 0.0 && strcmp(f->name, "mslip_normal_approach") == 0)) {
             accepted(f, "all array elements");
         }
     }
@@ -529,7 +538,7 @@ static void test_uninitialised(const function *f)
             set_up(f);
         }
         if (f->takes & TAKES_WORKSPACE) {
-            memset(call.workspace, fill, workspace_lengths[f->rule] * sizeof(double));
+            memset(call.workspace, fill, workspace_length(f) * sizeof(double));
             rejected(f, MSLIP_BAD_WORKSPACE, "an uninitialised workspace");
             set_up(f);
         }
@@ -718,9 +727,10 @@ static void test_workspace_size(int32_t rule)
 {
     static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
                                         MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
+    const function *f = find("mslip_harmonic_force", rule);
     size_t harmonics = 0, samples = 0;
     int32_t found = -1;
-    set_up(find("mslip_harmonic_force", rule));
+    set_up(f);
     save_regions();
     CHECK(mslip_harmonic_workspace_size(call.workspace, &harmonics, NULL, NULL) == MSLIP_OK && harmonics == HARMONICS);
     CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, &samples, NULL) == MSLIP_OK && samples == SAMPLES);
@@ -734,7 +744,7 @@ static void test_workspace_size(int32_t rule)
         size_t *s = i == 3 ? misaligned(&samples, sizeof samples) : &samples;
         int32_t *r = i == 4 ? misaligned(&found, sizeof found) : &found;
         if (i == 5) {
-            memset(call.workspace, 0x5a, workspace_lengths[rule] * sizeof(double));
+            memset(call.workspace, 0x5a, workspace_length(f) * sizeof(double));
         }
         save_regions();
         check_rejected(mslip_harmonic_workspace_size(workspace, h, s, r), expected[i], "mslip_harmonic_workspace_size", "any");
@@ -788,6 +798,121 @@ static void test_workspace_init(void)
     }
 }
 
+static void test_element_workspace(void)
+{
+    static const char init_name[] = "mslip_element_workspace_init", size_name[] = "mslip_element_workspace_size";
+    enum { MOST = 1 << 24 };
+    static const struct {
+        int32_t directions;
+        size_t harmonics, samples;
+        int32_t rule, status;
+    } rows[] = {
+        { 0, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
+        { 3, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
+        { INT32_MIN, 0, 0, 7, MSLIP_BAD_DIRECTIONS },
+        { 2, 2, 16, 0, MSLIP_NOT_AVAILABLE },
+        { 1, 2, 16, MSLIP_EVENT_DRIVEN, MSLIP_NOT_AVAILABLE },
+        { 1, 2, 16, 2, MSLIP_BAD_RULE },
+        { 1, 2, 16, -1, MSLIP_BAD_RULE },
+        { 1, 2, 16, INT32_MAX, MSLIP_BAD_RULE },
+        { 1, 0, 16, 0, MSLIP_BAD_HARMONICS },
+        { 1, 0, 0, 0, MSLIP_BAD_HARMONICS },
+        { 1, MOST + 1, SIZE_MAX, 0, MSLIP_BAD_HARMONICS },
+        { 1, SIZE_MAX / 2 + 1, 1, 0, MSLIP_BAD_HARMONICS },
+        { 1, 2, 4, 0, MSLIP_BAD_SAMPLES },
+        { 1, MOST, MOST, 0, MSLIP_BAD_SAMPLES },
+        { 1, 2, MOST + 1, 0, MSLIP_BAD_SAMPLES },
+        { 1, 2, SIZE_MAX, 0, MSLIP_BAD_SAMPLES },
+        { 1, MOST / 2 - 1, MOST, 0, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
+        { 1, 2, 16, 0, MSLIP_WORKSPACE_TOO_SHORT },
+    };
+    const function *f = find("mslip_element_harmonic_force", MSLIP_APPROACH);
+    size_t harmonics = 0, samples = 0;
+    int32_t directions = -1, rule = -1;
+    set_up(f);
+    double *const memory = call.workspace;
+    save_regions();
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        const size_t h = rows[i].harmonics, s = rows[i].samples;
+        const size_t length = mslip_element_workspace_length(rows[i].directions, h, s, rows[i].rule);
+        const size_t lengths[] = { 0, 1, 4, length > 0 ? length - 1 : 100 };
+        CHECK((length == 0) == (rows[i].status != MSLIP_WORKSPACE_TOO_SHORT));
+        for (size_t k = 0; k < LENGTH(lengths); ++k) {
+            check_rejected(mslip_element_workspace_init(rows[i].directions, h, s, rows[i].rule, lengths[k], memory),
+                           rows[i].status, init_name, "any");
+        }
+    }
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, init_name, "length");
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, NULL), MSLIP_NULL_POINTER, init_name, "workspace");
+    double *const bad = misaligned(memory, 8);
+    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, bad), MSLIP_BAD_ALIGNMENT, init_name, "workspace");
+
+    CHECK(mslip_element_workspace_size(memory, NULL, NULL, NULL, NULL) == MSLIP_OK);
+    CHECK(mslip_element_workspace_size(memory, &directions, &harmonics, &samples, &rule) == MSLIP_OK);
+    CHECK(directions == 1 && harmonics == HARMONICS && samples == SAMPLES && rule == MSLIP_UNIFORM_SAMPLING);
+    harmonics = samples = 7;
+    directions = rule = 7;
+    for (int i = 0; i < 7; ++i) {
+        static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
+                                            MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
+        const double *workspace = i == 0 ? NULL : i == 1 ? misaligned(memory, 8) : memory;
+        int32_t *d = i == 2 ? misaligned(&directions, sizeof directions) : &directions;
+        size_t *h = i == 3 ? misaligned(&harmonics, sizeof harmonics) : &harmonics;
+        size_t *s = i == 4 ? misaligned(&samples, sizeof samples) : &samples;
+        int32_t *r = i == 5 ? misaligned(&rule, sizeof rule) : &rule;
+        if (i == 6) {
+            memset(memory, 0x5a, workspace_length(f) * sizeof(double));
+        }
+        save_regions();
+        check_rejected(mslip_element_workspace_size(workspace, d, h, s, r), expected[i], size_name, "any");
+        CHECK(harmonics == 7 && samples == 7 && directions == 7 && rule == 7);
+    }
+
+    /* The workspace of the other law. */
+    const function *other = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
+    double header[2];
+    set_up(f);
+    memcpy(header, call.workspace, sizeof header);
+    init_workspace(other, 1, 8, workspace_length_of(other, 1, 8), call.workspace);
+    rejected(f, MSLIP_BAD_WORKSPACE, "the workspace of a contact");
+    CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
+    set_up(other);
+    memcpy(call.workspace, header, sizeof header);
+    rejected(other, MSLIP_BAD_WORKSPACE, "the workspace of an element");
+    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
+}
+
+/* Normal motions with an open contact, negative normal forces, and loads from the smallest to beyond the tables. */
+static void test_normal_motions(const function *f)
+{
+    static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
+    const size_t items = items_of(f);
+    const int by_force = f->rule == MSLIP_NORMAL_FORCE;
+    for (size_t k = 0; k < LENGTH(sizes); ++k) {
+        for (int shape = 0; shape < 4; ++shape) {
+            set_up(f);
+            for (size_t i = 0; i < items * COEFFICIENTS; ++i) {
+                const size_t place = i / COEFFICIENTS * ALL_COEFFICIENTS + COEFFICIENTS + i % COEFFICIENTS;
+                const double swing = shape == 0 ? 0.0 : shape == 1 ? 1.0 : shape == 2 ? 2.0 : -1.0;
+                INPUT[place] *= sizes[k] * (i % COEFFICIENTS == 0 ? 1.0 : swing);
+            }
+            if (by_force && shape == 2 && sizes[k] > 1e-300) {
+                rejected(f, MSLIP_BAD_NORMAL_FORCE, "a negative normal force"); /* an approach opens the contact */
+            } else if (!by_force || shape != 2) {
+                accepted(f, "normal motions");
+            }
+        }
+    }
+    set_up(f);
+    INPUT[f->inputs - COEFFICIENTS] = by_force ? -1e-3 : -1.0;
+    if (by_force) {
+        rejected(f, MSLIP_BAD_NORMAL_FORCE, "a negative mean");
+    } else {
+        accepted(f, "open for the whole period");
+    }
+    set_up(f);
+}
+
 /* Slip distributions of elliptical contacts, and the state of another contact. */
 static void test_other_contacts(void)
 {
@@ -832,12 +957,20 @@ int main(int argc, char **argv)
         const function *f = &functions[i];
         set_up(f);
         accepted(f, "valid arguments");
-        test_values(f);
+        for (first_kind = FLAT; first_kind <= ((f->takes & IS_ELEMENT) ? ELLIPSE : FLAT); ++first_kind) {
+            set_up(f);
+            test_values(f);
+        }
+        first_kind = FLAT;
+        set_up(f);
         test_pointers(f);
         test_counts(f);
         test_uninitialised(f);
         if (f->takes & TAKES_STATE) {
             test_states(f);
+        }
+        if ((f->takes & IS_ELEMENT) && (f->takes & TAKES_WORKSPACE)) {
+            test_normal_motions(f);
         }
         if (f->takes & IS_BATCH) {
             test_batch(f);
@@ -848,6 +981,7 @@ int main(int argc, char **argv)
     test_workspace_size(MSLIP_UNIFORM_SAMPLING);
     test_workspace_size(MSLIP_EVENT_DRIVEN);
     test_workspace_init();
+    test_element_workspace();
     test_other_contacts();
     test_statuses();
     return check_report();

@@ -1,11 +1,13 @@
-/* Invalid memory. A call recognises contacts, states and workspaces that are uninitialised, of another layout or too short by their
-   tags; the _check functions recognise any changed bit of a contact, and states that are not finite or not nested. Arbitrary bytes
-   behind a valid tag neither crash nor hang a call, which writes its outputs only. Copies are equivalent to their originals. */
+/* Invalid memory. A call recognises contacts, elements, states and workspaces that are uninitialised, of another layout or too
+   short by their tags; the _check functions recognise any changed bit of a contact or an element, and states that are not finite
+   or not nested. Arbitrary bytes behind a valid tag neither crash nor hang a call, which writes its outputs only. Copies are
+   equivalent to their originals. */
 #include "calls.h"
 
-/* 64-bit words: a contact has its tag in word 6, a state in word 0, a workspace in words 0 and 1. The count of a tag is in its
-   lower 40 bits. */
-enum { CONTACT_WORDS = sizeof(mslip_contact) / 8, CONTACT_TAG = 6, COUNT_BITS = 40, HEADER = 4 };
+/* 64-bit words: a contact has its tag in word 6, an element in word 8, a state in word 0, a workspace in words 0 and 1. The count
+   of a tag is in its lower 40 bits. */
+enum { CONTACT_WORDS = sizeof(mslip_contact) / 8, CONTACT_TAG = 6, ELEMENT_WORDS = sizeof(mslip_element) / 8, ELEMENT_TAG = 8,
+       COUNT_BITS = 40, HEADER = 4 };
 static const uint64_t kind_and_layout = UINT64_MAX << COUNT_BITS;
 
 /* Pseudorandom bits, the same in every run. */
@@ -33,6 +35,11 @@ static uint64_t get_word(const void *memory, size_t i)
 static void flip(void *memory, size_t i, int bit)
 {
     set_word(memory, i, get_word(memory, i) ^ (uint64_t)1 << bit);
+}
+
+static size_t tag_of_law(const function *f)
+{
+    return f->takes & IS_ELEMENT ? ELEMENT_TAG : CONTACT_TAG;
 }
 
 /* The outputs of a valid call. */
@@ -68,21 +75,23 @@ static void tag_bits_are_rejected(const function *f, void *tag, uint64_t bits, i
     }
 }
 
-/* One bit of a contact's tag is the geometry, and one of a workspace's first tag the rule. */
+/* One bit of a contact's tag is the geometry, two of an element's that and the normal input, one of a workspace's the rule. */
 static void test_tags(const function *f)
 {
     set_up(f);
     for (size_t i = 0; i < items_of(f); ++i) {
-        tag_bits_are_rejected(f, &CONTACTS[i].reserved[0], UINT64_MAX - 1, MSLIP_BAD_CONTACT, "the tag of a contact");
+        const uint64_t bits = UINT64_MAX - (f->takes & IS_ELEMENT ? 3 : 1);
+        tag_bits_are_rejected(f, (double *)law_at(f, i) + tag_of_law(f), bits, status_of_law(f), "the tag of a contact or element");
     }
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
-        const uint64_t counts[] = { REVERSALS + 1, 100, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
+        const uint64_t most = f->takes & IS_ELEMENT ? PIECES + 1 : REVERSALS;
+        const uint64_t counts[] = { most + 1, 100, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
         double *state = STATES + i * STATE;
         const uint64_t tag = get_word(state, 0);
         tag_bits_are_rejected(f, state, kind_and_layout, MSLIP_BAD_STATE, "the tag of a state");
         for (size_t k = 0; k < LENGTH(counts); ++k) {
             set_word(state, 0, (tag & kind_and_layout) | counts[k]);
-            rejected(f, MSLIP_BAD_STATE, "more reversals than the length holds");
+            rejected(f, MSLIP_BAD_STATE, "more reversals or knots than the length holds");
         }
         set_word(state, 0, tag);
     }
@@ -98,7 +107,7 @@ static void test_tags(const function *f)
             rejected(f, MSLIP_BAD_WORKSPACE, "a size that is not allowed");
         }
         set_up(f);
-        memmove(&call.workspace[0], &call.workspace[1], (workspace_lengths[f->rule] - 1) * sizeof(double));
+        memmove(&call.workspace[0], &call.workspace[1], (workspace_length(f) - 1) * sizeof(double));
         rejected(f, MSLIP_BAD_WORKSPACE, "a shifted workspace");
     }
 }
@@ -107,19 +116,21 @@ static void test_tags(const function *f)
 static void test_other_buffers(const function *f)
 {
     double state[STATE];
-    set_up(find("mslip_masing_update", 0));
+    set_up(find(f->takes & IS_ELEMENT ? "mslip_masing_update" : "mslip_element_update", 0));
     memcpy(state, STATES, sizeof state);
     set_up(f);
-    memcpy(CONTACTS, state, sizeof state);
-    memcpy(&CONTACTS[0].reserved[0], state, sizeof(double));
-    rejected(f, MSLIP_BAD_CONTACT, "a state as contact");
+    memcpy(law_at(f, 0), state, sizeof state);
+    memcpy((double *)law_at(f, 0) + tag_of_law(f), state, sizeof(double));
+    rejected(f, status_of_law(f), "a state as contact or element");
     set_up(f);
-    memmove(&CONTACTS[0], &CONTACTS[0].half_width, sizeof(mslip_contact) - 8);
-    rejected(f, MSLIP_BAD_CONTACT, "a shifted contact");
+    memmove(law_at(f, 0), (double *)law_at(f, 0) + 1, law_size(f) - 8);
+    rejected(f, status_of_law(f), "a shifted contact or element");
     set_up(f);
     if (f->takes & TAKES_STATE) {
-        memcpy(STATES, &call.contacts->reserved[0], STATE * sizeof(double));
-        rejected(f, MSLIP_BAD_STATE, "a contact as state");
+        memcpy(STATES, state, sizeof state);
+        rejected(f, MSLIP_BAD_STATE, "the state of an element as that of a contact, or the reverse");
+        memcpy(STATES, (double *)law_at(f, 0) + tag_of_law(f), STATE * sizeof(double));
+        rejected(f, MSLIP_BAD_STATE, "a contact or element as state");
     }
     if (f->takes & TAKES_WORKSPACE) {
         memcpy(call.workspace, state, sizeof state);
@@ -127,11 +138,40 @@ static void test_other_buffers(const function *f)
     }
     set_up(f);
     for (int i = 0; i < 100; ++i) {
-        for (size_t k = 0; k < CONTACT_WORDS; ++k) {
-            set_word(CONTACTS, k, random_bits());
+        for (size_t k = 0; k < law_size(f) / 8; ++k) {
+            set_word(law_at(f, 0), k, random_bits());
         }
-        rejected(f, MSLIP_BAD_CONTACT, "random bytes");
+        rejected(f, status_of_law(f), "random bytes");
     }
+}
+
+/* Any changed bit of an element; elements that were truncated, shifted or mixed. */
+static void test_element_check(void)
+{
+    static mslip_element element;
+    for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+        const mslip_element *valid = element_of(input == MSLIP_APPROACH ? FLAT : ELLIPSE, input);
+        const mslip_element *other = element_of(CYLINDER, input);
+        int found = 0;
+        element = *valid;
+        CHECK(mslip_element_check(&element) == MSLIP_OK);
+        for (size_t bit = 0; bit < 64 * ELEMENT_WORDS; ++bit) {
+            flip(&element, bit / 64, bit % 64);
+            found += mslip_element_check(&element) == MSLIP_BAD_ELEMENT;
+            flip(&element, bit / 64, bit % 64);
+        }
+        CHECK(found == 64 * ELEMENT_WORDS);
+        for (size_t k = 0; k < 2 * ELEMENT_WORDS; ++k) {
+            memset(&element, 0, sizeof element);
+            element = k % 2 ? *other : element;
+            memcpy(&element, valid, k / 2 * 8);
+            const int same = memcmp(&element, valid, sizeof element) == 0 || memcmp(&element, other, sizeof element) == 0;
+            CHECK(mslip_element_check(&element) == (same ? MSLIP_OK : MSLIP_BAD_ELEMENT));
+        }
+        memmove(&element, &valid->friction_coefficient, sizeof element - 8);
+        CHECK(mslip_element_check(&element) == MSLIP_BAD_ELEMENT);
+    }
+    CHECK(raised() == 0);
 }
 
 /* Any changed bit of a contact; contacts that were truncated, shifted, mixed or sent in the other byte order. */
@@ -165,12 +205,13 @@ static void test_contact_check(void)
     CHECK(raised() == 0);
 }
 
-/* The state is rejected by mslip_state_check if element i has this value, and then restored. */
+/* The state is rejected by the check of its kind if element i has this value, and then restored. */
 static void check_finds(size_t i, double value, const char *what)
 {
     const double valid = STATES[i];
     memcpy(&STATES[i], &value, sizeof value);
-    if (!CHECK(mslip_state_check(STATE, STATES) == MSLIP_BAD_STATE)) {
+    if (!CHECK((call.elements != NULL ? mslip_element_state_check(1, STATE, STATES) : mslip_state_check(STATE, STATES))
+               == MSLIP_BAD_STATE)) {
         printf("    %s: element %d, %g\n", what, (int)i, value);
     }
     STATES[i] = valid;
@@ -216,18 +257,63 @@ static void test_state_check(void)
     CHECK(mslip_state_check(STATE, STATES) == MSLIP_OK && raised() == 0);
 }
 
+/* As for contacts, after histories with separation: a state of every history is valid, one with any of these values is not. */
+static void test_element_state_check(void)
+{
+    enum { FIRST = 8, PER_KNOT = 4, LAST = FIRST + PER_KNOT * USED_PIECES };
+    for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+        const function *f = find("mslip_element_update", input);
+        for (int kind = 0; kind < KINDS; ++kind) {
+            const mslip_element *element = element_of(kind, input);
+            const double largest = input == MSLIP_APPROACH ? element->approach : element->normal_force;
+            set_up(f);
+            CHECK(mslip_element_state_init(1, STATE, STATES) == MSLIP_OK);
+            CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK);
+            for (int i = 0; i < 3000; ++i) {
+                const double u = (double)(random_bits() % 1000) / 500 - 1.0, w = (double)(random_bits() % 1000) / 800 - 0.1;
+                const double part = i % 100 < 30 ? 0.03 : 1.0; /* many pieces, or gross slip */
+                const double normal = largest * (input == MSLIP_NORMAL_FORCE ? fmax(w, 0.0) : w);
+                const double step[] = { part * u * element->approach, normal };
+                CHECK(mslip_element_update(element, STATE, STATES, step, STATES, NULL, NULL, NULL) == MSLIP_OK);
+                if (!CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK)) {
+                    printf("    element %d, input %d, step %d\n", kind, input, i);
+                }
+            }
+        }
+        set_up(f);
+        for (size_t i = 1; i < used_state(f); ++i) {
+            for (int k = 0; k < NON_FINITE; ++k) {
+                check_finds(i, from_bits(non_finite[k]), "not finite");
+            }
+        }
+        for (size_t i = 3; i < FIRST; ++i) {
+            check_finds(i, -1e-3, "negative");
+        }
+        for (size_t i = FIRST; i < LAST; i += PER_KNOT) {
+            check_finds(i, -1.0, "a size that decreases");
+            check_finds(i + 1, 1.0, "a size that decreases");
+            check_finds(i + 2, -1.0, "a negative force");
+        }
+        check_finds(1, 1.0, "a displacement outside of the last knot");
+        check_finds(3, 1e-6 * STATES[3], "less than the last knot");
+        memset(&STATES[used_state(f)], 0xff, (STATE - used_state(f)) * sizeof(double));
+        CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK && raised() == 0);
+    }
+}
+
 /* Copies at other addresses give the same bits, and so does an update in place. Unused doubles of a state and the scratch memory of
    a workspace, do not affect the results. */
 static void test_copies(const function *f)
 {
-    const size_t items = items_of(f), length = workspace_lengths[f->rule], used = mslip_state_length(USED);
-    mslip_contact *contact = malloc(items * sizeof *contact);
-    double *state = malloc(items * STATE * sizeof *state), *workspace = malloc(length * sizeof *workspace);
+    const size_t items = items_of(f), length = workspace_length(f), used = used_state(f);
+    void *laws = malloc(items * law_size(f));
+    double *state = malloc(items * STATE * sizeof *state), *workspace = malloc((length + 1) * sizeof *workspace);
     set_up(f);
     accepted(f, "the originals");
     save_outputs();
-    memcpy(contact, call.contacts, items * sizeof *contact);
-    call.contacts = contact;
+    memcpy(laws, law_at(f, 0), items * law_size(f));
+    call.contacts = f->takes & IS_ELEMENT ? NULL : laws;
+    call.elements = f->takes & IS_ELEMENT ? laws : NULL;
     if (f->takes & TAKES_STATE) {
         memcpy(state, call.state, items * STATE * sizeof *state);
         call.state = state;
@@ -241,7 +327,7 @@ static void test_copies(const function *f)
     if (f->out[0] > 0) {
         const double *separate = call.out[0];
         call.out[0] = state;
-        CHECK(f->call() == MSLIP_OK && same_bits(state, separate, f->out[0]) && same_outputs_from(1));
+        CHECK(f->call() == MSLIP_OK && same_states(f, state, separate) && same_outputs_from(1));
     }
     set_up(f);
     if (f->takes & TAKES_STATE) {
@@ -253,7 +339,7 @@ static void test_copies(const function *f)
     if (f->takes & TAKES_WORKSPACE) {
         size_t scratch = 0;
         CHECK(f->call() == MSLIP_OK);
-        CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, length, workspace) == MSLIP_OK);
+        init_workspace(f, HARMONICS, SAMPLES, length, workspace);
         for (size_t i = 0; i < length; ++i) {
             if (get_word(workspace, i) != get_word(call.workspace, i)) {
                 set_word(call.workspace, i, UINT64_MAX);
@@ -263,15 +349,18 @@ static void test_copies(const function *f)
         CHECK(scratch > 0 && same_bits(workspace, call.workspace, 2));
         CHECK(f->call() == MSLIP_OK && raised() == 0 && same_outputs_from(0));
         /* A longer workspace may be used for fewer harmonics. */
-        const size_t lengths[3] = { 0, 3 * items, 9 * items };
-        CHECK(mslip_harmonic_workspace_init(1, 12, f->rule, length, call.workspace) == MSLIP_OK);
+        const size_t one = f->takes & IS_ELEMENT ? 3 * COMPONENTS : 3, lengths[3] = { 0, one * items, one * one * items };
+        init_workspace(f, 1, 12, length, call.workspace);
+        for (size_t i = 0; (f->takes & IS_ELEMENT) && i < f->inputs; ++i) {
+            INPUT[i] = valid_value(i % 6 < 3 ? DISPLACEMENT : APPROACH_COEFFICIENT + f->rule, i % 6 == 3 ? 0 : 1, 0.0);
+        }
         CHECK(f->call() == MSLIP_OK && raised() == 0);
         for (int i = 1; i < 3; ++i) {
             const size_t unused = (f->out[i] - lengths[i]) * 8, end = out_regions[i]->bytes - unused;
             CHECK(memcmp(out_regions[i]->start + end, valid_outputs[i] + end, unused) == 0);
         }
     }
-    free(contact);
+    free(laws);
     free(state);
     free(workspace);
 }
@@ -303,7 +392,7 @@ static void returns(const function *f)
     f->call();
     for (int k = 0; k < regions_made; ++k) {
         const region *r = &regions[k];
-        size_t writable = r == workspace_region && (f->takes & TAKES_WORKSPACE) ? workspace_lengths[f->rule] : 0;
+        size_t writable = r == workspace_region && (f->takes & TAKES_WORKSPACE) ? workspace_length(f) : 0;
         for (int i = 0; i < OUTPUTS; ++i) {
             writable += r == out_regions[i] ? f->out[i] : 0;
         }
@@ -318,12 +407,12 @@ static void test_arbitrary_bytes(const function *f, int times)
 {
     for (int i = 0; i < times; ++i) {
         set_up(f);
-        mslip_contact *contact = &CONTACTS[random_bits() % items_of(f)];
-        const uint64_t tag = get_word(contact, CONTACT_TAG) ^ (random_bits() % 4 == 0);
-        scatter(contact, 0, CONTACT_WORDS);
-        set_word(contact, CONTACT_TAG, tag);
+        void *law = law_at(f, random_bits() % items_of(f));
+        const uint64_t tag = get_word(law, tag_of_law(f)) ^ (random_bits() % 4 == 0);
+        scatter(law, 0, law_size(f) / 8);
+        set_word(law, tag_of_law(f), tag);
         returns(f);
-        /* First with this contact, then with a valid one. */
+        /* First with this contact or element, then with a valid one. */
         for (int valid = 0; (f->takes & TAKES_STATE) && valid < 2; ++valid) {
             double *state = STATES + random_bits() % items_of(f) * STATE;
             set_word(state, 0, (get_word(state, 0) & kind_and_layout) | random_bits() % (REVERSALS + 1));
@@ -331,11 +420,13 @@ static void test_arbitrary_bytes(const function *f, int times)
             returns(f);
             mslip_state_check(STATE, state);
             mslip_state_error(STATE, state, call.out[1]);
+            mslip_element_state_check(1, STATE, state);
+            mslip_element_state_error(1, STATE, state, call.out[1]);
             set_up(f);
         }
         if (f->takes & TAKES_WORKSPACE) {
             set_up(f);
-            scatter(call.workspace, HEADER, workspace_lengths[f->rule] - HEADER);
+            scatter(call.workspace, HEADER, workspace_length(f) - HEADER);
             returns(f);
         }
     }
@@ -347,7 +438,9 @@ int main(int argc, char **argv)
     check_arguments(argc, argv);
     make_regions();
     test_contact_check();
+    test_element_check();
     test_state_check();
+    test_element_state_check();
     for (int i = 0; i < FUNCTIONS; ++i) {
         test_tags(&functions[i]);
         test_other_buffers(&functions[i]);

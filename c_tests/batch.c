@@ -2,7 +2,7 @@
    contact or element, whether these are shared by an index or not. Items that are not active keep their outputs. */
 #include "calls.h"
 
-enum { SHARED = 3, MOST = ITEMS * (STATE + SQUARE) };
+enum { SHARED = 3, MOST = ITEMS * (STATE + ELEMENT_SQUARE) };
 static const int32_t shared_index[ITEMS] = { 2, 0, 2, 1, 2 };
 static double expected[OUTPUTS][MOST];
 

@@ -193,10 +193,10 @@ static inline int nothing_changed_but(const region *exempt)
 /* Status codes returned so far. */
 static unsigned char seen[128];
 
-/* The call was rejected with this status and modified nothing. */
-static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
+/* The call was rejected with this status and modified nothing; one region, or NULL, is exempt. */
+static inline int check_rejected_but(const region *exempt, int32_t status, int32_t expected, const char *function, const char *what)
 {
-    const int flags = raised(), unmodified = nothing_changed_but(NULL);
+    const int flags = raised(), unmodified = nothing_changed_but(exempt);
     const int holds = check_that(status == expected && flags == 0 && unmodified, __FILE__, __LINE__, "rejected, nothing modified");
     if (!holds) {
         printf("    %s, %s: status %d, not %d; flags %x; memory %smodified\n", function, what, (int)status, (int)expected, flags,
@@ -209,17 +209,25 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
     return holds;
 }
 
+static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
+{
+    return check_rejected_but(NULL, status, expected, function, what);
+}
+
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
-enum { COMPONENTS = 2, TANGENT = COMPONENTS * COMPONENTS };
+enum { COMPONENTS = 2, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
+enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
 /* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
 enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 7, USED_PIECES = 5 };
 
 /* Quantities, and the status of one that is not finite. */
-enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE };
+enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE, APPROACH_COEFFICIENT,
+       FORCE_COEFFICIENT };
 static inline int32_t status_of_non_finite(int kind)
 {
     static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
-                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE };
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE,
+                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_DISPLACEMENT };
     return status[kind];
 }
 
@@ -267,6 +275,8 @@ CALL(element_update, call.elements, call.state_length, call.state, call.input, c
 CALL(element_path, call.elements, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
 CALL(element_tractions, call.elements, call.state_length, call.state, call.n, call.input, OUT2)
 CALL(batch_element_update, ELEMENT_BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
+CALL(element_harmonic_force, call.elements, call.workspace, call.input, OUT3)
+CALL(batch_element_harmonic_force, ELEMENT_BATCH, call.workspace, call.input, OUT3)
 
 typedef struct {
     const char *name;
@@ -293,7 +303,11 @@ typedef struct {
       { STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
     { FUNCTION(element_tractions), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, input, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } }, \
     { FUNCTION(batch_element_update), IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, input, NONE, DISPLACEMENT, \
-      ITEMS * COMPONENTS, { ITEMS * STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }
+      ITEMS * COMPONENTS, { ITEMS * STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
+    { FUNCTION(element_harmonic_force), IS_ELEMENT | TAKES_WORKSPACE, input, NONE, DISPLACEMENT, ALL_COEFFICIENTS, \
+      { 0, ALL_COEFFICIENTS, ELEMENT_SQUARE, 1 } }, \
+    { FUNCTION(batch_element_harmonic_force), IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, input, NONE, DISPLACEMENT, \
+      ITEMS * ALL_COEFFICIENTS, { 0, ITEMS * ALL_COEFFICIENTS, ITEMS * ELEMENT_SQUARE, ITEMS } }
 static const function functions[] = {
     { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
     { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
@@ -335,22 +349,43 @@ static inline size_t items_of(const function *f)
 
 static region *contact_region, *element_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
 static region *out_regions[OUTPUTS];
-static size_t workspace_lengths[2];
+
+/* The workspace of a function: an element has uniform sampling only. */
+static inline size_t workspace_length_of(const function *f, size_t harmonics, size_t samples)
+{
+    return f->takes & IS_ELEMENT ? mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING)
+                                 : mslip_harmonic_workspace_length(harmonics, samples, f->rule);
+}
+
+static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
+{
+    CHECK((f->takes & IS_ELEMENT
+               ? mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
+}
+
+/* The length of the workspace that the calls of the table have; 0 if the function takes none. */
+static inline size_t workspace_length(const function *f)
+{
+    return f->takes & TAKES_WORKSPACE ? workspace_length_of(f, HARMONICS, SAMPLES) : 0;
+}
 
 static inline void make_regions(void)
 {
-    for (int rule = 0; rule < 2; ++rule) {
-        workspace_lengths[rule] = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
+    size_t longest = 0;
+    for (int i = 0; i < FUNCTIONS; ++i) {
+        const size_t length = workspace_length(&functions[i]);
+        longest = length > longest ? length : longest;
     }
     contact_region = make_region(ITEMS * sizeof(mslip_contact));
     element_region = make_region(ITEMS * sizeof(mslip_element));
     index_region = make_region(ITEMS * sizeof(int32_t));
     active_region = make_region(ITEMS * sizeof(int32_t));
-    input_region = make_region(ITEMS * COEFFICIENTS * sizeof(double));
+    input_region = make_region(ITEMS * ALL_COEFFICIENTS * sizeof(double));
     state_region = make_region(ITEMS * STATE * sizeof(double));
-    workspace_region = make_region(workspace_lengths[workspace_lengths[1] > workspace_lengths[0]] * sizeof(double));
+    workspace_region = make_region(longest * sizeof(double));
     for (int i = 0; i < OUTPUTS; ++i) {
-        out_regions[i] = make_region(ITEMS * (STATE + SQUARE) * sizeof(double));
+        out_regions[i] = make_region(ITEMS * (STATE + ELEMENT_SQUARE) * sizeof(double));
     }
 }
 
@@ -387,11 +422,13 @@ static inline void set_law(const function *f, size_t i, int kind)
     }
 }
 
-/* The quantity of element i of the input: displacements of an element are tangential and normal by turns. */
+/* The quantity of input i: displacements of an element and their coefficients are tangential and normal by turns. */
 static inline int kind_of_input(const function *f, size_t i)
 {
-    const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i % COMPONENTS == 1;
-    return !is_normal ? f->kind : f->rule == MSLIP_APPROACH ? APPROACH : NORMAL_FORCE;
+    const size_t share = f->takes & TAKES_WORKSPACE ? COEFFICIENTS : 1;
+    const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
+    const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % COMPONENTS == 1;
+    return !is_normal ? f->kind : f->rule == MSLIP_APPROACH ? normal : normal + 1;
 }
 
 /* Lengths of the shortest state, and of one for the reversals or pieces in use. */
@@ -473,11 +510,16 @@ static inline double valid_value(int kind, size_t i, double slip_force)
         case AMPLITUDE: return 4e-8 * (double)(i + 1);
         case APPROACH: return 6e-8 * (2.5 - (double)(i / 2 % 4)); /* the last of four is open */
         case NORMAL_FORCE: return 40.0 * (3.0 - (double)(i / 2 % 4));
+        case APPROACH_COEFFICIENT: return 1.2e-7 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1)); /* not open */
+        case FORCE_COEFFICIENT: return 80.0 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1));
         default: return 0.0;
     }
 }
 
-/* Valid arguments, each just before its protected page. Item i of a batch has contact i. */
+/* The kind of the first contact or element of each call. */
+static int first_kind;
+
+/* Valid arguments, each just before its protected page. Items have contacts or elements of three kinds by turns. */
 static inline void set_up(const function *f)
 {
     const int is_element = (f->takes & IS_ELEMENT) != 0;
@@ -491,7 +533,7 @@ static inline void set_up(const function *f)
     call.contacts = is_element ? NULL : laws;
     call.elements = is_element ? laws : NULL;
     for (size_t i = 0; i < items_of(f); ++i) {
-        set_law(f, i, (int)i % 3);
+        set_law(f, i, (first_kind + (int)i) % 3);
     }
     const double slip_force = is_element ? 0.0 : call.contacts->slip_force;
     for (size_t i = 0; i < ITEMS; ++i) {
@@ -510,9 +552,9 @@ static inline void set_up(const function *f)
         fill_states(f);
     }
     if (f->takes & TAKES_WORKSPACE) {
-        const size_t length = workspace_lengths[f->rule];
+        const size_t length = workspace_length(f);
         call.workspace = last(workspace_region, length * sizeof(double));
-        CHECK(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, length, call.workspace) == MSLIP_OK);
+        init_workspace(f, HARMONICS, SAMPLES, length, call.workspace);
     }
     for (int i = 0; i < OUTPUTS; ++i) {
         call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
@@ -521,9 +563,12 @@ static inline void set_up(const function *f)
 
 static inline void rejected(const function *f, int32_t status, const char *what)
 {
+    /* Whether the normal motion of an element is allowed depends on samples in the workspace. */
+    const int is_of_motion = status == MSLIP_LENGTH_TOO_SHORT || status == MSLIP_BAD_NORMAL_FORCE;
+    const int uses_workspace = (f->takes & TAKES_WORKSPACE) && is_of_motion;
     save_regions();
     feclearexcept(FE_ALL_EXCEPT);
-    check_rejected(f->call(), status, f->name, what);
+    check_rejected_but(uses_workspace ? workspace_region : NULL, f->call(), status, f->name, what);
 }
 
 /* Output k is finite for all items but one, which is unchanged, and so is the memory before the output. */

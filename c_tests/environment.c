@@ -49,30 +49,54 @@ static void enter(int environment)
 #endif
 }
 
-/* Contacts of every kind, each initialised in the environment. */
+/* Contacts and elements of every kind, each initialised in the environment. */
 enum { CONTACT_KINDS = 8 };
-static mslip_contact contact_in_environment(int kind)
+static mslip_parameters parameters_of(int kind)
 {
     mslip_parameters p = flat_parameters();
-    mslip_contact contact;
     switch (kind) {
         case 5: p.flat_half_width = 1e-6; break;
         case 6: p.normal_force = 1e-9; break; /* nearly flat */
-        case 7:                               /* little longer than half the half-width */
+        default:                              /* little longer than half the half-width */
             p.normal_force *= 1.7e-4 / p.length;
             p.length = 1.7e-4;
-            break;
-        default: return init_contact(kind);
+    }
+    return p;
+}
+
+static mslip_contact contact_in_environment(int kind)
+{
+    const mslip_parameters p = parameters_of(kind);
+    mslip_contact contact;
+    if (kind < KINDS) {
+        return init_contact(kind);
     }
     CHECK(mslip_contact_init(&p, &contact) == MSLIP_OK);
     return contact;
+}
+
+static mslip_element elements_in_environment[CONTACT_KINDS][2];
+
+static void init_elements(void)
+{
+    for (int kind = 0; kind < CONTACT_KINDS; ++kind) {
+        const mslip_parameters p = parameters_of(kind);
+        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+            mslip_element *element = &elements_in_environment[kind][input];
+            if (kind < KINDS) {
+                init_element(kind, input, element);
+            } else {
+                CHECK(mslip_element_init(&p, 1, input, element) == MSLIP_OK);
+            }
+        }
+    }
 }
 
 /* Factors of displacements and amplitudes: from full stick to gross slip, and far beyond. */
 static const double factors[] = { 1e-310, 1e-12, 0.03, 1.0, 12.0, 1e140 };
 enum { FACTORS = LENGTH(factors) };
 
-enum { MOST_VALUES = 1 << 19, MOST_CALLS = 1 << 12 };
+enum { MOST_VALUES = 1 << 20, MOST_CALLS = 1 << 12 };
 static double values[2][MOST_VALUES];
 static int32_t statuses[2][MOST_CALLS];
 
@@ -85,10 +109,19 @@ static void check_environment(int environment, const char *name, unsigned contro
     }
 }
 
-/* Every function with every contact and every factor: its status, and its results, one array after the other. */
+/* The factor of a quantity; normal motions of an element are limited by its length. */
+static double factor_of(int kind, int factor)
+{
+    const int is_normal = kind >= APPROACH, is_displacement = kind == DISPLACEMENT || kind == AMPLITUDE;
+    return is_normal ? fmin(factors[factor], 3.0) : is_displacement ? factors[factor] : 1.0;
+}
+
+/* Every function with every contact or element and every factor: its status, and its results, one array after the other. */
 static void run(int environment, int32_t *status, double *value)
 {
     const unsigned control = control_bits();
+    init_elements();
+    check_environment(environment, "mslip_element_init", control);
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
         const size_t items = items_of(f);
@@ -96,15 +129,20 @@ static void run(int environment, int32_t *status, double *value)
             for (int factor = 0; factor < FACTORS; ++factor) {
                 set_up(f);
                 for (size_t k = 0; k < items; ++k) {
-                    CONTACTS[k] = contact_in_environment((kind + (int)k) % CONTACT_KINDS);
+                    const int its_kind = (kind + (int)k) % CONTACT_KINDS;
+                    if (f->takes & IS_ELEMENT) {
+                        ELEMENTS[k] = elements_in_environment[its_kind][f->rule];
+                    } else {
+                        CONTACTS[k] = contact_in_environment(its_kind);
+                    }
                 }
                 fill_states(f);
+                const double slip_force = f->takes & IS_ELEMENT ? 0.0 : CONTACTS[0].slip_force;
                 for (size_t k = 0; k < f->inputs; ++k) {
-                    INPUT[k] = valid_value(f->kind, k, CONTACTS[0].slip_force);
-                    INPUT[k] *= f->kind == DISPLACEMENT || f->kind == AMPLITUDE ? factors[factor] : 1.0;
+                    const int quantity = kind_of_input(f, k);
+                    INPUT[k] = valid_value(quantity, k, slip_force) * factor_of(quantity, factor);
                 }
-                call.scalar = valid_value(f->scalar, 3, CONTACTS[0].slip_force);
-                call.scalar *= f->scalar == DISPLACEMENT || f->scalar == AMPLITUDE ? factors[factor] : 1.0;
+                call.scalar = valid_value(f->scalar, 3, slip_force) * factor_of(f->scalar, factor);
                 feclearexcept(FE_ALL_EXCEPT);
                 *status++ = f->call();
                 check_environment(environment, f->name, control);
@@ -154,6 +192,9 @@ static double tolerance(const function *f, int output, size_t factor)
         /* The error of the rule if rounding divides the period differently; far in gross slip, the root of rounding, the error of
            the instants of reversals. */
         return factor + 1 < FACTORS ? 1e-8 : 4e-8;
+    }
+    if ((f->takes & IS_ELEMENT) && (f->takes & (TAKES_STATE | TAKES_WORKSPACE)) && output == 3) {
+        return 1e-12; /* the energies are those of a little slip, far below mu N times the displacement */
     }
     return 1e-13; /* hundreds of roundings of one sign */
 }
@@ -209,19 +250,23 @@ static void reject(int environment)
     const double least_negative = from_bits(0x8000000000000001);
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
-        set_up(f);
-        double *number = f->scalar != NONE ? &call.scalar : INPUT;
-        const int kind = f->scalar != NONE ? f->scalar : f->kind;
-        for (int k = 0; kind != NONE && k < NON_FINITE; ++k) {
-            memcpy(number, &non_finite[k], sizeof *number);
-            feclearexcept(FE_ALL_EXCEPT);
-            CHECK(f->call() == status_of_non_finite(kind));
-            check_environment(environment, f->name, control);
-        }
-        if (kind == AMPLITUDE || kind == FORCE_AMPLITUDE) {
-            memcpy(number, &least_negative, sizeof *number);
-            CHECK(f->call() == status_of_non_finite(kind));
-            check_environment(environment, f->name, control);
+        /* The scalar or the first value, or the last value. */
+        for (int last_value = 0; last_value < 2; ++last_value) {
+            set_up(f);
+            const size_t place = last_value && f->inputs > 0 ? f->inputs - 1 : 0;
+            double *number = f->scalar != NONE && !last_value ? &call.scalar : INPUT + place;
+            const int kind = f->scalar != NONE && !last_value ? f->scalar : kind_of_input(f, place);
+            for (int k = 0; kind != NONE && k < NON_FINITE; ++k) {
+                memcpy(number, &non_finite[k], sizeof *number);
+                feclearexcept(FE_ALL_EXCEPT);
+                CHECK(f->call() == status_of_non_finite(kind));
+                check_environment(environment, f->name, control);
+            }
+            if (kind == AMPLITUDE || kind == FORCE_AMPLITUDE || kind == NORMAL_FORCE) {
+                memcpy(number, &least_negative, sizeof *number);
+                CHECK(f->call() == status_of_non_finite(kind));
+                check_environment(environment, f->name, control);
+            }
         }
     }
     for (int k = 0; k < NON_FINITE; ++k) {
@@ -251,6 +296,7 @@ static void keep_flags(int traps)
         fesetexceptflag(&flags, FE_ALL_EXCEPT);
         CHECK(functions[i].call() == MSLIP_OK && fetestexcept(FE_ALL_EXCEPT) == raised_before);
         call.contacts = NULL;
+        call.elements = NULL;
         CHECK(functions[i].call() == MSLIP_NULL_POINTER && fetestexcept(FE_ALL_EXCEPT) == raised_before);
     }
     feclearexcept(FE_ALL_EXCEPT);
@@ -313,11 +359,26 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
             CHECK(status == MSLIP_LENGTH_TOO_SHORT && margins[m] < 1e-12);
             continue;
         }
+        static mslip_element elements[2];
+        int32_t element_status = MSLIP_OK;
+        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+            element_status = mslip_element_init(&p, 1, input, &elements[input]);
+            check_environment(environment, "mslip_element_init", control);
+            /* At the onset of its last stable size an element has no room. */
+            CHECK(element_status == MSLIP_OK || (element_status == MSLIP_LENGTH_TOO_SHORT && margins[m] < 0.1));
+        }
         for (int i = 0; i < FUNCTIONS; ++i) {
             const function *f = &functions[i];
+            if ((f->takes & IS_ELEMENT) && element_status != MSLIP_OK) {
+                continue;
+            }
             set_up(f);
             for (size_t k = 0; k < items_of(f); ++k) {
-                CONTACTS[k] = contact;
+                if (f->takes & IS_ELEMENT) {
+                    ELEMENTS[k] = elements[f->rule];
+                } else {
+                    CONTACTS[k] = contact;
+                }
             }
             fill_states(f);
             call.n = f->kind == NONE || f->kind == DISPLACEMENT ? call.n : 1; /* otherwise all items are equal */
@@ -327,8 +388,16 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                                               : amplitudes[a] * contact.slip_displacement;
                 call.scalar = f->scalar == NONE ? 0.0 : value;
                 for (size_t k = 0; k < f->inputs; ++k) {
-                    const int alternates = f->kind == DISPLACEMENT && k % 2 == 1;
-                    INPUT[k] = f->kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
+                    const int kind = kind_of_input(f, k);
+                    const int alternates = f->kind == DISPLACEMENT && (f->takes & IS_ELEMENT ? k / 2 : k) % 2 == 1;
+                    INPUT[k] = kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
+                    if (kind >= APPROACH) {
+                        /* Up to the load of the parameters. */
+                        const int by_force = kind == NORMAL_FORCE || kind == FORCE_COEFFICIENT;
+                        const double whole = by_force ? elements->normal_force : elements->approach;
+                        const double swing = kind >= APPROACH_COEFFICIENT && k % COEFFICIENTS > 0 ? 0.2 : 1.0;
+                        INPUT[k] = (kind >= APPROACH_COEFFICIENT ? 0.55 * swing : 1.0) * whole * fmin(amplitudes[a], 1.0);
+                    }
                 }
                 feclearexcept(FE_ALL_EXCEPT);
                 if (!CHECK(f->call() == MSLIP_OK || strcmp(f->name, "mslip_masing_tractions") == 0)) {

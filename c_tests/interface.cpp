@@ -13,6 +13,8 @@
 static_assert(std::is_trivially_copyable<mslip_contact>::value, "contacts may be stored and sent");
 static_assert(std::is_standard_layout<mslip_contact>::value, "contacts are plain data");
 static_assert(sizeof(mslip_contact) == 1976 && sizeof(mslip_parameters) == 80, "the layout is fixed");
+static_assert(std::is_trivially_copyable<mslip_element>::value, "elements may be stored and sent");
+static_assert(std::is_standard_layout<mslip_element>::value, "elements are plain data");
 
 namespace {
 
@@ -41,7 +43,7 @@ private:
     std::vector<double> values_;
 };
 
-mslip_contact initialised(std::size_t index)
+mslip_parameters parameters_of(std::size_t index)
 {
     mslip_parameters p;
     mslip_parameters_default(&p);
@@ -53,6 +55,12 @@ mslip_contact initialised(std::size_t index)
     for (mslip_material &body : p.material) {
         body = {2.1e11, 0.3};
     }
+    return p;
+}
+
+mslip_contact initialised(std::size_t index)
+{
+    const mslip_parameters p = parameters_of(index);
     mslip_contact contact;
     accept(mslip_contact_init(&p, &contact));
     return contact;
@@ -78,6 +86,35 @@ std::vector<double> results_of(const mslip_contact &contact, double *workspace)
     return results;
 }
 
+std::vector<double> element_workspace()
+{
+    std::vector<double> values(mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
+    accept(mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, values.size(), values.data()));
+    return values;
+}
+
+// The results of an element with the parameters of a contact: path, new state, harmonic force and Jacobian.
+std::vector<double> results_of(const mslip_element &element, double *workspace)
+{
+    constexpr std::size_t all = 2 * coefficients, pieces = 32;
+    std::vector<double> path(2 * steps), state(mslip_element_state_length(1, pieces)), displacement(all, 0.02 * element.approach);
+    for (std::size_t i = 0; i < steps; ++i) {
+        const double t = static_cast<double>(i);
+        path[2 * i] = element.approach * std::sin(0.3 * t) * std::cos(0.011 * t * t);
+        path[2 * i + 1] = element.approach * (0.6 + 0.7 * std::cos(0.2 * t)); // opens
+    }
+    displacement[1] = 0.3 * element.approach;
+    displacement[coefficients] = 0.5 * element.approach;
+    std::vector<double> results(7 * steps + all + all * all + 1);
+    double *tangent = &results[2 * steps], *energy = tangent + 4 * steps, *force = energy + steps, *jacobian = force + all;
+    accept(mslip_element_state_init(1, state.size(), state.data()));
+    accept(mslip_element_path(&element, state.size(), state.data(), steps, path.data(), state.data(), results.data(), tangent,
+                              energy));
+    accept(mslip_element_harmonic_force(&element, workspace, displacement.data(), force, jacobian, jacobian + all * all));
+    results.insert(results.end(), state.begin(), state.end());
+    return results;
+}
+
 bool same_bits(const std::vector<double> &x, const std::vector<double> &y)
 {
     return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
@@ -87,19 +124,26 @@ void test_threads()
 {
     constexpr std::size_t threads = 4;
     std::vector<mslip_contact> shared;
-    std::vector<std::vector<double>> alone, together(contacts);
+    std::vector<mslip_element> elements(contacts);
+    std::vector<std::vector<double>> alone, elements_alone, together(contacts), elements_together(contacts);
     Workspace workspace;
+    std::vector<double> of_elements = element_workspace();
 
     for (std::size_t i = 0; i < contacts; ++i) {
+        const mslip_parameters p = parameters_of(i);
         shared.push_back(initialised(i));
         alone.push_back(results_of(shared.back(), workspace.data()));
+        accept(mslip_element_init(&p, 1, MSLIP_APPROACH, &elements[i]));
+        elements_alone.push_back(results_of(elements[i], of_elements.data()));
     }
     std::vector<std::thread> pool;
     for (std::size_t first = 0; first < threads; ++first) {
-        pool.emplace_back([&shared, &together, first] {
+        pool.emplace_back([&shared, &elements, &together, &elements_together, first] {
             Workspace own;
+            std::vector<double> own_of_elements = element_workspace();
             for (std::size_t i = first; i < contacts; i += threads) {
                 together[i] = results_of(shared[i], own.data());
+                elements_together[i] = results_of(elements[i], own_of_elements.data());
             }
         });
     }
@@ -108,6 +152,7 @@ void test_threads()
     }
     for (std::size_t i = 0; i < contacts; ++i) {
         CHECK(same_bits(alone[i], together[i]));
+        CHECK(same_bits(elements_alone[i], elements_together[i]));
     }
 }
 
@@ -118,6 +163,8 @@ void test_rejection()
     mslip_contact contact;
     CHECK(mslip_contact_init(&p, &contact) == MSLIP_BAD_FLAT_HALF_WIDTH);
     CHECK(mslip_contact_init(nullptr, &contact) == MSLIP_NULL_POINTER);
+    mslip_element element;
+    CHECK(mslip_element_init(&p, 1, MSLIP_APPROACH, &element) == MSLIP_BAD_FLAT_HALF_WIDTH);
 }
 
 } // namespace

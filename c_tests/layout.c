@@ -39,6 +39,20 @@ OFFSET(mslip_contact, slip_energy, 40);
 OFFSET(mslip_contact, reserved, 48);
 SIZE(mslip_contact, 1976);
 
+OFFSET(mslip_element, composite_modulus, 0);
+OFFSET(mslip_element, friction_coefficient, 8);
+OFFSET(mslip_element, normal_force, 16);
+OFFSET(mslip_element, half_width, 24);
+OFFSET(mslip_element, approach, 32);
+OFFSET(mslip_element, normal_stiffness, 40);
+OFFSET(mslip_element, tangential_stiffness, 48);
+OFFSET(mslip_element, directions, 56);
+OFFSET(mslip_element, normal_input, 60);
+OFFSET(mslip_element, reserved, 64);
+AT_COMPILE_TIME(mslip_element_directions_size, sizeof(((mslip_element *)0)->directions) == 4);
+AT_COMPILE_TIME(mslip_element_normal_input_size, sizeof(((mslip_element *)0)->normal_input) == 4);
+SIZE(mslip_element, 17280);
+
 /* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)
 {
@@ -49,6 +63,8 @@ int main(int argc, char **argv)
         mslip_elliptic_parameters elliptic;
         unsigned char gap[64];
         mslip_contact contact;
+        unsigned char gap_before_element[64];
+        mslip_element element;
         unsigned char after[64];
     } memory;
     unsigned char guard[64];
@@ -74,7 +90,16 @@ int main(int argc, char **argv)
     CHECK_RELATIVE(memory.contact.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.contact.slip_force, 50.0, 1e-15);
 
+    CHECK(mslip_element_init(&memory.parameters, 1, MSLIP_NORMAL_FORCE, &memory.element) == MSLIP_OK);
+    CHECK_RELATIVE(memory.element.composite_modulus, 2e11 / 1.5, 1e-15);
+    CHECK_RELATIVE(memory.element.half_width, memory.contact.half_width, 1e-13);
+    CHECK_RELATIVE(memory.element.tangential_stiffness, memory.contact.initial_stiffness, 1e-13);
+    CHECK(memory.element.friction_coefficient == 0.5 && memory.element.normal_force == 100.0);
+    CHECK(memory.element.approach > 0.0 && memory.element.normal_stiffness > memory.element.tangential_stiffness);
+    CHECK(memory.element.directions == 1 && memory.element.normal_input == MSLIP_NORMAL_FORCE);
+
     CHECK(memcmp(memory.before, guard, sizeof guard) == 0 && memcmp(memory.between, guard, sizeof guard) == 0);
+    CHECK(memcmp(memory.gap_before_element, guard, sizeof guard) == 0);
     CHECK(memcmp(memory.gap, guard, sizeof guard) == 0 && memcmp(memory.after, guard, sizeof guard) == 0);
     return check_report();
 }

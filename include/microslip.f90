@@ -202,7 +202,7 @@ module microslip
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     integer(mslip_int) :: directions = 0  !! Number of tangential directions.
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(2151) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(2152) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 

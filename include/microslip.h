@@ -243,7 +243,7 @@ typedef struct mslip_element {
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[2151];
+    double reserved[2152];
 } mslip_element;
 
 #ifdef __cplusplus

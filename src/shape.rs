@@ -83,20 +83,42 @@ pub enum Relation {
     ShiftOfLoad,
 }
 
-/// Term k of the product of two power series.
-pub(crate) fn product_term(one: &Series, two: &Series, k: usize) -> f64 {
-    one.iter().zip(two.iter().take(k + 1).rev()).map(|(a, b)| a * b).sum()
-}
+/// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of
+/// coefficients i and k - i run through contiguous memory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reversed([f64; 2 * ORDER]);
 
-/// Term k of a quotient from the terms before it, given term k of the numerator.
-pub(crate) fn quotient_term(numerator: f64, denominator: &Series, quotient: &Series, k: usize) -> f64 {
-    let known: f64 = denominator.iter().skip(1).zip(quotient.iter().take(k).rev()).map(|(a, b)| a * b).sum();
-    (numerator - known) / denominator[0]
-}
+impl Reversed {
+    pub const ZERO: Reversed = Reversed([0.0; 2 * ORDER]);
 
-/// Sets coefficient k + 1 of a series whose derivative has the coefficient k.
-pub(crate) fn integrate_term(series: &mut Series, k: usize, derivative: f64) {
-    if let Some(term) = series.get_mut(k + 1) {
-        *term = derivative / (k + 1) as f64;
+    /// Sets the coefficient k.
+    #[inline(always)]
+    pub fn set(&mut self, k: usize, value: f64) {
+        if let Some(coefficient) = self.0.get_mut((ORDER - 1).wrapping_sub(k)) {
+            *coefficient = value;
+        }
+    }
+
+    /// Term k of the product with another series.
+    #[inline(always)]
+    pub fn product_term(&self, other: &Series, k: usize) -> f64 {
+        let reversed =
+            self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
+        let mut sums = [0.0; 4];
+        for (one, two) in other.as_chunks::<4>().0.iter().zip(reversed.as_chunks::<4>().0) {
+            for lane in 0..4 {
+                sums[lane] += one[lane] * two[lane];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the
+    /// denominator.
+    #[inline(always)]
+    pub fn quotient_term(&mut self, numerator: f64, denominator: &Series, reciprocal: f64, k: usize) -> f64 {
+        let term = (numerator - self.product_term(denominator, k)) * reciprocal;
+        self.set(k, term);
+        term
     }
 }

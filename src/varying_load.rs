@@ -9,8 +9,8 @@
 //! - `diagram`: a step, in characteristic coordinates;
 //! - `energy`: the energy dissipated in it;
 //! - [`state`]: the caller's array that holds a diagram;
-//! - [`tractions`]: pressure and shear traction of a diagram;
-//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion;
+//! - [`tractions`]: pressure and shear traction of a diagram.
 
 pub mod element;
 pub mod harmonic_force;

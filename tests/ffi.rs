@@ -662,6 +662,452 @@ fn batches() {
     }
 }
 
+/// A slightly flattened element by approach, and a sphere by normal force; initialised once, which takes minutes under Miri.
+fn elements() -> [Memory<mslip_element>; 2] {
+    static INITIALISED: OnceLock<[Vec<u8>; 2]> = OnceLock::new();
+    let initialised = |init: &dyn Fn(*mut mslip_element) -> i32| {
+        let element = Memory::<mslip_element>::new(1);
+        assert_eq!(init(element.start), MSLIP_OK);
+        // SAFETY: an initialised element consists of bytes.
+        unsafe { std::slice::from_raw_parts(element.start.cast::<u8>(), size_of::<mslip_element>()) }.to_vec()
+    };
+    let elements = INITIALISED.get_or_init(|| {
+        let rounded = flat(1e-4, 0.02);
+        let sphere = EllipticParameters {
+            semi_axis_x: 1e-4,
+            semi_axis_y: 1e-4,
+            normal_force: 100.0,
+            friction_coefficient: 0.3,
+            material: [STEEL; 2],
+        };
+        [
+            initialised(&|element| unsafe { mslip_element_init(&raw const rounded, 1, MSLIP_APPROACH, element) }),
+            initialised(&|element| unsafe {
+                mslip_element_init_elliptic(&raw const sphere, 1, MSLIP_NORMAL_FORCE, element)
+            }),
+        ]
+    });
+    elements.each_ref().map(|bytes| {
+        let memory = Memory::<mslip_element>::new(1);
+        // SAFETY: elements may be copied as bytes.
+        unsafe { ptr::copy_nonoverlapping(bytes.as_ptr(), memory.start.cast(), bytes.len()) };
+        memory
+    })
+}
+
+/// Units of an element's tangential displacement and normal component.
+fn units(element: &Memory<mslip_element>) -> [f64; 2] {
+    let e = &element.values()[0];
+    let normal = if e.normal_input == MSLIP_NORMAL_FORCE { e.normal_force } else { e.approach };
+    [e.friction_coefficient * e.approach, normal]
+}
+
+/// NULL, misaligned and uninitialised elements are rejected.
+fn check_element(lengths: &[usize], call: impl Fn(*const mslip_element, Outputs) -> i32) {
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), out));
+    let [element, _] = elements();
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(misaligned(element.start), out));
+    for byte in [0, 0xff] {
+        // SAFETY: one element.
+        unsafe { element.start.write_bytes(byte, 1) };
+        rejected(MSLIP_BAD_ELEMENT, lengths, |out| call(element.start, out));
+    }
+}
+
+/// Number of doubles in the state of an element with four pieces, the shortest.
+const LEAST_OF_ELEMENT: usize = 28;
+
+fn open_state(pieces: usize) -> Memory<f64> {
+    let state = Memory::new(mslip_element_state_length(1, pieces));
+    assert_eq!(unsafe { mslip_element_state_init(1, state.length, state.start) }, MSLIP_OK);
+    state
+}
+
+/// NULL, misaligned, short, uninitialised and truncated states are rejected.
+fn check_element_state(lengths: &[usize], call: impl Fn(usize, *const f64, Outputs) -> i32) {
+    let state = open_state(0);
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(LEAST_OF_ELEMENT, null(), out));
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(LEAST_OF_ELEMENT, misaligned(state.start), out));
+    for length in [0, 5, LEAST_OF_ELEMENT - 1] {
+        let short = Memory::of(state.values()[..length].to_vec());
+        rejected(MSLIP_STATE_TOO_SHORT, lengths, |out| call(length, short.start, out));
+    }
+    for tag in [
+        0.0,
+        f64::NAN,
+        f64::from_bits(state.values()[0].to_bits() + 5),
+        f64::from_bits(state.values()[0].to_bits() - 1),
+    ] {
+        let mut values = state.values().to_vec();
+        values[0] = tag;
+        let bad = Memory::of(values);
+        rejected(MSLIP_BAD_STATE, lengths, |out| call(LEAST_OF_ELEMENT, bad.start, out));
+    }
+}
+
+#[test]
+fn element_init_and_check() {
+    let (p, e) = (Memory::<Parameters>::of([flat(0.0, 0.02)]), Memory::<EllipticParameters>::new(1));
+    let element = Memory::<mslip_element>::new(1);
+    unsafe {
+        mslip_elliptic_parameters_default(e.start);
+        for (status, p, e, element) in [
+            (MSLIP_NULL_POINTER, p.start, e.start, null_mut()),
+            (MSLIP_NULL_POINTER, null_mut(), null_mut(), element.start),
+            (MSLIP_BAD_ALIGNMENT, misaligned(p.start), misaligned(e.start), element.start),
+            (MSLIP_BAD_ALIGNMENT, p.start, e.start, misaligned(element.start)),
+        ] {
+            let statuses = [mslip_element_init(p, 1, 0, element), mslip_element_init_elliptic(e, 1, 0, element)];
+            assert_eq!(statuses, [status; 2]);
+        }
+        for (status, directions, input) in
+            [(MSLIP_BAD_DIRECTIONS, 0, 0), (MSLIP_NOT_AVAILABLE, 2, 0), (MSLIP_BAD_NORMAL_INPUT, 1, 2)]
+        {
+            assert_eq!(mslip_element_init(p.start, directions, input, element.start), status);
+            assert_eq!(mslip_element_init_elliptic(e.start, directions, input, element.start), status);
+        }
+        assert_eq!(mslip_element_init_elliptic(e.start, 1, 0, element.start), MSLIP_BAD_SEMI_AXIS_X);
+    }
+    check_element(&[], |element, _| unsafe { mslip_element_check(element) });
+    for element in elements() {
+        assert_eq!(unsafe { mslip_element_check(element.start) }, MSLIP_OK);
+        unsafe {
+            let value = &mut (*element.start).reserved[2000];
+            *value = f64::from_bits(value.to_bits() ^ 1 << 20);
+            assert_eq!(mslip_element_check(element.start), MSLIP_BAD_ELEMENT);
+        }
+    }
+}
+
+#[test]
+fn normal_law() {
+    for element in elements() {
+        let e = &element.values()[0];
+        let (approach, force) = (e.approach, e.normal_force);
+        for (unit, status, law) in [
+            (approach, MSLIP_BAD_DISPLACEMENT, mslip_normal_force as unsafe extern "C" fn(_, _, _, _, _, _) -> _),
+            (force, MSLIP_BAD_NORMAL_FORCE, mslip_normal_approach),
+        ] {
+            let call = |element, n, x: *const f64, out: Outputs| unsafe { law(element, n, x, out[0], out[1], out[2]) };
+            // Open, within and beyond the tables.
+            let x = Memory::of([0.0, 0.3, 1.0, 2.5].map(|part| part * unit));
+            accepted(&[4; 3], |out| call(element.start, 4, x.start, out));
+            check_element(&[4; 3], |element, out| call(element, 4, x.start, out));
+            rejected(MSLIP_NULL_POINTER, &[4; 3], |out| call(element.start, 4, null(), out));
+            let invalid = Memory::of([0.0, 0.0, 0.0, f64::NAN]);
+            rejected(status, &[4; 3], |out| call(element.start, 4, invalid.start, out));
+            check_length(3, |n, x, out| call(element.start, n, x, out));
+        }
+    }
+}
+
+#[test]
+fn element_state_init_check_and_error() {
+    let init = |directions, n, state| unsafe { mslip_element_state_init(directions, n, state) };
+    assert_eq!([0, 2, 3].map(|directions| mslip_element_state_length(directions, 5)), [0; 3]);
+    assert_eq!(mslip_element_state_length(1, 0), LEAST_OF_ELEMENT);
+    assert_eq!(init(0, LEAST_OF_ELEMENT, null_mut()), MSLIP_BAD_DIRECTIONS);
+    assert_eq!(init(2, LEAST_OF_ELEMENT, null_mut()), MSLIP_NOT_AVAILABLE);
+    assert_eq!(init(1, LEAST_OF_ELEMENT, null_mut()), MSLIP_NULL_POINTER);
+    assert_eq!(init(1, LEAST_OF_ELEMENT, misaligned(Memory::new(LEAST_OF_ELEMENT + 1).start)), MSLIP_BAD_ALIGNMENT);
+    assert_eq!(init(1, 0, Memory::new(0).start), MSLIP_STATE_TOO_SHORT);
+    assert_eq!(init(1, LEAST_OF_ELEMENT - 1, Memory::new(LEAST_OF_ELEMENT - 1).start), MSLIP_STATE_TOO_SHORT);
+    assert_eq!(init(1, usize::MAX, Memory::new(5).start), MSLIP_BAD_ARRAY_SIZE);
+    let state = open_state(5);
+    let error = |n, state, out: Outputs| unsafe { mslip_element_state_error(1, n, state, out[0]) };
+    accepted(&[1], |out| error(state.length, state.start, out));
+    check_element_state(&[1], error);
+    check_element_state(&[], |n, state, _| unsafe { mslip_element_state_check(1, n, state) });
+    for place in 1..8 {
+        let mut values = state.values().to_vec();
+        values[place] = f64::NAN;
+        let changed = Memory::of(values);
+        assert_eq!(unsafe { mslip_element_state_check(1, changed.length, changed.start) }, MSLIP_BAD_STATE);
+    }
+}
+
+/// Displacements over the units of an element: many pieces, slip, gross slip, separation.
+const ELEMENT_PATH: [[f64; 2]; 10] = [
+    [0.02, 0.2],
+    [0.0, 0.4],
+    [0.03, 0.5],
+    [0.01, 0.7],
+    [0.04, 0.8],
+    [0.3, 0.9],
+    [-0.2, 0.6],
+    [2.0, 0.7],
+    [1.0, 0.0],
+    [1.1, 0.5],
+];
+
+#[test]
+fn element_update_and_path() {
+    let update = |element, n, state: *const f64, x: *const f64, out: Outputs| unsafe {
+        mslip_element_update(element, n, state, x, out[0], out[1], out[2], out[3])
+    };
+    let advance = |element, n, state: *const f64, count, x: *const f64, out: Outputs| unsafe {
+        mslip_element_path(element, n, state, count, x, out[0], out[1], out[2], out[3])
+    };
+    for element in elements() {
+        let [u, w] = units(&element);
+        let path = Memory::of(ELEMENT_PATH.iter().flat_map(|[x, y]| [x * u, y * w]).collect::<Vec<_>>());
+        let (steps, none) = (ELEMENT_PATH.len(), null_mut());
+        // The second state is too small for all pieces.
+        for pieces in [8, 4] {
+            let (state, start) = (open_state(pieces), open_state(pieces));
+            let n = state.length;
+            for i in 0..steps {
+                let x = Memory::of(path.values()[2 * i..][..2].to_vec());
+                // Only what is in use of the new state is written.
+                let (next, force, tangent, energy) =
+                    (open_state(pieces), Memory::new(2), Memory::new(4), Memory::new(1));
+                let out = [next.start, force.start, tangent.start, energy.start];
+                assert_eq!(update(element.start, n, state.start, x.start, &out), MSLIP_OK);
+                accepted(&[2, 4, 1], |out| {
+                    update(element.start, n, state.start, x.start, &[none, out[0], out[1], out[2]])
+                });
+                assert_eq!(update(element.start, n, state.start, x.start, &[state.start, none, none, none]), MSLIP_OK);
+                assert_eq!(next.values()[..3], state.values()[..3]);
+                assert_eq!(unsafe { mslip_element_state_check(1, n, next.start) }, MSLIP_OK);
+            }
+            let lengths = [n, 2 * steps, 4 * steps, steps];
+            accepted(&lengths, |out| advance(element.start, n, start.start, steps, path.start, out));
+            accepted(&[n, 0, 0, 0], |out| advance(element.start, n, start.start, 0, null(), out));
+            let out = [start.start, none, none, none];
+            assert_eq!(advance(element.start, n, start.start, steps, path.start, &out), MSLIP_OK);
+            assert_eq!(start.values()[..3], state.values()[..3]);
+        }
+        let x = Memory::of([0.1 * u, 0.5 * w]);
+        let one = [LEAST_OF_ELEMENT, 2, 4, 1];
+        let state = open_state(0);
+        let (n, s) = (state.length, state.start);
+        check_element(&one, |element, out| update(element, n, s, x.start, out));
+        check_element(&one, |element, out| advance(element, n, s, 1, x.start, out));
+        check_element_state(&one, |n, state, out| update(element.start, n, state, x.start, out));
+        check_element_state(&one, |n, state, out| advance(element.start, n, state, 1, x.start, out));
+        rejected(MSLIP_NULL_POINTER, &one, |out| update(element.start, n, s, null(), out));
+        rejected(MSLIP_NULL_POINTER, &one, |out| advance(element.start, n, s, 1, null(), out));
+        rejected(MSLIP_BAD_ALIGNMENT, &one, |out| update(element.start, n, s, misaligned(x.start), out));
+        rejected(MSLIP_BAD_ARRAY_SIZE, &one, |out| advance(element.start, n, s, usize::MAX / 2, x.start, out));
+        for k in 0..4 {
+            let bad = |out: Outputs| {
+                let mut out = out.to_vec();
+                out[k] = misaligned(out[k]);
+                out
+            };
+            rejected(MSLIP_BAD_ALIGNMENT, &one, |out| update(element.start, n, s, x.start, &bad(out)));
+            rejected(MSLIP_BAD_ALIGNMENT, &one, |out| advance(element.start, n, s, 1, x.start, &bad(out)));
+        }
+        let by_force = element.values()[0].normal_input == MSLIP_NORMAL_FORCE;
+        let status = if by_force { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_BAD_DISPLACEMENT };
+        for (status, x) in [(MSLIP_BAD_DISPLACEMENT, [f64::NAN, w]), (status, [u, f64::NAN])] {
+            let x = Memory::of(x);
+            rejected(status, &one, |out| update(element.start, n, s, x.start, out));
+            rejected(status, &one, |out| advance(element.start, n, s, 1, x.start, out));
+        }
+    }
+}
+
+#[test]
+fn element_tractions() {
+    for element in elements() {
+        let ([u, w], state, none) = (units(&element), open_state(4), null_mut());
+        let path = Memory::of([0.02 * u, 0.6 * w, 0.3 * u, 0.8 * w]);
+        let (n, s) = (state.length, state.start);
+        let status = unsafe { mslip_element_path(element.start, n, s, 2, path.start, s, none, none, none) };
+        assert_eq!(status, MSLIP_OK);
+        let half_width = element.values()[0].half_width;
+        let tractions = |element, n, state: *const f64, points, x: *const f64, out: Outputs| unsafe {
+            mslip_element_tractions(element, n, state, points, x, out[0], out[1])
+        };
+        let x = Memory::of([0.0, 0.5, -0.9, 2.0].map(|part| part * half_width));
+        accepted(&[4; 2], |out| tractions(element.start, n, s, 4, x.start, out));
+        check_element(&[4; 2], |element, out| tractions(element, n, s, 4, x.start, out));
+        check_element_state(&[4; 2], |n, state, out| tractions(element.start, n, state, 4, x.start, out));
+        rejected(MSLIP_NULL_POINTER, &[4; 2], |out| tractions(element.start, n, s, 4, null(), out));
+        let invalid = Memory::of([0.0, f64::INFINITY]);
+        rejected(MSLIP_BAD_POSITION, &[2; 2], |out| tractions(element.start, n, s, 2, invalid.start, out));
+        check_length(2, |points, x, out| tractions(element.start, n, s, points, x, out));
+    }
+}
+
+fn element_workspace(harmonics: usize, samples: usize) -> Memory<f64> {
+    let workspace = Memory::new(mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
+    let (length, start) = (workspace.length, workspace.start);
+    let status = unsafe { mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, start) };
+    assert_eq!(status, MSLIP_OK);
+    workspace
+}
+
+#[test]
+fn element_workspaces() {
+    let memory = element_workspace(2, 9);
+    let (length, start) = (memory.length, memory.start);
+    for (status, directions, harmonics, samples, rule, length, start) in [
+        (MSLIP_WORKSPACE_TOO_SHORT, 1, 2, 9, 0, length - 1, start),
+        (MSLIP_WORKSPACE_TOO_SHORT, 1, 2, 9, 0, 0, start),
+        (MSLIP_NULL_POINTER, 1, 2, 9, 0, length, null_mut()),
+        (MSLIP_BAD_ALIGNMENT, 1, 2, 9, 0, length - 1, misaligned(start)),
+        (MSLIP_BAD_ARRAY_SIZE, 1, 2, 9, 0, usize::MAX, start),
+        (MSLIP_BAD_SAMPLES, 1, 2, 4, 0, length, start),
+        (MSLIP_BAD_HARMONICS, 1, 0, 9, 0, length, start),
+        (MSLIP_BAD_RULE, 1, 2, 9, 7, length, start),
+        (MSLIP_NOT_AVAILABLE, 1, 2, 9, MSLIP_EVENT_DRIVEN, length, start),
+        (MSLIP_NOT_AVAILABLE, 2, 2, 9, 0, length, start),
+        (MSLIP_BAD_DIRECTIONS, 0, 2, 9, 0, length, start),
+    ] {
+        let answer = unsafe { mslip_element_workspace_init(directions, harmonics, samples, rule, length, start) };
+        assert_eq!(answer, status);
+    }
+    // Only the header is read.
+    let header = Memory::of(memory.values()[..2].to_vec());
+    let (kinds, sizes) = (Memory::<i32>::new(2), Memory::<usize>::new(2));
+    let (k, s) = (kinds.start, sizes.start);
+    let size = |w: *const f64, d, h, s, r| unsafe { mslip_element_workspace_size(w, d, h, s, r) };
+    unsafe {
+        assert_eq!(size(header.start, k, s, s.add(1), k.add(1)), MSLIP_OK);
+        assert_eq!((kinds.values(), sizes.values()), (&[1, MSLIP_UNIFORM_SAMPLING][..], &[2, 9][..]));
+        let none = null_mut();
+        assert_eq!(size(header.start, none, null_mut(), null_mut(), none), MSLIP_OK);
+        assert_eq!(size(null(), k, s, s.add(1), k.add(1)), MSLIP_NULL_POINTER);
+        assert_eq!(size(misaligned(header.start), k, s, s.add(1), k.add(1)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(size(header.start, misaligned(k), s, s.add(1), k.add(1)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(size(header.start, k, misaligned(s), s.add(1), k.add(1)), MSLIP_BAD_ALIGNMENT);
+        assert_eq!(size(Memory::of([0.0; 2]).start, k, s, s.add(1), k.add(1)), MSLIP_BAD_WORKSPACE);
+    }
+}
+
+#[test]
+fn element_harmonic_force() {
+    let force = |element, workspace, x: *const f64, out: Outputs| unsafe {
+        mslip_element_harmonic_force(element, workspace, x, out[0], out[1], out[2])
+    };
+    // Even and odd numbers of samples.
+    for (harmonics, samples) in [(1, 8), (2, 9)] {
+        let n = 2 * harmonics + 1;
+        let lengths = [2 * n, 4 * n * n, 1];
+        let workspace = element_workspace(harmonics, samples);
+        let [by_approach, by_force] = elements();
+        for element in [&by_approach, &by_force] {
+            let [u, w] = units(element);
+            let mut motion = vec![0.0; 2 * n];
+            // Constant; in microslip under constant and varying load; in gross slip.
+            for (tangential, normal) in [(0.0, 0.0), (0.3, 0.0), (0.3, 0.4), (3.0, 0.3)] {
+                (motion[1], motion[2]) = (tangential * u, 0.1 * tangential * u);
+                (motion[n], motion[n + 2]) = (0.5 * w, normal * w);
+                let x = Memory::of(motion.clone());
+                accepted(&lengths, |out| force(element.start, workspace.start, x.start, out));
+            }
+            motion[2 * n - 1] = f64::NAN;
+            let x = Memory::of(motion.clone());
+            rejected(MSLIP_BAD_DISPLACEMENT, &lengths, |out| force(element.start, workspace.start, x.start, out));
+        }
+        // Separation, for a part of the period and for all of it.
+        let [u, w] = units(&by_approach);
+        let mut motion = vec![0.0; 2 * n];
+        (motion[1], motion[n + 1]) = (0.3 * u, 0.6 * w);
+        for mean in [0.2, -0.7] {
+            motion[n] = mean * w;
+            let x = Memory::of(motion.clone());
+            accepted(&lengths, |out| force(by_approach.start, workspace.start, x.start, out));
+        }
+        let x = Memory::of(motion);
+        rejected(MSLIP_BAD_NORMAL_FORCE, &lengths, |out| force(by_force.start, workspace.start, x.start, out));
+        check_element(&lengths, |element, out| force(element, workspace.start, x.start, out));
+        let with = |workspace, out: Outputs| force(by_approach.start, workspace, x.start, out);
+        rejected(MSLIP_NULL_POINTER, &lengths, |out| with(null_mut(), out));
+        rejected(MSLIP_BAD_ALIGNMENT, &lengths, |out| with(misaligned(workspace.start), out));
+        rejected(MSLIP_NULL_POINTER, &lengths, |out| force(by_approach.start, workspace.start, null(), out));
+        for (place, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, -1.0)] {
+            let mut header = workspace.values()[..2].to_vec();
+            header[place] = value;
+            let header = Memory::of(header);
+            rejected(MSLIP_BAD_WORKSPACE, &lengths, |out| with(header.start, out));
+        }
+    }
+}
+
+#[test]
+fn element_batches() {
+    const N: usize = 3;
+    let memory: Memory<mslip_element> = Memory::new(N);
+    let [element, _] = elements();
+    let [u, w] = units(&element);
+    // SAFETY: the first two of three elements.
+    unsafe {
+        ptr::copy_nonoverlapping(element.start, memory.start, 1);
+        ptr::copy_nonoverlapping(element.start, memory.start.add(1), 1);
+    }
+    // The last item is skipped: its element and its state are uninitialised, its index invalid, and its displacement NaN.
+    let (active, index) = (Memory::of([1, -1, 0]), Memory::of([1, 0, -1]));
+    let (all, none) = (memory.start, null_mut());
+    let states: Memory<f64> = Memory::new(N * LEAST_OF_ELEMENT);
+    for i in 0..2 {
+        let state = unsafe { states.start.add(LEAST_OF_ELEMENT * i) };
+        assert_eq!(unsafe { mslip_element_state_init(1, LEAST_OF_ELEMENT, state) }, MSLIP_OK);
+    }
+    let update = |elements, index, active, length, states: *const f64, x: *const f64, o: Outputs| unsafe {
+        mslip_batch_element_update(N, N, elements, index, active, length, states, x, o[0], o[1], o[2], o[3])
+    };
+    let x = Memory::of([0.1 * u, 0.5 * w, 3.0 * u, 0.3 * w, f64::NAN, f64::NAN]);
+    let lengths = [N * LEAST_OF_ELEMENT, 2 * N, 4 * N, N];
+    let n = LEAST_OF_ELEMENT;
+    for index in [null_mut(), index.start] {
+        for new in [none, states.start] {
+            let (force, tangent, energy) = (Memory::new(2 * N), Memory::new(4 * N), Memory::new(N));
+            let out = [new, force.start, tangent.start, energy.start];
+            assert_eq!(update(all, index, active.start, n, states.start, x.start, &out), MSLIP_OK);
+            // SAFETY: two items of three are written.
+            let written = unsafe { std::slice::from_raw_parts(force.start, 4) };
+            assert!(written.iter().all(|value: &f64| value.is_finite()));
+        }
+    }
+    let (bad, outside) = (Memory::of([u, w, u, w, u, f64::NAN]), Memory::of([0, 3, 0]));
+    for (status, elements, index, length, states, x) in [
+        (MSLIP_NULL_POINTER, null_mut(), null_mut(), n, states.start, x.start),
+        (MSLIP_NULL_POINTER, all, null_mut(), n, null_mut(), x.start),
+        (MSLIP_NULL_POINTER, all, null_mut(), n, states.start, null_mut()),
+        (MSLIP_BAD_ALIGNMENT, misaligned(all), null_mut(), n, states.start, x.start),
+        (MSLIP_BAD_ALIGNMENT, all, misaligned(index.start), n, states.start, x.start),
+        (MSLIP_STATE_TOO_SHORT, all, null_mut(), 0, states.start, x.start),
+        (MSLIP_BAD_ARRAY_SIZE, all, null_mut(), usize::MAX / 2, states.start, x.start),
+        (MSLIP_BAD_INDEX, all, outside.start, n, states.start, x.start),
+    ] {
+        rejected(status, &lengths, |out| update(elements, index, active.start, length, states, x, out));
+    }
+    rejected(MSLIP_BAD_DISPLACEMENT, &lengths, |out| {
+        let first = Memory::of([u, f64::NAN, u, w, u, w]);
+        update(all, null_mut(), active.start, n, states.start, first.start, out)
+    });
+    unsafe { all.add(2).write_bytes(0, 1) };
+    rejected(MSLIP_BAD_ELEMENT, &lengths, |out| update(all, null_mut(), null_mut(), n, states.start, bad.start, out));
+
+    let workspace = element_workspace(1, 8);
+    let mut motion = vec![f64::NAN; 6 * N];
+    for i in 0..2 {
+        motion[6 * i..6 * (i + 1)].copy_from_slice(&[0.0, 0.4 * u, 0.1 * u, 0.5 * w, 0.0, 0.3 * w]);
+    }
+    let motion = Memory::of(motion);
+    let force = |elements, index, workspace, x: *const f64, o: Outputs| unsafe {
+        mslip_batch_element_harmonic_force(N, N, elements, index, active.start, workspace, x, o[0], o[1], o[2])
+    };
+    for index in [null_mut(), index.start] {
+        let (coefficients, jacobian, energy) = (Memory::new(6 * N), Memory::new(36 * N), Memory::new(N));
+        let out = [coefficients.start, jacobian.start, energy.start];
+        assert_eq!(force(all, index, workspace.start, motion.start, &out), MSLIP_OK);
+        // SAFETY: two items of three are written.
+        let written = unsafe { std::slice::from_raw_parts(jacobian.start, 72) };
+        assert!(written.iter().all(|value: &f64| value.is_finite()));
+    }
+    for (status, workspace, x) in [
+        (MSLIP_NULL_POINTER, null_mut(), motion.start),
+        (MSLIP_NULL_POINTER, workspace.start, null_mut()),
+        (MSLIP_BAD_ALIGNMENT, misaligned(workspace.start), motion.start),
+    ] {
+        rejected(status, &[6 * N, 36 * N, N], |out| force(all, null_mut(), workspace, x, out));
+    }
+}
+
 /// Contacts are only read: threads share one, each with memory of its own.
 #[test]
 fn threads_share_a_contact() {

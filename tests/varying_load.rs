@@ -259,6 +259,117 @@ fn loads_beyond_the_tables_are_exact_up_to_the_largest_half_width() {
     }
 }
 
+/// The squares of such loads and approaches underflow.
+#[test]
+fn energies_of_steps_to_vanishing_loads_are_finite() {
+    for input in [NormalInput::Approach, NormalInput::Force] {
+        for element in &elements(input) {
+            let unit = 400.0 / element.tangential_stiffness;
+            let largest = if input == NormalInput::Force { 800.0 } else { element.approach };
+            for vanishing in [0.0, 5e-324, 1e-300, 1e-150, 1e-70, 1e-55] {
+                let mut memory = History::new(element, 64);
+                for (u, w) in [(0.1, 0.6), (0.3, 1.0), (0.3, 0.5), (0.3, 0.2), (0.3, vanishing), (0.3, vanishing)] {
+                    let step = memory.step(u * unit, w * largest);
+                    assert!(step.dissipated >= 0.0 && step.dissipated < 400.0 * unit, "{vanishing} {step:?}");
+                    assert!(step.tangent.iter().all(|value| value.is_finite()), "{vanishing} {step:?}");
+                }
+                let [step, other] = [memory, History::new(element, 64)].map(|mut memory| {
+                    memory.step(0.3 * unit, 0.0);
+                    memory.step(0.4 * unit, largest)
+                });
+                assert_eq!(step.force, other.force);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_contact_without_friction_has_a_normal_force_only() {
+    let element =
+        Element::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(6e-5) }, NormalInput::Force);
+    let element = element.unwrap();
+    let step = History::new(&element, 4).step(1e-6, 500.0);
+    assert_eq!((step.force, step.dissipated), ([0.0, 500.0], 0.0));
+}
+
+/// The series of the tables would diverge near the largest approach.
+#[test]
+fn loads_up_to_the_largest_for_the_length_are_exact() {
+    for flat_half_width in [0.0, 5e-4] {
+        let with_load = |normal_force| {
+            let parameters = Parameters { length: 1e-3, normal_force, ..parameters(flat_half_width) };
+            Element::rounded_flat(&parameters, NormalInput::Approach)
+        };
+        let (mut low, mut high) = (1.0, 1e9);
+        while high > low * (1.0 + 1e-12) {
+            let middle = 0.5 * (low + high);
+            *(if with_load(middle).is_ok() { &mut low } else { &mut high }) = middle;
+        }
+        let [element, exact] = [low, 1e-3 * low].map(|load| with_load(load).unwrap());
+        for part in 1..=100 {
+            let approach = element.approach * f64::from(part) / 100.0 * (1.0 - 1e-9);
+            let [force, expected] = [&element, &exact].map(|element| element.normal_force_at(approach).value);
+            assert!((force - expected).abs() < 1e-12 * low, "{part} {force} {expected}");
+        }
+    }
+}
+
+#[test]
+fn tiny_loads_and_repeated_steps_are_regular() {
+    for input in [NormalInput::Approach, NormalInput::Force] {
+        for element in &elements(input) {
+            let unit = 400.0 / element.tangential_stiffness;
+            let mut memory = History::new(element, 64);
+            for w in [5e-324, 1e-310, 1e-290, 1e-100, 1e-60, 1e-40] {
+                for u in [0.3, 0.3, -0.2] {
+                    let step = memory.step(u * unit, w);
+                    assert!(step.force.iter().chain(&step.tangent).all(|value| value.is_finite()), "{w} {step:?}");
+                    assert!(step.force[0].abs() <= 0.5 * step.force[1] && step.dissipated >= 0.0, "{w} {step:?}");
+                    // The same step again changes nothing.
+                    assert_eq!(memory.step(u * unit, w).force, step.force);
+                }
+            }
+        }
+    }
+}
+
+/// 2L = 1.07 b: approach and shift are nearly at their maximum, beyond which there is no size.
+#[test]
+fn the_tables_of_a_short_contact_are_its_law() {
+    let rigid = Material { young_modulus: 2e11, poisson_ratio: 0.0 };
+    let long = Parameters { material: [rigid; 2], ..parameters(6e-5) };
+    let half_width = Element::rounded_flat(&long, NormalInput::Force).unwrap().half_width;
+    let length = 0.535 * half_width;
+    let short = Parameters { length, normal_force: 800.0 * length / long.length, ..long };
+    let element = Element::rounded_flat(&short, NormalInput::Approach).unwrap();
+    for share in [1.0, 0.95, 0.8, 0.5, 0.3, 0.1] {
+        let load = share * short.normal_force;
+        let approach = element.approach_under(load).value;
+        // dN/dU is up to 15 N/U.
+        assert!((element.normal_force_at(approach).value / load - 1.0).abs() < 5e-14, "{share}");
+        assert!((element.load_under(element.shift_under(load)) / load - 1.0).abs() < 5e-14, "{share}");
+    }
+}
+
+/// A load that falls at a constant displacement through a piece with D = 0, to rounding, into gross slip.
+#[test]
+fn a_falling_load_dissipates_at_a_constant_displacement() {
+    for element in &elements(NormalInput::Force) {
+        let unit = 400.0 / element.tangential_stiffness;
+        let (mut one, mut other) = (History::new(element, 64), History::new(element, 64));
+        for memory in [&mut one, &mut other] {
+            memory.step(0.1 * unit, 200.0);
+            memory.step(0.03 * unit, 150.0);
+            memory.step(-0.07 * unit, 800.0 / 3.0);
+            memory.step(-0.07 * unit, 800.0);
+        }
+        let whole = one.step(-0.07 * unit, 20.0);
+        let parts: f64 =
+            [500.0, 100.0, 50.0, 30.0, 20.0].map(|load| other.step(-0.07 * unit, load).dissipated).iter().sum();
+        assert!(whole.dissipated > 0.0 && (parts / whole.dissipated - 1.0).abs() < 1e-10, "{parts} {whole:?}");
+    }
+}
+
 #[test]
 fn tractions_satisfy_coulomb_and_integrate_to_the_forces() {
     for element in &elements(NormalInput::Force)[..3] {

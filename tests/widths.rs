@@ -6,10 +6,12 @@ mod common;
 use common::{harmonic, unloaded};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::ffi::{
-    MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_complex_stiffness, mslip_contact, mslip_harmonic_force,
-    mslip_harmonic_workspace_init, mslip_masing_path, mslip_monotonic_force,
+    MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_complex_stiffness, mslip_contact, mslip_element_harmonic_force,
+    mslip_harmonic_force, mslip_harmonic_workspace_init, mslip_masing_path, mslip_monotonic_force,
 };
 use microslip::hbm::Rule;
+use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::harmonic_force::{self, HarmonicOutput, Workspace};
 use microslip::{Contact, Material, Parameters};
 use std::ptr::null_mut;
 
@@ -134,6 +136,52 @@ fn the_harmonic_force_has_the_same_bits() {
                     "{harmonics} {samples} {rule:?}"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn the_harmonic_force_of_an_element_has_the_same_bits() {
+    let material = [Material { young_modulus: 2.1e11, poisson_ratio: 0.3 }; 2];
+    for (flat_half_width, input) in [(0.0, NormalInput::Approach), (1e-4, NormalInput::Force)] {
+        let parameters = Parameters {
+            flat_half_width,
+            edge_radius: 5e-3,
+            length: 0.02,
+            normal_force: 60.0,
+            friction_coefficient: 0.5,
+            material,
+            ..Parameters::default()
+        };
+        let element = Element::rounded_flat(&parameters, input).unwrap();
+        let largest = if input == NormalInput::Approach { element.approach } else { element.normal_force };
+        for (harmonics, samples, size) in [(1, 64, 0.3), (2, 7, 0.3), (5, 128, 3.0), (9, 255, 0.3), (11, 60, 0.3)] {
+            let n = 2 * harmonics + 1;
+            let mut displacement = scattered(n, 5, size * 0.5 * element.shift_under(60.0));
+            displacement.extend(scattered(n, 6, 0.5 * largest / n as f64));
+            displacement[n] = 0.5 * largest;
+            let mut workspace = vec![0.0; harmonic_force::workspace_length(harmonics, samples)];
+            harmonic_force::workspace_init(harmonics, samples, &mut workspace).unwrap();
+            let run = |workspace: &mut [f64], in_c: bool| {
+                let (mut force, mut jacobian, mut energy) = (vec![0.0; 2 * n], vec![0.0; 4 * n * n], [0.0]);
+                if in_c {
+                    let element = (&raw const element).cast();
+                    let (w, u) = (workspace.as_mut_ptr(), displacement.as_ptr());
+                    let (f, j, e) = (force.as_mut_ptr(), jacobian.as_mut_ptr(), energy.as_mut_ptr());
+                    // SAFETY: an element, a workspace, and arrays of the given lengths.
+                    assert_eq!(unsafe { mslip_element_harmonic_force(element, w, u, f, j, e) }, 0);
+                } else {
+                    let output = HarmonicOutput {
+                        force: Some(&mut force),
+                        jacobian: Some(&mut jacobian),
+                        dissipated: energy.first_mut(),
+                    };
+                    let mut workspace = Workspace::new(workspace).unwrap();
+                    harmonic_force::harmonic_force(&element, &mut workspace, &displacement, output).unwrap();
+                }
+                [bits(&force), bits(&jacobian), bits(&energy)]
+            };
+            assert_eq!(run(&mut workspace, true), run(&mut workspace, false), "{harmonics} {samples}");
         }
     }
 }

@@ -2,6 +2,7 @@
 # fuzz.sh [--check | --seeds] [TARGET...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust.
 #
 #   calls     sequences of calls of the C interface, with invalid arguments and corrupted memory
+#   elements  the same for the element functions, and invariants of their results
 #   physics   invariants of any contact and load history
 #
 # TIME seconds for each target (60), JOBS processes (1), SEED (new each time). New inputs are kept in verification/fuzz/corpus/,
@@ -18,7 +19,7 @@ case ${1:-} in
     --check) mode=check TIME=20 JOBS=1 SEED=1 && shift ;;
     --seeds) mode=seeds && shift ;;
 esac
-[ $# -gt 0 ] || set -- calls physics
+[ $# -gt 0 ] || set -- calls elements physics
 
 # The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts.
 host=$(rustc -vV | sed -n 's/^host: //p')

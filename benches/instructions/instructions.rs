@@ -9,10 +9,10 @@ use microslip::ffi::*;
 use microslip::{Material, Parameters};
 use std::f64::consts::TAU;
 use std::mem::MaybeUninit;
-use std::ptr::null_mut;
+use std::ptr::{self, null_mut};
 
 /// The first count is below this ratio times the second, and why.
-const RELATIONS: [(&str, f64, &str, &str); 22] = [
+const RELATIONS: [(&str, f64, &str, &str); 31] = [
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
@@ -35,6 +35,15 @@ const RELATIONS: [(&str, f64, &str, &str); 22] = [
     ("batch_harmonics_shared", 1.05, "batch_harmonics", "items may share a contact at no cost"),
     ("harmonics_force", 2.2, "curve_force", "a sample costs a point of the curve and two transforms"),
     ("event_driven_force", 4.0, "harmonics_force", "the documented cost of the event-driven rule"),
+    ("element_force", 0.5, "element", "the force does not need the energy"),
+    ("element_in_place", 1.0, "element", "a step in place copies no state"),
+    ("element_discarded", 1.05, "element_in_place", "a discarded state costs nothing"),
+    ("element_no_output", 1.01, "element_force_in_place", "outputs that are NULL cost nothing"),
+    ("batch_element", 1.2, "path_element", "an item of a batch costs a step of a path"),
+    ("batch_element_inactive", 0.05, "batch_element", "inactive items are skipped"),
+    ("batch_element_shared", 1.05, "batch_element", "items may share an element at no cost"),
+    ("element_harmonics_force", 0.9, "element_harmonics", "the force does not need the Jacobian"),
+    ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
 ];
 
 const POINTS: usize = 128; // of the curve, of a path, samples and items
@@ -57,7 +66,7 @@ fn array<T>(item: impl FnMut(usize) -> T) -> *mut T {
 
 /// The first `requested` outputs; the others are NULL.
 fn outputs<const K: usize>(requested: usize) -> [*mut f64; K] {
-    std::array::from_fn(|k| if k < requested { vec![0.0; POINTS * N * N].leak().as_mut_ptr() } else { null_mut() })
+    std::array::from_fn(|k| if k < requested { vec![0.0; POINTS * 4 * N * N].leak().as_mut_ptr() } else { null_mut() })
 }
 
 fn contact(normal_force: f64) -> mslip_contact {
@@ -176,6 +185,127 @@ fn batch_harmonics(b: Batch) -> Call {
     })
 }
 
+const ELEMENT_STATE: usize = 8 + 4 * 17; // 16 pieces
+
+fn element() -> &'static mslip_element {
+    let parameters = Parameters {
+        flat_half_width: 3e-4,
+        edge_radius: 2e-3,
+        length: 2e-2,
+        normal_force: 200.0,
+        friction_coefficient: 0.4,
+        material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+        ..Parameters::default()
+    };
+    let mut element = Box::new(MaybeUninit::uninit());
+    // SAFETY: valid pointers; the element is initialised if the status is MSLIP_OK.
+    unsafe {
+        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_APPROACH, element.as_mut_ptr()), MSLIP_OK);
+        Box::leak(element.assume_init())
+    }
+}
+
+/// Displacements of a swing of the normal force of half its mean, with slip.
+fn swing(e: &mslip_element) -> *mut f64 {
+    let motion = |i: usize| {
+        let t = TAU * 2.0 * i as f64 / POINTS as f64;
+        [0.15 * e.approach * t.sin(), e.approach * (0.6 + 0.3 * (t + 0.7).cos())]
+    };
+    array(motion).cast()
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum NewState {
+    Separate,
+    InPlace,
+    Discarded,
+}
+
+fn element_update(requested: usize, new_state: NewState) -> Call {
+    let e = element();
+    let [old, new] = [0.0; 2].map(|initial| array(|_| initial));
+    let x = swing(e);
+    let [force, tangent, dissipated] = outputs(requested);
+    let [none] = outputs(0);
+    unsafe {
+        assert_eq!(mslip_element_state_init(1, ELEMENT_STATE, old), MSLIP_OK);
+        assert_eq!(mslip_element_path(e, ELEMENT_STATE, old, 70, x, old, none, none, none), MSLIP_OK);
+    }
+    // The same step each time.
+    let before = array(|i| if i < ELEMENT_STATE { unsafe { *old.add(i) } } else { 0.0 });
+    let (from, to) = match new_state {
+        NewState::Separate => (before, new),
+        NewState::InPlace => (old, old),
+        NewState::Discarded => (before, null_mut()),
+    };
+    let u = unsafe { x.add(2 * 70) };
+    let call = move || unsafe { mslip_element_update(e, ELEMENT_STATE, from, u, to, force, tangent, dissipated) };
+    assert_eq!(call(), MSLIP_OK);
+    if new_state == NewState::InPlace {
+        unsafe { old.copy_from_nonoverlapping(before, ELEMENT_STATE) };
+    }
+    Box::new(call)
+}
+
+fn element_path() -> Call {
+    let e = element();
+    let (x, old) = (swing(e), array(|_| 0.0));
+    let [force, tangent, dissipated] = outputs(3);
+    unsafe { assert_eq!(mslip_element_state_init(1, ELEMENT_STATE, old), MSLIP_OK) };
+    let new = array(|_| 0.0);
+    prepared(move || unsafe { mslip_element_path(e, ELEMENT_STATE, old, POINTS, x, new, force, tangent, dissipated) })
+}
+
+/// Each item takes the next step of the path.
+fn batch_element(shared: bool, active: i32) -> Call {
+    let e = element();
+    // SAFETY: an initialised element.
+    let elements = if shared { ptr::from_ref(e) } else { array(|_| unsafe { ptr::read(e) }).cast_const() };
+    let (n_elements, index) = if shared { (1, array(|_| 0)) } else { (POINTS, null_mut()) };
+    let (x, active) = (swing(e), array(|_| active));
+    let [old, new] = [0.0; 2].map(|initial| array(|_| [initial; ELEMENT_STATE]).cast::<f64>());
+    let [force, tangent, dissipated] = outputs(3);
+    let [none] = outputs(0);
+    for i in 0..POINTS {
+        unsafe {
+            let state = old.add(i * ELEMENT_STATE);
+            assert_eq!(mslip_element_state_init(1, ELEMENT_STATE, state), MSLIP_OK);
+            assert_eq!(mslip_element_path(e, ELEMENT_STATE, state, i, x, state, none, none, none), MSLIP_OK);
+        }
+    }
+    prepared(move || unsafe {
+        mslip_batch_element_update(
+            POINTS,
+            n_elements,
+            elements,
+            index,
+            active,
+            ELEMENT_STATE,
+            old,
+            x,
+            new,
+            force,
+            tangent,
+            dissipated,
+        )
+    })
+}
+
+fn element_harmonics(open: bool, requested: usize) -> Call {
+    let e = element();
+    let length = mslip_element_workspace_length(1, HARMONICS, POINTS, UNIFORM);
+    let workspace = vec![0.0; length].leak().as_mut_ptr();
+    let mean = if open { -2.0 } else { 0.6 };
+    let mut motion = [0.0; 2 * N];
+    (motion[1], motion[4], motion[N], motion[N + 2]) = (0.2, 0.03, mean, 0.3);
+    let u = motion.map(|u| u * e.approach);
+    let [force, jacobian, dissipated] = outputs(requested);
+    unsafe {
+        assert_eq!(mslip_element_workspace_init(1, HARMONICS, POINTS, UNIFORM, length, workspace), MSLIP_OK);
+    }
+    prepared(move || unsafe { mslip_element_harmonic_force(e, workspace, u.as_ptr(), force, jacobian, dissipated) })
+}
+
 const UNIFORM: i32 = MSLIP_UNIFORM_SAMPLING;
 const EVENTS: i32 = MSLIP_EVENT_DRIVEN;
 const ODD: [f64; N] = [0.0, 0.7, 0.2, 0.0, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.0];
@@ -211,6 +341,19 @@ const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.
 #[bench::batch_harmonics_shared(batch_harmonics(batch(200.0, true, 1)))]
 #[bench::batch_harmonics_inactive(batch_harmonics(batch(200.0, false, 0)))]
 #[bench::batch_harmonics_open(batch_harmonics(batch(0.0, false, 1)))]
+#[bench::element(element_update(3, NewState::Separate))]
+#[bench::element_force(element_update(2, NewState::Separate))]
+#[bench::element_in_place(element_update(3, NewState::InPlace))]
+#[bench::element_discarded(element_update(3, NewState::Discarded))]
+#[bench::element_force_in_place(element_update(2, NewState::InPlace))]
+#[bench::element_no_output(element_update(0, NewState::InPlace))]
+#[bench::path_element(element_path())]
+#[bench::batch_element(batch_element(false, 1))]
+#[bench::batch_element_shared(batch_element(true, 1))]
+#[bench::batch_element_inactive(batch_element(false, 0))]
+#[bench::element_harmonics(element_harmonics(false, 2))]
+#[bench::element_harmonics_force(element_harmonics(false, 1))]
+#[bench::element_harmonics_open(element_harmonics(true, 2))]
 fn count(mut call: Call) -> i32 {
     call()
 }

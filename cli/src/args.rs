@@ -1,14 +1,14 @@
 //! The command line.
 
 use crate::contact_spec::ContactArgs;
-use crate::number::parse_number;
+use crate::number::{Amount, parse_amount, parse_number};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Friction law of a contact: properties, curves, hysteresis loops and complex stiffness as CSV and as pictures.
 ///
-/// The contact is a flat with rounded edges, a cylinder or an elliptical Hertz contact under a constant
-/// normal force. It is defined by a parameter file, by options, or by both: options override the file.
+/// The contact is a flat with rounded edges, a cylinder or an elliptical Hertz contact. The normal force is
+/// constant, or varies (history, loop). Parameters are given by a file, by options, or by both: options override the file.
 #[derive(Debug, Parser)]
 #[command(name = "microslip", version, verbatim_doc_comment, after_help = GENERAL_HELP)]
 pub struct Arguments {
@@ -67,10 +67,13 @@ pub enum Command {
         "curve contact.toml --to 2e-6 --points 401 --out curve.csv"
     ))]
     Curve(ContactCommand<Curve>),
-    /// Hysteresis loops between +amplitude and -amplitude, and their dissipated energy
+    /// Hysteresis loops between +amplitude and -amplitude under a constant or swinging normal force
     #[command(after_help = help!(
-        "amplitude, displacement, force, dissipated (energy per cycle)",
-        "loop contact.toml --amplitude 5e-7,1e-6 --plot loop.svg"
+        "amplitude, displacement, force, dissipated (energy per cycle)
+  with --normal-amplitude: amplitude, phase, displacement, normal_force, force, dissipated,
+  dissipated_constant (energy per cycle under the constant normal force)",
+        "loop contact.toml --amplitude 5e-7,1e-6 --plot loop.svg
+  microslip loop contact.toml --amplitude 1e-6 --normal-amplitude 40% --phase 0,90 --plot loop.svg"
     ))]
     Loop(ContactCommand<Loop>),
     /// Complex stiffness K' + iK'' over the displacement amplitude
@@ -79,12 +82,21 @@ pub enum Command {
         "stiffness contact.toml --from 1e-8 --to 1e-4 --plot stiffness.svg"
     ))]
     Stiffness(ContactCommand<Amplitudes>),
-    /// Force, stiffness and dissipated energy along a displacement history
+    /// Force, stiffness and dissipated energy along a displacement history under a constant or given normal force
     #[command(after_help = help!(
-        "displacement, force, stiffness, dissipated (energy of each step)",
-        "history contact.toml --displacements measured.csv --column u --plot history.svg"
+        "displacement, force, stiffness, dissipated (energy of each step)
+  if the normal force varies: displacement, approach (if given), normal_force, force, stiffness, dissipated",
+        "history contact.toml --displacements measured.csv --column u --plot history.svg
+  microslip history contact.toml --displacements measured.csv --column u --normal-force-column N"
     ))]
     History(ContactCommand<History>),
+    /// Normal law: normal force, stiffness and half-width over the normal approach, from first contact
+    #[command(after_help = help!(
+        "approach, normal_force, stiffness, half_width",
+        "normal contact.toml --plot normal.svg
+  microslip normal contact.toml --force 100,400,800"
+    ))]
+    Normal(ContactCommand<Normal>),
     /// Equivalent Jenkins elements: spring-sliders of equal complex stiffness, over the displacement amplitude
     #[command(after_help = help!(
         "amplitude, stiffness, slip_force", "jenkins contact.toml --amplitude 1e-6"
@@ -176,7 +188,16 @@ pub struct Loop {
     /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
     pub points: u32,
-    #[arg(long, help = RELATIVE)]
+    /// Amplitude of a harmonic swing of the normal force about normal_force: a force, or a percentage of normal_force; the
+    /// contact is open while the sum is negative
+    #[arg(long, value_name = "N|%", value_parser = parse_amount, allow_hyphen_values = true, requires = "phase")]
+    pub normal_amplitude: Option<Amount>,
+    /// Phases by which the normal force leads the displacement
+    #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(requires = "normal_amplitude")]
+    pub phase: Vec<f64>,
+    /// Amplitudes are multiples of the slip displacement and of normal_force
+    #[arg(long)]
     pub relative: bool,
 }
 
@@ -201,13 +222,41 @@ pub struct Amplitudes {
 
 #[derive(Debug, Args)]
 pub struct History {
-    /// Table of displacements, one per row, starting from the unloaded contact; - is standard input
+    /// Table of displacements, one per row, from the unloaded contact at displacement 0; - is standard input
     #[arg(long, value_name = "FILE.csv", default_value = "-")]
     pub displacements: PathBuf,
     /// Column of the table: its name in the header, or its number from 1 [default: displacement, or the only one]
     #[arg(long, value_name = "NAME")]
     pub column: Option<String>,
-    #[arg(long, help = RELATIVE)]
+    /// Column of normal approaches, 0 or less if the contact is open [default: approach, if there is one]
+    #[arg(long, value_name = "NAME", conflicts_with = "normal_force_column")]
+    pub approach_column: Option<String>,
+    /// Column of normal forces, 0 if the contact is open [default: normal_force, if there is one and no approach]
+    #[arg(long, value_name = "NAME")]
+    pub normal_force_column: Option<String>,
+    /// Displacements are multiples of the slip displacement, normal forces of normal_force, approaches of the one under it
+    #[arg(long)]
+    pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Normal {
+    /// Largest approach of a uniform grid from 0 [default: the approach under normal_force]
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub to: Option<f64>,
+    /// Number of points of the grid
+    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    pub points: u32,
+    /// Approaches instead of a grid; 0 or less if the contact is open
+    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["to", "points"])]
+    pub approach: Vec<f64>,
+    /// Normal forces instead of a grid
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["to", "points", "approach"])]
+    pub force: Vec<f64>,
+    /// Forces are multiples of normal_force, approaches of the one under it
+    #[arg(long)]
     pub relative: bool,
 }
 

@@ -5,11 +5,13 @@ use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, input, usage};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, Picture, rounded};
-use crate::table::{ColumnSpec, Table, read_column};
-use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::table::{ColumnSpec, InputTable, Table, read_columns};
+use crate::units::Quantity::{Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
 use microslip::constant_load::state::{state_init, state_length};
+use microslip::varying_load::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
 
@@ -24,33 +26,26 @@ pub struct Report {
 }
 
 impl Report {
-    fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, panels: Vec<Panel>) -> Report {
-        let given = &spec.given;
-        let sizes = [
-            ("a", given.flat_half_width, Length),
-            ("R", given.edge_radius, Length),
-            ("L", given.length, Length),
-            ("semi-axes b", given.semi_axis_x, Length),
-            ("l", given.semi_axis_y, Length),
-            ("N", given.normal_force, Force),
-        ];
-        let size = |(name, value, quantity): (&str, Option<f64>, Quantity)| {
-            value.map(|value| format!("{name} = {}, ", rounded(value, quantity, spec.units)))
-        };
-        let friction = format_number(given.friction_coefficient.unwrap_or_default());
-        let caption = format!("{}μ = {friction}", sizes.into_iter().filter_map(size).collect::<String>());
+    pub fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, panels: Vec<Panel>) -> Report {
+        let normal_force = rounded(spec.given.normal_force.unwrap_or_default(), Force, spec.units);
         Report {
             comments: vec![
                 format!("microslip {}", env!("CARGO_PKG_VERSION")),
-                format!("microslip {name}{}{options}", given.options()),
+                format!("microslip {name}{}{options}", spec.given.options()),
             ],
             warnings: Vec::new(),
             table,
-            picture: Picture { caption, units: spec.units, panels },
+            picture: Picture { caption: caption(spec, &normal_force), units: spec.units, panels },
         }
     }
 
-    fn with_remark(mut self, remark: &str) -> Report {
+    /// The same report with another normal force in the caption of the picture.
+    pub fn under(mut self, spec: &ContactSpec, normal_force: &str) -> Report {
+        self.picture.caption = caption(spec, normal_force);
+        self
+    }
+
+    pub fn with_remark(mut self, remark: &str) -> Report {
         self.comments.push(remark.to_owned());
         self
     }
@@ -60,14 +55,32 @@ impl Report {
     }
 }
 
+/// Parameters of the contact.
+fn caption(spec: &ContactSpec, normal_force: &str) -> String {
+    let given = &spec.given;
+    let sizes = [
+        ("a", given.flat_half_width),
+        ("R", given.edge_radius),
+        ("L", given.length),
+        ("semi-axes b", given.semi_axis_x),
+        ("l", given.semi_axis_y),
+    ];
+    let size = |(name, value): (&str, Option<f64>)| {
+        value.map(|value| format!("{name} = {}, ", rounded(value, Length, spec.units)))
+    };
+    let friction = format_number(given.friction_coefficient.unwrap_or_default());
+    let sizes: String = sizes.into_iter().filter_map(size).collect();
+    format!("{sizes}N = {normal_force}, μ = {friction}")
+}
+
 /// The given values, multiplied by the unit if they are relative.
-fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
+pub fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     let factor = if relative { unit } else { 1.0 };
     values.iter().map(|value| value * factor).collect()
 }
 
 /// Uniformly spaced from 0 to the end, which is exact.
-fn grid(end: f64, points: u32) -> Vec<f64> {
+pub fn grid(end: f64, points: u32) -> Vec<f64> {
     (0..points).map(|i| f64::from(i) / f64::from(points - 1) * end).collect()
 }
 
@@ -77,26 +90,26 @@ fn across(contact: &Contact, points: u32) -> Vec<f64> {
 }
 
 /// A line over an increasing quantity.
-fn line_over(name: impl Into<String>, mut points: Vec<(f64, f64)>) -> Line {
+pub fn line_over(name: impl Into<String>, mut points: Vec<(f64, f64)>) -> Line {
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     Line { name: name.into(), points }
 }
 
 /// A panel of one line, without a name.
-fn panel(x: Axis, y: Axis, points: Vec<(f64, f64)>) -> Panel {
+pub fn panel(x: Axis, y: Axis, points: Vec<(f64, f64)>) -> Panel {
     Panel { x, y, lines: vec![line_over("", points)] }
 }
 
 /// Two columns as points.
-fn pairs(rows: &[Vec<f64>], x: usize, y: usize) -> Vec<(f64, f64)> {
+pub fn pairs(rows: &[Vec<f64>], x: usize, y: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row[x], row[y])).collect()
 }
 
-const DISPLACEMENT: Axis = Axis::linear("displacement", Length);
+pub const DISPLACEMENT: Axis = Axis::linear("displacement", Length);
 const AMPLITUDE: Axis = Axis::logarithmic("displacement amplitude", Length);
 const ACROSS: Axis = Axis::linear("x", Length);
-const STIFFNESS: Axis = Axis::linear("stiffness", Stiffness);
-const FORCE: Axis = Axis::linear("force", Force);
+pub const STIFFNESS: Axis = Axis::linear("stiffness", Stiffness);
+pub const FORCE: Axis = Axis::linear("force", Force);
 
 pub fn contact(spec: &ContactSpec) -> Report {
     let contact = &spec.contact;
@@ -248,6 +261,9 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
     };
     let amplitudes = scaled(given, relative, contact.slip_displacement);
     let repeat = format!(" --amplitude {} --points {}", format_list(&amplitudes), options.points);
+    if options.normal_amplitude.is_some() {
+        return varying_load::swinging_loop(options, spec, &amplitudes, &repeat);
+    }
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     for amplitude in amplitudes {
         let error = |error| CliError::in_option("--amplitude", amplitude, error);
@@ -328,18 +344,45 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
 /// Points of a picture of a history: between the rows it follows the branches.
 const POINTS_OF_HISTORY: usize = 100_000;
 
+/// Into how many parts a picture divides the steps of a history.
+pub fn parts_of_step(rows: usize) -> u32 {
+    (POINTS_OF_HISTORY / rows).clamp(1, 500) as u32
+}
+
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
-    let (contact, path, selected) = (&spec.contact, &options.displacements, options.column.as_deref());
+    let (path, selected) = (&options.displacements, options.column.as_deref());
+    let [approach, normal_force] = [&options.approach_column, &options.normal_force_column].map(Option::as_deref);
     let column = ColumnSpec { option: "--column", selected, name: "displacement", quantity: Length };
-    let displacements = read_column(path, &column, spec.units)?;
+    let normal = [
+        ColumnSpec { option: "--approach-column", selected: approach, name: "approach", quantity: Length },
+        ColumnSpec { option: "--normal-force-column", selected: normal_force, name: "normal_force", quantity: Force },
+    ];
+    // A selected column of normal forces leaves no choice.
+    let first = usize::from(normal_force.is_some());
+    let table = read_columns(path, &column, &normal[first..], spec.units)?;
+    let columns = [&column, &normal[0], &normal[1]].map(|column| {
+        column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
+    });
+    let relative = if options.relative { " --relative" } else { "" };
+    let repeat = format!(" --displacements {}{}{relative}", quoted(&path.to_string_lossy()), columns.concat());
+    match table.alternative.map(|alternative| first + alternative) {
+        None => constant_load_history(options, spec, &table, &repeat),
+        Some(0) => varying_load::history(options, spec, NormalInput::Approach, &table, &repeat),
+        Some(_) => varying_load::history(options, spec, NormalInput::Force, &table, &repeat),
+    }
+}
+
+fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTable, repeat: &str) -> Result<Report> {
+    let (contact, path, count) = (&spec.contact, &options.displacements, table.rows.len());
     // A history has no more reversals than rows: none is merged, and the results are exact.
-    let mut state = vec![0.0; state_length(displacements.len())];
+    let mut state = vec![0.0; state_length(count)];
     state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
-    let parts = (POINTS_OF_HISTORY / displacements.len()).clamp(1, 500) as u32;
+    let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
-    for (line, displacement) in displacements {
-        let displacement = if options.relative { displacement * contact.slip_displacement } else { displacement };
-        check_step(&state, displacement).map_err(|error| CliError::in_file(path, format!("line {line}: {error}")))?;
+    for row in &table.rows {
+        let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
+        check_step(&state, displacement)
+            .map_err(|error| CliError::in_file(path, format!("{}: {error}", table.place(row, 0))))?;
         points.extend((1..parts).map(|part| {
             let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
             (between, step(contact, &state, between).force())
@@ -350,12 +393,9 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
         step.write(&mut state);
         from = displacement;
     }
-    let column = selected.map_or(String::new(), |column| format!(" --column {}", quoted(column)));
-    let relative = if options.relative { " --relative" } else { "" };
-    let repeat = format!(" --displacements {}{column}{relative}", quoted(&path.to_string_lossy()));
     let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
-    let report = Report::new("history", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
     Ok(report.with_remark("dissipated: energy of each step"))
 }
 

@@ -6,6 +6,7 @@ use crate::number::{format_list, format_number, parse_number};
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
+use microslip::varying_load::element::{Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use serde::Deserialize;
 use std::path::Path;
@@ -99,6 +100,24 @@ impl ContactSpec {
         })?;
         Ok(ContactSpec { contact, units: given.units.unwrap_or(Units::Si), given })
     }
+
+    /// The element of the same contact under a normal force that varies.
+    pub fn element(&self, normal_input: NormalInput) -> Result<Element> {
+        if self.given.normal_force == Some(0.0) {
+            return input("without a normal force the contact is open: normal_force must be > 0");
+        }
+        let element = match self.given.shape(1.0)? {
+            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, normal_input),
+            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, normal_input),
+        };
+        element.map_err(|error| CliError::Input(self.given.explain(error).0))
+    }
+}
+
+/// The parameters as the library takes them.
+enum ShapeParameters {
+    Flat(Parameters),
+    Ellipse(EllipticParameters),
 }
 
 /// Parses a parameter file.
@@ -183,6 +202,14 @@ impl ContactArgs {
 
     /// The contact, with length and normal force multiplied by the same factor.
     fn contact(&self, factor: f64) -> Result<std::result::Result<Contact, Error>> {
+        Ok(match self.shape(factor)? {
+            ShapeParameters::Flat(parameters) => Contact::rounded_flat(&parameters),
+            ShapeParameters::Ellipse(parameters) => Contact::elliptic(&parameters),
+        })
+    }
+
+    /// The parameters, with length and normal force multiplied by the same factor.
+    fn shape(&self, factor: f64) -> Result<ShapeParameters> {
         let of_both = |values: &[f64]| match *values {
             [both] => Ok([both; 2]),
             [first, second] => Ok([first, second]),
@@ -195,7 +222,7 @@ impl ContactArgs {
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
         Ok(if self.is_elliptic() {
             let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
-            Contact::elliptic(&EllipticParameters {
+            ShapeParameters::Ellipse(EllipticParameters {
                 semi_axis_x,
                 semi_axis_y,
                 normal_force,
@@ -203,7 +230,7 @@ impl ContactArgs {
                 material,
             })
         } else {
-            Contact::rounded_flat(&Parameters {
+            ShapeParameters::Flat(Parameters {
                 flat_half_width: number(self.flat_half_width),
                 edge_radius: number(self.edge_radius),
                 length: factor * number(self.length),

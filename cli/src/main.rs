@@ -1,7 +1,7 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `table` read the input, `commands` compute, `plot` draws, and `files`
-//! reads and writes.
+//! `args` defines the command line, `contact_spec` and `table` read the input, `commands` and `varying_load` compute, `plot` draws,
+//! and `files` reads and writes.
 
 mod args;
 mod canvas;
@@ -13,6 +13,7 @@ mod number;
 mod plot;
 mod table;
 mod units;
+mod varying_load;
 
 use args::{Arguments, Command, ContactCommand};
 use canvas::Format;
@@ -49,6 +50,7 @@ fn run(command: &Command) -> Result<()> {
         Command::Loop(command) => execute(command, None, commands::hysteresis_loop),
         Command::Stiffness(command) => execute(command, None, commands::stiffness),
         Command::History(command) => execute(command, Some(&command.options.displacements), commands::history),
+        Command::Normal(command) => execute(command, None, varying_load::normal),
         Command::Jenkins(command) => execute(command, None, commands::jenkins_equivalent),
         Command::Iwan(command) => execute(command, None, commands::iwan_equivalent),
         Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")),

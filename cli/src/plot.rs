@@ -47,7 +47,10 @@ impl Axis {
 const WIDTH: u32 = 860;
 const PANEL_HEIGHT: u32 = 400;
 const CAPTION_HEIGHT: u32 = 36;
-const LEGEND_WIDTH: f64 = 190.0;
+/// Of a legend, at least and at most; of its lines, and of a letter.
+const LEGEND_WIDTHS: [f64; 2] = [190.0, 340.0];
+const KEY_WIDTH: f64 = 46.0;
+const LETTER_WIDTH: f64 = 8.4;
 /// Of the graph in its panel: left, right, top, bottom.
 const MARGINS: [f64; 4] = [94.0, 24.0, 8.0, 54.0];
 const TICK_LENGTH: f64 = 4.0;
@@ -82,20 +85,23 @@ impl Picture {
 
     fn draw_on(&self, canvas: &mut dyn Canvas) {
         canvas.text(&self.caption, (24.0, 20.0), 0.0, false);
-        let has_legend = self.panels.iter().any(|panel| panel.lines.len() > 1);
+        let names = self.panels.iter().filter(|panel| panel.lines.len() > 1).flat_map(|panel| &panel.lines);
+        let letters = names.map(|line| line.name.chars().count()).max();
+        let [least, most] = LEGEND_WIDTHS;
+        let right = letters.map_or(MARGINS[1], |count| (KEY_WIDTH + LETTER_WIDTH * count as f64).clamp(least, most));
         for (i, panel) in self.panels.iter().enumerate() {
             let top = f64::from(CAPTION_HEIGHT + PANEL_HEIGHT * i as u32);
-            panel.draw_on(canvas, top, self.units, has_legend);
+            panel.draw_on(canvas, top, self.units, right);
         }
     }
 }
 
 impl Panel {
-    fn draw_on(&self, canvas: &mut dyn Canvas, top: f64, units: Units, has_legend: bool) {
+    fn draw_on(&self, canvas: &mut dyn Canvas, top: f64, units: Units, right: f64) {
         let points = || self.lines.iter().flat_map(|line| &line.points);
         let x = Scale::of(self.x, units, points().map(|point| point.0));
         let y = Scale::of(self.y, units, points().map(|point| point.1));
-        let right = f64::from(WIDTH) - if has_legend { LEGEND_WIDTH } else { MARGINS[1] };
+        let right = f64::from(WIDTH) - right;
         let bottom = top + f64::from(PANEL_HEIGHT) - MARGINS[3];
         let (left, top) = (MARGINS[0], top + MARGINS[2]);
         let to_x = |place: f64| left + x.fraction(place) * (right - left);

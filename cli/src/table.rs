@@ -33,8 +33,33 @@ impl Table {
     }
 }
 
-/// A column of an input table: the value of each row, with its line number in the file.
-pub type Column = Vec<(usize, f64)>;
+/// A row of an input table: its line number in the file, and the values of the columns that a command reads.
+#[derive(Debug)]
+pub struct InputRow {
+    pub line: usize,
+    pub values: Vec<f64>,
+}
+
+/// The columns that a command reads.
+#[derive(Debug)]
+pub struct InputTable {
+    /// The column that was read besides the first: its place among the alternatives.
+    pub alternative: Option<usize>,
+    pub rows: Vec<InputRow>,
+    /// Names of the columns in messages; none if the table has one column only.
+    labels: Vec<String>,
+}
+
+impl InputTable {
+    /// Where a value is, for messages.
+    pub fn place(&self, row: &InputRow, index: usize) -> String {
+        place(row.line, self.labels.get(index))
+    }
+}
+
+fn place(line: usize, label: Option<&String>) -> String {
+    label.map_or_else(|| format!("line {line}"), |label| format!("line {line}, column {label}"))
+}
 
 /// A column that a command reads.
 #[derive(Debug, Clone, Copy)]
@@ -47,12 +72,19 @@ pub struct ColumnSpec<'a> {
     pub quantity: Quantity,
 }
 
-/// Reads a column of a CSV file: the selected one, the one of the default name, or the only one.
-pub fn read_column(path: &Path, spec: &ColumnSpec, units: Units) -> Result<Column> {
-    parse_column(&read_text(path)?, spec, units).map_err(|reason| CliError::in_file(path, reason))
+/// Reads a column of a CSV file: the selected one, the one of the default name, or the only one; and the first of the alternatives
+/// that is selected or has its default name in the header.
+pub fn read_columns(path: &Path, first: &ColumnSpec, alternatives: &[ColumnSpec], units: Units) -> Result<InputTable> {
+    let text = read_text(path)?;
+    parse_columns(&text, first, alternatives, units).map_err(|reason| CliError::in_file(path, reason))
 }
 
-fn parse_column(text: &str, spec: &ColumnSpec, units: Units) -> std::result::Result<Column, String> {
+fn parse_columns(
+    text: &str,
+    spec: &ColumnSpec,
+    alternatives: &[ColumnSpec],
+    units: Units,
+) -> std::result::Result<InputTable, String> {
     let split = |line: &'_ str| line.split(',').map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).zip(1..);
     let mut rows = lines
@@ -61,9 +93,25 @@ fn parse_column(text: &str, spec: &ColumnSpec, units: Units) -> std::result::Res
         .peekable();
     let no_numbers = || format!("the table has no {}s", spec.name);
     let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
-    let index = spec.find(&first, units).map_err(|reason| format!("line {number}: {reason}"))?;
+    let in_header = |reason| format!("line {number}: {reason}");
+    let mut indices = vec![spec.find(&first, units).map_err(in_header)?];
+    let mut alternative = None;
+    for (i, other) in alternatives.iter().enumerate().filter(|(_, other)| other.is_in(&first)) {
+        let index = other.find(&first, units).map_err(in_header)?;
+        if index != indices[0] {
+            alternative = Some(i);
+            indices.push(index);
+            break;
+        }
+        if other.selected.is_some() {
+            return Err(in_header(format!("{} and {} select the same column", spec.option, other.option)));
+        }
+    }
+    let label =
+        |index: &usize| if is_header(&first) { name_of(&first[*index]).to_owned() } else { format!("{}", index + 1) };
+    let labels: Vec<_> = if first.len() > 1 { indices.iter().map(label).collect() } else { Vec::new() };
     rows.next_if(|_| is_header(&first));
-    let mut column = Column::new();
+    let mut table = InputTable { alternative, rows: Vec::new(), labels };
     for (cells, line) in rows {
         let (count, expected) = (cells.len(), first.len());
         if count < expected {
@@ -73,11 +121,14 @@ fn parse_column(text: &str, spec: &ColumnSpec, units: Units) -> std::result::Res
             let cause = "is a comma the decimal separator? It must be a point";
             return Err(format!("line {line}: {count} columns, but the first row has {expected}; {cause}"));
         }
-        let cell = &cells[index];
-        let error = |reason| format!("line {line}: {cell:?}: {reason}; columns are separated by commas");
-        column.push((line, parse_number(cell).map_err(error)?));
+        let value = |(i, index): (usize, &usize)| {
+            let (cell, place) = (&cells[*index], place(line, table.labels.get(i)));
+            parse_number(cell).map_err(|reason| format!("{place}: {cell:?}: {reason}; columns are separated by commas"))
+        };
+        let values = indices.iter().enumerate().map(value).collect::<std::result::Result<_, _>>()?;
+        table.rows.push(InputRow { line, values });
     }
-    if column.is_empty() { Err(no_numbers()) } else { Ok(column) }
+    if table.rows.is_empty() { Err(no_numbers()) } else { Ok(table) }
 }
 
 /// Whether the first row has names. A cell that starts like a number is a number, even if invalid.
@@ -86,14 +137,24 @@ fn is_header(cells: &[String]) -> bool {
     cells.iter().all(|cell| !starts_number(cell) && parse_number(cell).is_err())
 }
 
+/// The name in a cell of the header: without its unit.
+fn name_of(cell: &str) -> &str {
+    cell.split('[').next().unwrap_or_default().trim()
+}
+
 impl ColumnSpec<'_> {
+    /// Whether the column is selected, or its default name is in the header.
+    fn is_in(&self, first: &[String]) -> bool {
+        self.selected.is_some() || (is_header(first) && first.iter().any(|cell| name_of(cell) == self.name))
+    }
+
     /// Index of the column, from the cells of the first row.
     fn find(&self, first: &[String], units: Units) -> std::result::Result<usize, String> {
         if first.iter().any(|cell| cell.contains(';')) {
             return Err("columns are separated by commas, not by semicolons".to_owned());
         }
         let name = self.selected.unwrap_or(self.name);
-        let names: Vec<_> = first.iter().map(|cell| cell.split('[').next().unwrap_or_default().trim()).collect();
+        let names: Vec<_> = first.iter().map(|cell| name_of(cell)).collect();
         if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
             let expected = units.unit(self.quantity);
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {

@@ -15,6 +15,7 @@ pub enum Units {
 #[derive(Debug, Clone, Copy)]
 pub enum Quantity {
     Number,
+    Angle,
     Length,
     Force,
     /// Pressures and moduli.
@@ -30,6 +31,7 @@ impl Units {
     fn unit_and_factor(self, quantity: Quantity) -> (&'static str, f64) {
         let (si, mm, factor) = match quantity {
             Quantity::Number => ("-", "-", 1.0),
+            Quantity::Angle => ("deg", "deg", 1.0),
             Quantity::Length => ("m", "mm", 1e-3),
             Quantity::Force => ("N", "N", 1.0),
             Quantity::Pressure => ("Pa", "MPa", 1e6),

@@ -3,6 +3,8 @@
 use microslip::constant_load::equivalents::{iwan, jenkins};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::constant_load::state::{state_init, state_length};
+use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::state as element_state;
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,8 +27,8 @@ fn material((young_modulus, poisson_ratio): (f64, f64)) -> Material {
     Material { young_modulus, poisson_ratio }
 }
 
-fn flat() -> Contact {
-    Contact::rounded_flat(&Parameters {
+fn flat_parameters() -> Parameters {
+    Parameters {
         flat_half_width: 5e-5,
         edge_radius: 5e-3,
         length: 1e-2,
@@ -34,15 +36,21 @@ fn flat() -> Contact {
         friction_coefficient: 0.4,
         material: [(2e11, 0.3), (114e9, 0.32)].map(material),
         ..Parameters::default()
-    })
-    .unwrap()
+    }
+}
+
+fn elliptic_parameters() -> EllipticParameters {
+    let material = [(200e3, 0.3); 2].map(material);
+    let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
+    EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
+}
+
+fn flat() -> Contact {
+    Contact::rounded_flat(&flat_parameters()).unwrap()
 }
 
 fn ellipse() -> Contact {
-    let material = [(200e3, 0.3); 2].map(material);
-    let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
-    Contact::elliptic(&EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
-        .unwrap()
+    Contact::elliptic(&elliptic_parameters()).unwrap()
 }
 
 /// A shell in a directory of its own.
@@ -286,10 +294,138 @@ fn histories_equal_those_of_the_library() {
     assert_eq!(column(&relative, 0), [0.5, -0.25].map(|part| part * contact.slip_displacement));
 }
 
+/// `[T, N]`, the stiffness and the dissipated energy of each step of a path.
+fn element_path(element: &Element, path: &[f64]) -> Vec<[f64; 4]> {
+    let n = path.len() / 2;
+    let mut state = vec![0.0; element_state::state_length(n)];
+    let (mut force, mut tangent, mut dissipated) = (vec![0.0; 2 * n], vec![0.0; 4 * n], vec![0.0; n]);
+    element_state::state_init(&mut state).unwrap();
+    let output = element_state::PathOutput {
+        force: Some(&mut force),
+        tangent: Some(&mut tangent),
+        dissipated: Some(&mut dissipated),
+    };
+    element_state::path(element, &mut state, path, output).unwrap();
+    (0..n).map(|i| [force[2 * i], force[2 * i + 1], tangent[4 * i], dissipated[i]]).collect()
+}
+
+#[test]
+fn histories_under_a_varying_load_equal_those_of_the_library() {
+    let shell = Shell::new("varying-load");
+    // Sticking, slip, separation and gross slip; as normal forces and as approaches.
+    let displacements = [0.0, 2e-7, -3e-7, 4e-7, 1e-6, 8e-7, -2e-7];
+    for (name, column, header, values) in [
+        ("normal_force [N]", "3", "displacement [m],normal_force [N]", [90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0]),
+        (
+            "approach [m]",
+            "approach",
+            "displacement [m],approach [m],normal_force [N]",
+            [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6],
+        ),
+    ] {
+        let by_approach = name.starts_with('a');
+        let input = if by_approach { NormalInput::Approach } else { NormalInput::Force };
+        let element = Element::rounded_flat(&flat_parameters(), input).unwrap();
+        let path: Vec<_> = displacements.iter().zip(&values).flat_map(|(u, w)| [*u, *w]).collect();
+        let row = |(i, [force, normal_force, stiffness, dissipated]): (usize, [f64; 4])| {
+            let given = [displacements[i], values[i]].into_iter().take(if by_approach { 2 } else { 1 });
+            given.chain([normal_force, force, stiffness, dissipated]).collect()
+        };
+        let expected: Vec<Vec<f64>> = element_path(&element, &path).into_iter().enumerate().map(row).collect();
+        assert!(expected.iter().any(|row| row[row.len() - 4] == 0.0) && expected.iter().all(|row| row[0].is_finite()));
+        let header = format!("{header},force [N],stiffness [N/m],dissipated [J]");
+        let rows = |i: usize| format!("{i},{:e},{:e}\n", displacements[i], values[i]);
+        shell.write("given.csv", format!("t,displacement,{name}\n{}", (0..7).map(rows).collect::<String>()));
+        let of_column = if by_approach { "--approach-column" } else { "--normal-force-column" };
+        for options in [String::new(), format!("{of_column} {column}")] {
+            let command = format!("microslip history flat.toml --displacements given.csv {options}");
+            assert_table(&shell.stdout(&command), &header, &expected);
+        }
+        // A table of results is a valid input.
+        shell.write("table.csv", shell.stdout("microslip history flat.toml --displacements given.csv"));
+        assert_table(&shell.stdout("microslip history flat.toml --displacements table.csv"), &header, &expected);
+    }
+    // A constant normal force is that of the other law.
+    shell.write("constant.csv", "displacement,normal_force\n0,1\n0.5,1\n-0.7,1\n0.6,1\n2,1\n");
+    let varying = numbers(&shell.stdout("microslip history flat.toml --displacements constant.csv --relative"));
+    let constant = numbers(&shell.stdout("printf '0\n.5\n-.7\n.6\n2\n' | microslip history flat.toml --relative"));
+    for (varying, constant) in varying.iter().zip(&constant) {
+        assert!((varying[2] - constant[1]).abs() < 1e-12 * 60.0 && (varying[4] - constant[3]).abs() < 1e-17);
+    }
+}
+
+#[test]
+fn the_normal_law_and_its_inverse_equal_those_of_the_library() {
+    let shell = Shell::new("normal");
+    let input = NormalInput::Approach;
+    for (element, given, m, k) in [
+        (Element::rounded_flat(&flat_parameters(), input), "flat.toml", "m", "N/m"),
+        (Element::elliptic(&elliptic_parameters(), input), "$ELLIPSE", "mm", "N/mm"),
+    ] {
+        let element = element.unwrap();
+        let header = format!("approach [{m}],normal_force [N],stiffness [{k}],half_width [{m}]");
+        let at_approach = |part: f64| {
+            let approach = part * element.approach;
+            let point = element.normal_force_at(approach);
+            vec![approach, point.value, point.slope, element.half_width_under(point.value)]
+        };
+        let at_force = |force: f64| {
+            let point = element.approach_under(force);
+            vec![point.value, force, 1.0 / point.slope, element.half_width_under(force)]
+        };
+        for (options, expected) in [
+            ("--points 3", [0.0, 0.5, 1.0].map(at_approach)),
+            ("--relative --approach -1,0.3,3", [-1.0, 0.3, 3.0].map(at_approach)),
+            ("--force 1,150,900", [1.0, 150.0, 900.0].map(at_force)),
+        ] {
+            assert_table(&shell.stdout(&format!("microslip normal {given} {options}")), &header, &expected);
+        }
+        let open = numbers(&shell.stdout(&format!("microslip normal {given} --force 0")));
+        assert_eq!(open, [[0.0; 4]]);
+    }
+}
+
+#[test]
+fn a_swinging_load_changes_the_energy_of_a_loop() {
+    let shell = Shell::new("swinging");
+    let cylinder = "flat.toml --flat-half-width 0";
+    let run = |options: &str| shell.stdout(&format!("microslip loop {cylinder} {options}"));
+    let swinging = |options: &str| numbers(&run(&format!("--relative --amplitude 0.8 {options}")));
+    // At amplitude 0 it is the loop of the constant load, whose corners lie between the points of the walk.
+    let still = swinging("--normal-amplitude 0 --phase 30 --points 8");
+    let constant = numbers(&run("--relative --amplitude 0.8 --points 8"));
+    assert_eq!(still.len(), constant.len());
+    for (still, constant) in still.iter().zip(&constant) {
+        assert_eq!((still[1], still[3], still[6]), (30.0, 150.0, constant[3]));
+        assert!((still[2] - constant[1]).abs() < 1e-21 && (still[4] - constant[2]).abs() < 1e-12 * 60.0);
+        assert!((still[5] / still[6] - 1.0).abs() < 1e-12, "{still:?}");
+    }
+    // The load is in phase with the displacement, then leads by a quarter of a period; beyond 100 % the contact opens.
+    let energy = |phase: &str| {
+        let rows = swinging(&format!("--normal-amplitude 40% --phase {phase} --points 4"));
+        let loads: Vec<_> = rows.iter().map(|row| row[3].round()).collect();
+        (loads, rows[0][5] / rows[0][6])
+    };
+    let ((in_phase, least), (leading, most)) = (energy("0"), energy("-270"));
+    assert_eq!(in_phase, [210.0, 150.0, 90.0, 150.0, 210.0]);
+    assert_eq!(leading, [150.0, 90.0, 150.0, 210.0, 150.0]);
+    assert!(least < most, "{least} {most}");
+    // Newtons, per cent and multiples are the same load; the sign of the displacement does not matter.
+    let per_cent = swinging("--normal-amplitude 40% --phase 45");
+    assert_eq!(swinging("--normal-amplitude 0.4 --phase 45"), per_cent);
+    let amplitude = per_cent[0][0];
+    assert_eq!(numbers(&run(&format!("--amplitude {amplitude} --normal-amplitude 60 --phase 45"))), per_cent);
+    let mirrored = swinging("--normal-amplitude 40% --phase 180 --points 4");
+    assert!((mirrored[0][5] / mirrored[0][6] / least - 1.0).abs() < 1e-9);
+    let opened = swinging("--normal-amplitude 120% --phase 90");
+    assert!(opened.iter().any(|row| row[3] == 0.0) && opened.iter().all(|row| row[4].abs() <= 0.4 * row[3] + 1e-12));
+}
+
 #[test]
 fn the_command_in_a_result_repeats_it() {
     let shell = Shell::new("repeat");
     shell.write("path's.csv", "0.5\n-1\n2");
+    shell.write("two.csv", "u,N\n5e-7,1e-3\n-2e-7,3e-4\n4e-7,0\n");
     for example in ["example", "example --elliptic"] {
         shell.write("contact.toml", shell.stdout(&format!("microslip {example}")));
         for command in [
@@ -306,6 +442,12 @@ fn the_command_in_a_result_repeats_it() {
             "jenkins contact.toml",
             "iwan contact.toml",
             "history contact.toml --relative --displacements path\\'s.csv --column 1",
+            "history contact.toml --displacements two.csv --column 1 --normal-force-column N",
+            "history contact.toml --displacements two.csv --column u --approach-column 2 --relative",
+            "normal contact.toml --points 5",
+            "normal contact.toml --force 7",
+            "loop contact.toml --points 4 --normal-amplitude 30% --phase 0,-45 --relative --amplitude 0.7",
+            "loop contact.toml --points 4 --normal-amplitude 0.3 --phase 10 --relative",
         ] {
             let table = shell.stdout(&format!("microslip {command}"));
             assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
@@ -349,6 +491,10 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("stiffness $FLAT --amplitude nan", "--amplitude NaN: ", Error::BadAmplitude, ""),
         ("jenkins $FLAT --from 1 --to 1e200", "--to 1e200: ", Error::BadAmplitude, ""),
         ("iwan $FLAT --count 0", "--count 0: ", Error::BadCount, ""),
+        ("normal $FLAT --force 10,-2", "--force -2: ", Error::BadNormalForce, ""),
+        ("normal $FLAT --approach nan", "--approach NaN: ", Error::BadDisplacement, ""),
+        ("normal $FLAT --to 1", "--to 1: ", Error::LengthTooShort, ""),
+        ("loop $FLAT --phase 0 --normal-amplitude -5%", "--normal-amplitude -7.5: ", Error::BadForceAmplitude, ""),
     ] {
         shell.check_error(&format!("microslip {arguments}"), 1, &format!("{before}{error}{after}"));
     }
@@ -359,6 +505,14 @@ fn messages_name_the_error_and_what_is_allowed() {
         (1, "contact no-such-file.toml", "no-such-file.toml: No such file"),
         (1, "contact $ELLIPSE si.toml", "--units differs from the units of the parameter file"),
         (1, "history $FLAT --displacements /", "/: Is a directory"),
+        (1, "normal flat.toml --normal-force 0", "normal_force must be > 0"),
+        (1, "loop $FLAT --phase inf --normal-amplitude 1", "--phase inf: a phase must be finite"),
+        (2, "loop $FLAT --normal-amplitude 10%", "--phase <DEGREES>"),
+        (
+            2,
+            "loop $FLAT --normal-amplitude 4O% --phase 0",
+            "invalid value '4O%' for '--normal-amplitude <N|%>': not a number",
+        ),
         (2, "", "Usage: microslip <COMMAND>"),
         (
             2,
@@ -439,6 +593,14 @@ fn errors_in_files_name_file_and_line() {
         (b"u\n# c\n", "", "the table has no displacements"),
         (b"", "", "the table has no displacements"),
         (b"u\n1\n2 # \xb5m\n", "", "line 3: invalid UTF-8"),
+        (b"t,u\n0,1\n0,x\n", "--column u", "line 3, column u: \"x\": not a number"),
+        (b"displacement,normal_force\n0,1\n0,-2\n", "", "line 3, column normal_force: -2: normal_force must be"),
+        (b"displacement,approach\n0,1e-9\n0,inf\n", "", "line 3, column approach: inf: a displacement must be"),
+        (b"0,1\ninf,2\n", "--column 1 --normal-force-column 2", "line 2, column 1: inf: a displacement must be"),
+        (b"displacement,approach\n0,1\n", "", "line 2, column approach: 1: length too small for the half-width"),
+        (b"displacement,normal_force [kN]\n0,1\n", "", "line 1: column normal_force is in kN, not in N"),
+        (b"u,N\n0,1\n", "--column u --approach-column u", "line 1: --column and --approach-column select the same"),
+        (b"u,N\n0,1\n", "--column u --normal-force-column P", "line 1: no column P; the columns are u, N"),
     ] {
         shell.write("table.csv", table);
         let text = format!("table.csv: {text}");
@@ -490,6 +652,15 @@ fn every_command_draws() {
         draw(&format!("history flat.toml --displacements {table}"), picture);
     }
     assert!(shell.read("two.svg").matches('L').count() > 200);
+    shell.write("varying.csv", "displacement,approach\n0,4e-7\n5e-7,1e-6\n-4e-7,-5e-7\n8e-7,1e-6\n");
+    let two = (0..20_000).map(|i| format!("{},{}\n", row(i).trim(), (7 * i) % 150)).collect::<String>();
+    shell.write("spiral2.csv", format!("displacement,normal_force\n{two}"));
+    draw("history flat.toml --displacements varying.csv", "varying.svg");
+    draw("history flat.toml --displacements spiral2.csv", "forces.svg");
+    for given in ["flat.toml", "flat.toml --flat-half-width 0 --friction-coefficient 0", "$ELLIPSE"] {
+        draw(&format!("normal {given}"), "normal.svg");
+        draw(&format!("loop {given} --normal-amplitude 130% --phase 0,90 --amplitude 1e-6"), "swinging.svg");
+    }
     draw("loop flat.toml --amplitude 1e-6,2e-6", "loop.svg");
     for text in
         ["displacement [µm]", "force [N]", "±1.00 µm, ", "a = 50.0 µm, R = 5.00 mm, L = 10.0 mm, N = 150 N, μ = 0.4"]
@@ -546,12 +717,12 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
 fn help_has_units_columns_and_an_example_for_each_command() {
     let shell = Shell::new("help");
     shell.write("contact.toml", shell.stdout("microslip example"));
-    shell.write("measured.csv", "t,u\n0,1e-6\n1,-1e-6\n");
+    shell.write("measured.csv", "t,u,N\n0,1e-6,300\n1,-1e-6,500\n");
     let general = shell.stdout("microslip --help");
     for text in ["m, N, Pa, N/m, J", "mm, N, MPa, N/mm, mJ", "Exit status:", "microslip example > contact.toml"] {
         assert!(general.contains(text), "{text}");
     }
-    for command in ["contact", "tractions", "curve", "loop", "stiffness", "history", "jenkins", "iwan"] {
+    for command in ["contact", "tractions", "curve", "loop", "stiffness", "history", "normal", "jenkins", "iwan"] {
         assert!(general.contains(&format!("\n  {command} ")), "{command}");
         let help = shell.stdout(&format!("microslip {command} --help"));
         for text in [
@@ -564,12 +735,14 @@ fn help_has_units_columns_and_an_example_for_each_command() {
         ] {
             assert!(help.contains(text), "{command}: {text}");
         }
-        // The example works, and its table has the columns.
-        let (before, example) = help.split_once("Example:\n  ").unwrap();
-        let table = shell.stdout(&example.replace("--out curve.csv", "--out -"));
+        // The examples work, and their tables have the columns.
+        let (before, examples) = help.split_once("Example:\n  ").unwrap();
         let columns = before.split_once("Columns:\n  ").unwrap().1;
-        for name in cells(&table).0.split(',').map(|name| name.split(' ').next().unwrap()) {
-            assert!(columns.contains(name), "{command}: {name}");
+        for example in examples.lines() {
+            let table = shell.stdout(&example.replace("--out curve.csv", "--out -"));
+            for name in cells(&table).0.split(',').map(|name| name.split(' ').next().unwrap()) {
+                assert!(columns.contains(name), "{command}: {name}");
+            }
         }
     }
     assert_eq!(shell.stdout("microslip --version"), format!("microslip {}\n", env!("CARGO_PKG_VERSION")));

@@ -283,6 +283,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
             |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
         for (i, element, displacement) in items.with(displacement, 2) {
             let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
+            prefetch(state_old.wrapping_add(AHEAD * state_length));
             let outputs = [at(force, 2 * i), at(tangent, 4 * i), at(dissipated, i)];
             if let Some(displacement) = displacement.first_chunk() {
                 // SAFETY: checked, aligned; those of item i are valid by the function's contract.
@@ -343,6 +344,20 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
         Ok(())
     };
     status(compute())
+}
+
+/// Items between the one that is computed and the one whose state is fetched from main memory.
+const AHEAD: usize = 8;
+
+/// Fetches the header and the first knots of a state into the cache: the hardware does not, because states are read in part only.
+#[inline(always)]
+fn prefetch(state: *const f64) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..3 {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: every x86-64 processor has the instruction, and any address is allowed.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(state.wrapping_add(8 * line).cast()) };
+    }
 }
 
 /// Outputs of a batch of harmonic forces.

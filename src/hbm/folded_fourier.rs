@@ -21,27 +21,27 @@ fn position_blocks(samples: usize) -> usize {
     positions.div_ceil(4)
 }
 
-/// Number of doubles in the table for orders up to `orders`.
+/// Number of doubles in the table for orders up to `orders`, an even number.
 pub(crate) fn table_length(samples: usize, orders: usize) -> usize {
     4 * position_blocks(samples) * (1 + 2 * orders)
 }
 
-/// Number of doubles of scratch memory.
-pub(crate) fn scratch_length(samples: usize) -> usize {
-    4 * SYMMETRIES * position_blocks(samples)
+/// Number of doubles of scratch memory: folded sums, and four partial sums of each function.
+pub(crate) fn scratch_length(samples: usize, orders: usize) -> usize {
+    4 * (SYMMETRIES * position_blocks(samples) + 1 + 2 * orders)
 }
 
 /// Cosines of odd orders, sines of odd orders, cosines of even orders, sines of even orders.
 const SYMMETRIES: usize = 4;
 
-/// Fills the table: in each block of positions their weights, then cos and sin of the orders 1, 2, ...
+/// Fills the table: the weights of the positions, then for each block of positions cos and sin of the orders 1, 2, ...
 pub(crate) fn fill_table(table: &mut [f64], samples: usize, orders: usize) {
-    let rows = table.as_chunks_mut::<4>().0.chunks_exact_mut((1 + 2 * orders).max(1));
-    for (first, rows) in (0..).step_by(4).zip(rows) {
+    let blocks = table.as_chunks_mut::<4>().0.split_at_mut_checked(position_blocks(samples));
+    let Some((weights, rows)) = blocks else { return };
+    for ((first, weights), rows) in (0..).step_by(4).zip(weights).zip(rows.chunks_exact_mut((2 * orders).max(1))) {
         let positions = [first, first + 1, first + 2, first + 3];
-        let Some((weights, pairs)) = rows.split_first_mut() else { return };
         *weights = positions.map(|n| weight(n, samples));
-        for (order, [cosines, sines]) in (1..).zip(pairs.as_chunks_mut::<2>().0) {
+        for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
             *cosines = positions.map(|n| angle(order, n, samples).cos());
             *sines = positions.map(|n| angle(order, n, samples).sin());
         }
@@ -65,7 +65,11 @@ fn weight(n: usize, samples: usize) -> f64 {
 pub(crate) struct FoldedFourier<'a> {
     samples: usize,
     orders: usize,
-    table: &'a Blocks,
+    weights: &'a Blocks,
+    /// Cosines and sines of two orders each; for each block of positions those of all orders.
+    quads: &'a [[[f64; 4]; SYMMETRIES]],
+    /// Blocks of folded sums.
+    folded: usize,
     scratch: &'a mut Blocks,
 }
 
@@ -73,19 +77,17 @@ impl<'a> FoldedFourier<'a> {
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
-        let table = parts.take(table_length(samples, orders))?;
-        Ok(FoldedFourier { samples, orders, table: table.as_chunks().0, scratch: &mut [] })
+        let table: &'a Blocks = parts.take(table_length(samples, orders))?.as_chunks().0;
+        let (weights, rows) = table.split_at_checked(position_blocks(samples)).unwrap_or((&[], &[]));
+        let folded = SYMMETRIES * position_blocks(samples);
+        Ok(FoldedFourier { samples, orders, weights, quads: rows.as_chunks().0, folded, scratch: &mut [] })
     }
 
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take_scratch(&mut self, parts: &mut Parts<'a>) -> Result<(), Error> {
-        self.scratch = parts.take(scratch_length(self.samples))?.as_chunks_mut().0;
+        self.scratch = parts.take(scratch_length(self.samples, self.orders))?.as_chunks_mut().0;
         Ok(())
-    }
-
-    fn rows(&self) -> impl Iterator<Item = &'a Blocks> {
-        self.table.chunks_exact((1 + 2 * self.orders).max(1))
     }
 
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
@@ -94,22 +96,23 @@ impl<'a> FoldedFourier<'a> {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
-        for (first, rows) in (0..).step_by(4).zip(self.rows()) {
-            let mut sums = [[0.0; 4], [0.0; 4], [constant; 4], [0.0; 4]];
-            let (row_quads, last_rows) = rows.get(1..=pairs.len()).unwrap_or(&[]).as_chunks::<4>();
-            for (coefficients, rows) in quads.iter().zip(row_quads) {
-                for symmetry in 0..4 {
-                    for k in 0..4 {
-                        sums[symmetry][k] += coefficients[symmetry] * rows[symmetry][k];
-                    }
-                }
-            }
-            for ((sum, coefficient), row) in sums.iter_mut().zip(last).zip(last_rows) {
+        for (first, row_quads) in (0..).step_by(4).zip(self.quads.chunks_exact((self.orders / 2).max(1))) {
+            let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
+            let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
+            for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
                 for k in 0..4 {
-                    sum[k] += coefficient * row[k];
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                    even_cosines[k] += c * rows[2][k];
+                    even_sines[k] += d * rows[3][k];
                 }
             }
-            let [odd_cosines, odd_sines, even_cosines, even_sines] = sums;
+            if let (&[a, b], Some(rows)) = (last, row_quads.get(quads.len())) {
+                for k in 0..4 {
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                }
+            }
             if samples.is_multiple_of(2) {
                 let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
                 let (even_mirrored, odd_mirrored) =
@@ -132,56 +135,47 @@ impl<'a> FoldedFourier<'a> {
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
         continue_periodically(values, self.samples);
         self.fold(values);
-        let blocks = self.scratch.len() / SYMMETRIES;
-        let (odd, even) = self.scratch.split_at_checked(2 * blocks).unwrap_or((&[], &[]));
-        let Some((constant, pairs)) = sums.split_first_mut() else { return };
+        let (folded, totals) = self.scratch.split_at_mut_checked(self.folded).unwrap_or((&mut [], &mut []));
+        let folded = folded.as_chunks::<SYMMETRIES>().0;
+        let stride = (self.orders / 2).max(1);
+        // The constant, then blocks of four sums for each pair of orders.
         let mut total = [0.0; 4];
-        for [even_cosines, _] in even.as_chunks::<2>().0 {
-            total = add(total, *even_cosines);
+        for [_, _, even_cosines, _] in folded {
+            for k in 0..4 {
+                total[k] += even_cosines[k];
+            }
         }
-        *constant = sum_of(total);
-        let (odd, even) = (odd.as_chunks::<2>().0, even.as_chunks::<2>().0);
-        for (first, sums) in (1..).step_by(4).zip(pairs.chunks_mut(4)) {
-            let mut totals = [[0.0; 4]; 4];
-            for ((rows, [odd_cosines, odd_sines]), [even_cosines, even_sines]) in self.rows().zip(odd).zip(even) {
-                let folded = [odd_cosines, odd_sines, even_cosines, even_sines];
-                match rows.get(first..).unwrap_or(&[]) {
-                    [one, two, three, four, ..] => {
-                        let rows = [one, two, three, four];
-                        for symmetry in 0..4 {
-                            for k in 0..4 {
-                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
-                            }
-                        }
-                    }
-                    [one, two, ..] => {
-                        let rows = [one, two];
-                        for symmetry in 0..2 {
-                            for k in 0..4 {
-                                totals[symmetry][k] += folded[symmetry][k] * rows[symmetry][k];
-                            }
-                        }
-                    }
-                    _ => {}
+        let Some((constant, totals)) = totals.split_first_mut() else { return };
+        *constant = total;
+        let count = sums.len().saturating_sub(1).div_ceil(4);
+        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
+            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
+            let quads = self.quads.get(quad..).unwrap_or(&[]).chunks(stride);
+            for (rows, folded) in quads.zip(folded) {
+                let [rows, ..] = rows else { break };
+                for k in 0..4 {
+                    a[k] += folded[0][k] * rows[0][k];
+                    b[k] += folded[1][k] * rows[1][k];
+                    c[k] += folded[2][k] * rows[2][k];
+                    d[k] += folded[3][k] * rows[3][k];
                 }
             }
-            for (sum, total) in sums.iter_mut().zip(totals) {
-                *sum = sum_of(total);
-            }
+            *totals = [a, b, c, d];
+        }
+        // Summed from memory, which keeps the loop above vectorised along the positions.
+        let Some((first, sums)) = sums.split_first_mut() else { return };
+        *first = sum_of(*constant);
+        for (sum, total) in sums.iter_mut().zip(totals.iter()) {
+            *sum = sum_of(*total);
         }
     }
 
-    /// The folded sums of the samples at each position: two for the odd orders at the front of the scratch memory, two for the
-    /// even orders behind.
+    /// The folded sums of the samples at each position, at the front of the scratch memory.
     #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let blocks = self.scratch.len() / SYMMETRIES;
-        let rows = self.table.chunks_exact((1 + 2 * self.orders).max(1));
-        let (odd, even) = self.scratch.split_at_mut_checked(2 * blocks).unwrap_or((&mut [], &mut []));
-        let (odd, even) = (odd.as_chunks_mut::<2>().0, even.as_chunks_mut::<2>().0);
-        for (((first, rows), odd), even) in (0..).step_by(4).zip(rows).zip(odd).zip(even) {
-            let &[weights, ..] = rows else { return };
+        let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
+        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
             let here = load(values, first);
             let mirrored = load_reversed(values, samples.checked_sub(first));
             if samples.is_multiple_of(2) {
@@ -189,11 +183,16 @@ impl<'a> FoldedFourier<'a> {
                 let mirrored_opposite = load_reversed(values, half.checked_sub(first));
                 let (e, o) = (add(here, opposite), subtract(here, opposite));
                 let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
-                *odd = [times(weights, add(o, om)), times(weights, subtract(o, om))];
-                *even = [times(weights, add(e, em)), times(weights, subtract(e, em))];
+                *folded = [
+                    times(*weights, add(o, om)),
+                    times(*weights, subtract(o, om)),
+                    times(*weights, add(e, em)),
+                    times(*weights, subtract(e, em)),
+                ];
             } else {
-                let (cosines, sines) = (times(weights, add(here, mirrored)), times(weights, subtract(here, mirrored)));
-                (*odd, *even) = ([cosines, sines], [cosines, sines]);
+                let (cosines, sines) =
+                    (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
+                *folded = [cosines, sines, cosines, sines];
             }
         }
     }
@@ -278,14 +277,14 @@ mod tests {
         for samples in (3..40).chain([63, 64, 66, 100]) {
             for harmonics in [1, 2, 3, 5, 9].into_iter().filter(|h| 2 * h < samples) {
                 let orders = 2 * harmonics;
-                let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples)];
+                let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples, orders)];
                 fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
                 let mut parts = Parts::new(&mut memory);
                 let mut fourier = FoldedFourier::take(&mut parts, samples, orders).unwrap();
                 fourier.take_scratch(&mut parts).unwrap();
                 let function = |c: usize, n: usize| {
                     let angle = angle(c.div_ceil(2), n, samples);
-                    if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+                    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
                 };
                 let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
                 let mut values = vec![f64::NAN; sample_length(samples)];
@@ -308,8 +307,8 @@ mod tests {
 
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
-        let (samples, orders) = (22, 5);
-        let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples)];
+        let (samples, orders) = (22, 6);
+        let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples, orders)];
         fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
         let fourier = FoldedFourier::take(&mut Parts::new(&mut memory), samples, orders).unwrap();
         let mut values = vec![0.0; sample_length(samples)];

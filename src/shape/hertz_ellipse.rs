@@ -134,7 +134,9 @@ impl Shape for HertzEllipse {
 
     /// Differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, which is the pressure of the size s.
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
-        let height = |s: f64| ((s - x.abs()) * (s + x.abs())).max(0.0).sqrt();
+        // The squares of distant points are not representable.
+        let x = x.abs().min(from.max(to));
+        let height = |s: f64| ((s - x) * (s + x)).max(0.0).sqrt();
         let (inner, outer) = (height(from), height(to));
         let difference = if inner > 0.0 { (to - from) * (to + from) / (outer + inner).max(TINY) } else { outer };
         let area = self.semi_axis_x.max(TINY) * self.semi_axis_y.max(TINY);

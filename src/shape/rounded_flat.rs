@@ -18,12 +18,11 @@ use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
-use crate::shape::{ORDER, Relation, Series, Shape, integrate_term, product_term, quotient_term, tractions};
+use crate::shape::{ORDER, Relation, Reversed, Series, Shape, tractions};
 use core::f64::consts::{LN_2, PI};
 
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
-
 /// A flat with rounded edges pressed on a flat.
 #[derive(Debug, Clone, Copy)]
 pub struct RoundedFlat {
@@ -126,9 +125,15 @@ impl RoundedFlat {
         let mut w = RoundedPunch::initial_guess_w(self.flat, load);
         for _ in 0..60 {
             let punch = self.punch_at(w);
+            let compliance = self.log_compliance(&punch, constant);
+            if compliance <= 0.0 {
+                // Beyond the largest size: the steps from below do not overshoot, because the logarithm is concave.
+                w *= 0.5;
+                continue;
+            }
             let found = self.integrated_compliance(&punch, constant);
-            let slope = 4.0 * w * w * punch.psi * self.log_compliance(&punch, constant) / found;
-            let step = (value / found).ln() / slope;
+            let slope = 4.0 * w * w * punch.psi * compliance / found;
+            let step = ((value / found).ln() / slope).clamp(-4.0, 4.0);
             w *= step.exp();
             if step.abs() < 1e-9 {
                 break;
@@ -161,7 +166,8 @@ impl Shape for RoundedFlat {
         let punch = self.punch_at(w);
         let load = punch.load();
         let compliance = self.log_compliance(&punch, self.tangential_constant) + punch.gamma(load);
-        0.5 * (self.load_scale * load) * (self.load_scale * load) * self.compliance_scale * compliance
+        // The square of a small load would underflow.
+        0.5 * (self.load_scale * load) * (self.load_scale * load * self.compliance_scale * compliance)
     }
 
     fn normal_compliance(&self, w: f64) -> f64 {
@@ -216,35 +222,59 @@ impl Shape for RoundedFlat {
         let punch = self.punch_at(w);
         let (flat, constant) = (self.flat, [self.tangential_constant, self.normal_constant]);
         let constant = constant[usize::from(relation == Relation::LoadOfApproach)];
-        let mut compliance = [0.0; ORDER];
+        let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
         compliance[0] = self.compliance_scale * self.log_compliance(&punch, constant);
-        let (mut size, mut angle, mut load, mut shift) = ([0.0; ORDER], [0.0; ORDER], [0.0; ORDER], [0.0; ORDER]);
-        (size[0], angle[0], load[0]) = (w, punch.psi, self.load_scale * punch.load());
+        (size[0], load[0]) = (w, self.load_scale * punch.load());
         shift[0] = self.load_scale * self.compliance_scale * self.integrated_compliance(&punch, constant);
-        let (mut size_angle, mut half_width_2) = ([0.0; ORDER], [0.0; ORDER]);
-        let (mut load_1, mut size_1, mut angle_1, mut compliance_1) =
-            ([0.0; ORDER], [0.0; ORDER], [0.0; ORDER], [0.0; ORDER]);
+        let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
+        let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
+        let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / self.load_scale);
+        let (per_size_angle, per_half_width_2) = (1.0 / (w * punch.psi), 1.0 / (w * w + flat * flat));
+        size_reversed.set(0, w);
+        angle.set(0, punch.psi);
         for k in 0..ORDER {
-            size_angle[k] = product_term(&size, &angle, k);
-            half_width_2[k] = product_term(&size, &size, k) + if k == 0 { flat * flat } else { 0.0 };
-            load_1[k] = if relation == Relation::ShiftOfLoad {
-                if k == 0 { load[0] } else { 0.0 }
+            size_angle[k] = angle.product_term(&size, k);
+            half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
+            let load_growth = if relation == Relation::ShiftOfLoad {
+                let growth = if k == 0 { load[0] } else { 0.0 };
+                load_1.set(k, growth);
+                growth
             } else {
-                quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, &load_1, k)
+                load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
             };
-            size_1[k] = quotient_term(load_1[k] / (4.0 * self.load_scale), &size_angle, &size_1, k);
-            angle_1[k] = quotient_term(flat * size_1[k], &half_width_2, &angle_1, k);
-            let growth = -self.compliance_scale * product_term(&size, &size_1, k);
-            compliance_1[k] = quotient_term(growth, &half_width_2, &compliance_1, k);
+            let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
+            let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
+            let growth = -self.compliance_scale * size_1.product_term(&size, k);
+            let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
+            let per_order = PER_ORDER[k];
             if relation == Relation::ShiftOfLoad {
-                integrate_term(&mut shift, k, product_term(&compliance, &load_1, k));
+                set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
             }
-            integrate_term(&mut load, k, load_1[k]);
-            integrate_term(&mut size, k, size_1[k]);
-            integrate_term(&mut angle, k, angle_1[k]);
-            integrate_term(&mut compliance, k, compliance_1[k]);
+            set(&mut load, k + 1, per_order * load_growth);
+            set(&mut size, k + 1, per_order * size_growth);
+            set(&mut compliance, k + 1, per_order * compliance_growth);
+            size_reversed.set(k + 1, per_order * size_growth);
+            angle.set(k + 1, per_order * angle_growth);
         }
         if relation == Relation::ShiftOfLoad { shift } else { load }
+    }
+}
+
+/// 1/(k + 1).
+const PER_ORDER: [f64; ORDER] = {
+    let mut reciprocals = [1.0; ORDER];
+    let mut k = 0;
+    while k < ORDER {
+        reciprocals[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    reciprocals
+};
+
+/// Sets a coefficient that the next round requires, if there is one.
+fn set(series: &mut Series, k: usize, value: f64) {
+    if let Some(coefficient) = series.get_mut(k) {
+        *coefficient = value;
     }
 }
 

@@ -51,7 +51,9 @@ impl Knot {
     pub fn slope_from(&self, inner: &Knot, friction_coefficient: f64) -> f64 {
         let (falling, rising) = (inner.xi - self.xi, self.eta - inner.eta);
         // Exactly ±mu in a slip zone, which is parallel to an axis.
-        if falling <= 0.0 {
+        if falling <= 0.0 && rising <= 0.0 {
+            0.0
+        } else if falling <= 0.0 {
             friction_coefficient
         } else if rising <= 0.0 {
             -friction_coefficient
@@ -75,7 +77,7 @@ pub(crate) trait Diagram {
     fn knots(&self) -> &[[f64; 4]];
 
     /// Keeps the given number of knots from the centre outwards, and appends others.
-    fn replace(&mut self, kept: usize, new: &[Knot]);
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]);
 }
 
 /// A diagram that is read only: its changes are discarded.
@@ -86,7 +88,7 @@ impl Diagram for &[[f64; 4]] {
     }
 
     #[inline(always)]
-    fn replace(&mut self, _: usize, _: &[Knot]) {}
+    fn replace<const N: usize>(&mut self, _: usize, _: [Knot; N]) {}
 }
 
 /// The step to a closed contact with the given normal state at the displacement u.
@@ -95,15 +97,24 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     let mu = element.friction_coefficient;
     let Normal { load, shift, load_slope, shift_slope } = *normal;
     let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
+    // Coulomb's bound, of which a sum of forces may be off by rounding.
+    let bounded = |force: f64, bound: f64| if force > bound { bound } else { force };
+    let end = |force: f64| Knot { xi, eta, load, force: -bounded(-bounded(force, mu * load), mu * load) };
     let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
     let knots = diagram.knots();
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
     let (stays, beyond) = knots.split_at_checked(kept).unwrap_or((knots, &[]));
     let Some(inner) = stays.last().copied().map(Knot::from) else {
         let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
-        let (sign, origin) = if centre <= xi { (mu, xi) } else { (-mu, eta) };
+        // A size below the rounding of displacements keeps the direction of its slip.
+        let before = knots.last().map_or(0.0, |&[.., force]| force);
+        let (sign, origin) = match (centre <= xi, centre >= eta) {
+            (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
+            (true, false) => (mu, xi),
+            _ => (-mu, eta),
+        };
         let force = sign * load;
-        diagram.replace(0, &[Knot::centre(origin), Knot { xi, eta, load, force }]);
+        diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
         return Response { force, by_displacement: 0.0, by_input: sign * load_slope };
     };
     let Some(outer) = beyond.first().copied().map(Knot::from) else {
@@ -111,36 +122,70 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         let (falling, rising) = (inner.xi - xi, eta - inner.eta);
         let per_shift = 1.0 / (rising + falling);
         let slope = mu * ((rising - falling) * per_shift);
-        let secant = (load - inner.load) * (2.0 * mu * per_shift);
-        let force = inner.force + slope * (load - inner.load);
-        diagram.replace(kept, &[Knot { xi, eta, load, force }]);
-        return Response { force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) };
+        let rise = element.per_two_mu * (rising + falling);
+        // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
+        // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
+        let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
+        let share = rise / shift.min(element.largest_shift - shift).max(rise);
+        let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
+            element.load_at_shift(shift - 0.5 * rise).1
+        } else {
+            (load - inner.load) * (2.0 * mu * per_shift)
+        };
+        let end = end(inner.force + slope * (load - inner.load));
+        diagram.replace(kept, [end]);
+        let by_input = slope * (load_slope - secant * shift_slope);
+        return Response { force: end.force, by_displacement: secant, by_input };
     };
-    // The piece from `inner` to `outer` leaves the quadrant through one of its sides.
+    // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
-    let (cut_xi, cut_eta, sign) = if falling * to_eta >= rising * to_xi {
-        // ξ = ξ1 is reached first; falling > 0 because the outer knot is beyond.
-        (xi, inner.eta + along(to_xi, falling, rising), mu)
-    } else {
-        (inner.xi - along(to_eta, rising, falling), eta, -mu)
+    let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
+        (true, true) => shares([to_xi, to_eta], [falling, rising]),
+        // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
+        (true, false) => [0.0, BEYOND],
+        _ => [BEYOND, 0.0],
     };
+    let slope = outer.slope_from(&inner, mu);
+    if to_side == to_other {
+        // The contact recedes through the piece, or stays: nothing slips.
+        let stays = (outer.xi, outer.eta) == (xi, eta);
+        let end = end(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
+        diagram.replace(kept, [end]);
+        return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
+    }
+    let (cut_xi, cut_eta, sign) = if to_side < to_other {
+        (xi, inner.eta + rising * to_side, mu)
+    } else {
+        (inner.xi - falling * to_other, eta, -mu)
+    };
+    // A step to the same displacement changes nothing, to the bit.
+    let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
+    let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
     let (cut_load, cut_stiffness) = element.load_at_shift((element.per_two_mu * (cut_eta - cut_xi)).max(0.0));
-    let cut_force = inner.force + outer.slope_from(&inner, mu) * (cut_load - inner.load);
-    let force = cut_force + sign * (load - cut_load);
-    let cut = Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force: cut_force };
-    diagram.replace(kept, &[cut, Knot { xi, eta, load, force }]);
+    let cut = if at_outer {
+        outer
+    } else {
+        let force = inner.force + slope * (cut_load - inner.load);
+        Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force }
+    };
+    let end = end(cut.force + sign * (load - cut.load));
+    if cut.xi > xi || cut.eta < eta {
+        diagram.replace(kept, [cut, end]);
+    } else {
+        diagram.replace(kept, [end]);
+    }
     let by_input = sign * (load_slope - cut_stiffness * shift_slope);
-    Response { force, by_displacement: cut_stiffness, by_input }
+    Response { force: end.force, by_displacement: cut_stiffness, by_input }
 }
 
-/// The other coordinate along a piece that covers `whole` and `other`, at a part of the first one. A slip zone, the common case, covers
-/// nothing in the other one, and there the table that follows need not wait for a division.
-#[inline(always)]
-fn along(part: f64, whole: f64, other: f64) -> f64 {
-    #[cold]
-    fn proportion(part: f64, whole: f64, other: f64) -> f64 {
-        other * (part / whole)
-    }
-    if other > 0.0 { proportion(part, whole, other) } else { 0.0 }
+/// Beyond the end of a piece.
+const BEYOND: f64 = 2.0;
+
+/// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
+#[cold]
+#[inline(never)]
+fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
+    let share = |distance: f64, length: f64| if length >= distance { distance / length } else { BEYOND };
+    [share(distances[0], lengths[0]), share(distances[1], lengths[1])]
 }

@@ -46,9 +46,10 @@ pub struct Element {
     pub(crate) checksum: u64,
     /// 1/(2 mu); 0 without friction.
     pub(crate) per_two_mu: f64,
-    /// The largest normal force and approach for which the laws hold.
+    /// The largest normal force, approach and shift for which the laws hold.
     largest_load: f64,
     largest_approach: f64,
+    pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`TOUCHING`] of that of the tables: there squares and products would underflow.
     smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
@@ -71,6 +72,9 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 
+/// Of the normal force of the parameters, 2^-150: sizes of smaller loads are not distinguished.
+const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
+
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalPoint {
@@ -91,11 +95,6 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
-
-    /// 1/K_t of the whole contact \[N/m\], which is closed.
-    pub fn tangential_stiffness(&self) -> f64 {
-        self.load_slope / self.shift_slope
-    }
 }
 
 impl Element {
@@ -175,7 +174,6 @@ impl Element {
         input: NormalInput,
         kind: u64,
     ) -> Result<(), Error> {
-        in_range(&[friction_coefficient.max(f64::MIN_POSITIVE.sqrt())], &[])?;
         let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
         if w >= largest {
             return Err(Error::LengthTooShort);
@@ -183,8 +181,12 @@ impl Element {
         let (approach, shift) = (shape.approach(w), shape.shift(w));
         for value in [approach, shift, normal_force] {
             in_range(&[value], &[])?;
+            if friction_coefficient > 0.0 {
+                in_range(&[value, friction_coefficient], &[])?;
+            }
         }
-        (self.largest_load, self.largest_approach) = (shape.load(largest), shape.approach(largest));
+        self.largest_load = shape.load(largest);
+        (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
         self.smallest_input = TOUCHING * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
@@ -196,15 +198,19 @@ impl Element {
         (self.directions, self.normal_input) = (1, input as i32);
         self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
+        // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
+        let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
-        self.load_of_shift.fill(shift, &load_of_shift);
+        self.load_of_shift.fill(regular(shift, self.largest_shift), &load_of_shift);
         match input {
             NormalInput::Approach => {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
-                self.of_input.fill(approach, &load_of_approach);
+                self.of_input.fill(regular(approach, self.largest_approach), &load_of_approach);
             }
             NormalInput::Force => {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
+                // The load of the parameters without the rounding error of its size.
                 self.of_input.fill(normal_force, &shift_of_load);
             }
         }
@@ -245,9 +251,20 @@ impl Element {
         NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
     }
 
+    /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are
+    /// proportional to each other, so that no power of a size underflows.
+    fn smallest_size(&self) -> f64 {
+        self.shape().at_load(SMALLEST_LOAD * self.normal_force)
+    }
+
     #[inline(never)]
     fn approach_outside(&self, normal_force: f64) -> NormalPoint {
         let shape = self.shape();
+        if normal_force > 0.0 && normal_force < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.approach(w) / shape.load(w);
+            return NormalPoint { value: slope * normal_force, slope };
+        }
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
         NormalPoint { value: shape.approach(w), slope }
@@ -257,14 +274,14 @@ impl Element {
     #[must_use]
     pub fn half_width_under(&self, normal_force: f64) -> f64 {
         let shape = self.shape();
-        if normal_force > 0.0 { shape.half_width(shape.at_load(normal_force)) } else { 0.0 }
+        let load = normal_force.max(TOUCHING * self.normal_force);
+        if normal_force > 0.0 { shape.half_width(shape.at_load(load)) } else { 0.0 }
     }
 
-    /// The tangential shift S \[m\] under a normal force \[N\].
+    /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
     #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
-        let shape = self.shape();
-        shape.shift(shape.at_load(load))
+        if load > 0.0 { self.shift_of_load(load).0 } else { 0.0 }
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
@@ -342,20 +359,105 @@ impl Element {
         }
     }
 
+    /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
+    #[inline(always)]
+    pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        if input.iter().all(|input| *input > 0.0) {
+            return self.four_closed::<SLOPES>(input);
+        }
+        // A closed contact in place of each open one.
+        let substitute = self.of_input.smallest();
+        let mut closed = *input;
+        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
+        let mut states = self.four_closed::<SLOPES>(&closed);
+        for values in &mut states {
+            for (value, input) in values.iter_mut().zip(input) {
+                *value = if *input > 0.0 { *value } else { 0.0 };
+            }
+        }
+        states
+    }
+
+    #[inline(always)]
+    fn four_closed<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        let (value, slope) = match self.of_input.four::<SLOPES>(input) {
+            Some(values) => values,
+            None => self.four_outside(input),
+        };
+        if !self.by_approach() {
+            return [*input, value, [1.0; 4], slope];
+        }
+        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
+        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            shift[k] = ratio * input[k] + per_load * value[k];
+            shift_slope[k] = ratio + per_load * slope[k];
+        }
+        [value, shift, slope, shift_slope]
+    }
+
+    #[inline(never)]
+    fn four_outside(&self, input: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
+        for ((value, slope), &input) in value.iter_mut().zip(&mut slope).zip(input) {
+            (*value, *slope) = match self.of_input.position(input) {
+                Some(at) => self.of_input.value_and_slope(input, at),
+                None => self.outside(input),
+            };
+        }
+        (value, slope)
+    }
+
+    /// N and, if requested, 1/K_t at four shifts S >= 0.
+    #[inline(always)]
+    pub(crate) fn four_loads<const SLOPES: bool>(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        match self.load_of_shift.four::<SLOPES>(shift) {
+            Some(values) => values,
+            None => self.four_loads_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn four_loads_outside(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut load, mut stiffness) = ([0.0; 4], [0.0; 4]);
+        for ((load, stiffness), &shift) in load.iter_mut().zip(&mut stiffness).zip(shift) {
+            (*load, *stiffness) = self.load_at_shift(shift);
+        }
+        (load, stiffness)
+    }
+
     /// N(U) or S(N) and its slope, from the shape.
     #[inline(never)]
     fn outside(&self, input: f64) -> (f64, f64) {
         if self.by_approach() {
             return self.load_of_approach_outside(input);
         }
+        self.shift_of_load(input)
+    }
+
+    /// S(N) and its slope, from the shape.
+    fn shift_of_load(&self, load: f64) -> (f64, f64) {
         let shape = self.shape();
-        let w = shape.at_load(input);
+        if load < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.shift(w) / shape.load(w);
+            return (slope * load, slope);
+        }
+        let w = shape.at_load(load);
         (shape.shift(w), shape.tangential_compliance(w))
     }
 
     #[inline(never)]
     fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
         let shape = self.shape();
+        if approach < self.approach {
+            let w = self.smallest_size();
+            let smallest = shape.approach(w);
+            if approach < smallest {
+                let slope = shape.load(w) / smallest;
+                return (slope * approach, slope);
+            }
+        }
         let w = shape.at_approach(approach);
         (shape.load(w), 1.0 / shape.normal_compliance(w))
     }
@@ -371,9 +473,10 @@ impl Element {
 
     #[inline(never)]
     fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
-        let shape = self.shape();
-        let w = shape.at_shift(shift);
-        if w > 0.0 { (shape.load(w), 1.0 / shape.tangential_compliance(w)) } else { (0.0, self.touching_stiffness()) }
+        match self.size_at_shift(shift) {
+            Ok(w) => (self.shape().load(w), 1.0 / self.shape().tangential_compliance(w)),
+            Err(slope) => (slope * shift.max(0.0), slope),
+        }
     }
 
     /// 1/K_t at first touch: 0 unless the contact has a flat.
@@ -393,10 +496,20 @@ impl Element {
 
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
+        let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
+        let [_, _, curvature, ..] = self.shape().series(w, Relation::LoadOfShift);
+        2.0 * curvature / (shift * shift)
+    }
+
+    /// The size at a shift outside the tables; below the smallest size, N/S as an error.
+    fn size_at_shift(&self, shift: f64) -> Result<f64, f64> {
         let shape = self.shape();
-        let w = shape.at_shift(shift);
-        let [_, _, curvature, ..] = shape.series(w.max(f64::MIN_POSITIVE), Relation::LoadOfShift);
-        if w > 0.0 { 2.0 * curvature / shift / shift } else { 0.0 }
+        if shift <= 0.0 {
+            return Err(self.touching_stiffness());
+        }
+        let smallest = self.smallest_size();
+        let smallest_shift = shape.shift(smallest);
+        if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
     }
 
     /// M at a shift S >= 0.
@@ -406,11 +519,10 @@ impl Element {
                 let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(shift, at)
             }
-            None => {
-                let shape = self.shape();
-                let w = shape.at_shift(shift);
-                if w > 0.0 { shape.potential(w) } else { 0.0 }
-            }
+            None => match self.size_at_shift(shift) {
+                Ok(w) => self.shape().potential(w),
+                Err(slope) => 0.5 * slope * shift * shift,
+            },
         }
     }
 }
@@ -431,6 +543,7 @@ const EMPTY: Element = Element {
     per_two_mu: 0.0,
     largest_load: 0.0,
     largest_approach: 0.0,
+    largest_shift: 0.0,
     smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,

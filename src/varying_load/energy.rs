@@ -37,6 +37,9 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
     let contact_rate = end - start;
+    if contact_rate == 0.0 && path.displacement == 0.0 {
+        return 0.0;
+    }
     let mut energy = 0.0;
     // Fraction of the path, size of the contact, boundary of the slip zone, and its direction once there is slip.
     let (mut fraction, mut outer, mut inner) = (0.0, start, start);
@@ -49,6 +52,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         };
         let (below, above) = (Knot::from(below), Knot::from(above));
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
+        let rate = |sign: f64| (path.displacement - sign * contact_rate) / (slope - sign);
         let sign = match direction {
             Some(sign) => sign,
             None => {
@@ -60,17 +64,19 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
                 } else {
                     path.displacement - slope * contact_rate
                 };
-                if excess == 0.0 {
-                    // The contact recedes through the piece without slip.
-                    if end >= lowest {
+                let sign = mu.copysign(excess);
+                // The edge of a slip zone is faster than the contact size, but for rounding.
+                let slips = excess != 0.0 && (slope == sign || contact_rate >= 0.0 || rate(sign) < contact_rate);
+                if !slips {
+                    // The contact recedes through the piece without slip, or rests; rounding may place a piece beyond its size.
+                    if end >= lowest || contact_rate == 0.0 {
                         return energy;
                     }
-                    fraction = (lowest - start) / contact_rate;
+                    fraction = ((lowest - start) / contact_rate).clamp(0.0, 1.0);
                     (outer, inner) = (lowest, lowest);
                     last -= 1;
                     continue;
                 }
-                let sign = mu.copysign(excess);
                 direction = Some(sign);
                 sign
             }
@@ -81,8 +87,11 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
             last -= 1;
             continue;
         }
-        let rate = ((path.displacement - sign * contact_rate) / (slope - sign)).min(0.0);
-        let to = |distance: f64, rate: f64| if rate < 0.0 { (distance / rate).max(0.0) } else { f64::INFINITY };
+        let rate = rate(sign).min(0.0);
+        // Fraction until a distance is covered, if that is within a step.
+        let to = |distance: f64, rate: f64| {
+            if rate < 0.0 && distance > rate { (distance / rate).max(0.0) } else { f64::INFINITY }
+        };
         let to_piece_end = to(lowest - inner, rate);
         let to_overtaking = to(inner - outer, contact_rate - rate);
         let step = to_piece_end.min(to_overtaking).min(1.0 - fraction);
@@ -113,15 +122,15 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * contact_rate) * sign.signum();
     // Mean of N along the rest of the path.
-    let (width, largest) = (path.shift[1] - outer, outer.max(path.shift[1]));
-    let mean: f64 = match nodes_for(width.abs(), largest) {
+    let (width, low, high) = (path.shift[1] - outer, outer.min(path.shift[1]), outer.max(path.shift[1]));
+    let mean: f64 = match nodes_between(element, low, high) {
         Some(nodes) => nodes.map(|(node, part)| part * element.load_at_shift(outer + node * width).0).sum(),
         None => {
             let potential = |s: f64| element.potential_at_shift(s.max(0.0));
             (potential(path.shift[1]) - potential(outer)) / width
         }
     };
-    mu * slip.max(0.0) * (1.0 - fraction) * mean
+    mu * slip.max(0.0) * (1.0 - fraction) * mean.max(0.0)
 }
 
 impl Slip {
@@ -135,7 +144,7 @@ impl Slip {
         }
         let growth = outer_end - outer_start;
         let weight = |s: f64| {
-            let mut from = ((inner_start - s) / swept).max(0.0);
+            let mut from = (inner_start - s).max(0.0) / swept;
             let mut to: f64 = 1.0;
             if growth < 0.0 && s > outer_end {
                 to = (s - outer_start) / growth;
@@ -163,8 +172,9 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
     if width <= 0.0 {
         return 0.0;
     }
-    if let Some(nodes) = nodes_for(width, high) {
-        let integrand = |s: f64| weight(s) * element.curvature_at_shift(s);
+    if let Some(nodes) = nodes_between(element, low, high) {
+        // Rounding may make N'' of a nearly flat contact negative.
+        let integrand = |s: f64| weight(s) * element.curvature_at_shift(s).max(0.0);
         return width * nodes.map(|(node, part)| part * integrand(low + node * width)).sum::<f64>();
     }
     let (first, last) = (weight(low), weight(high));
@@ -179,9 +189,10 @@ fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weig
     (at(high, last, slope + 0.5 * second * width) - at(low, first, slope - 0.5 * second * width)).max(0.0)
 }
 
-/// Nodes and weights for an integrand that is singular at S = 0 only, over an interval of the given width below (or above) a largest S;
-/// `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 for a quarter of the largest S and 62
-/// for a sixteenth: below the rounding of the sum.
-fn nodes_for(width: f64, largest: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
-    (width <= 0.25 * largest).then(|| gauss_nodes(if width < 0.0625 * largest { 1 } else { 2 }))
+/// Nodes and weights for an integrand that is singular at S = 0, and beyond the largest size, where the compliance of a short contact
+/// vanishes; `None` if the interval is wide. With n nodes the error is of the order ρ^(-2n), where ρ is 14 if the interval is a quarter
+/// of the larger end or of the distance to the largest shift, and 62 if it is a sixteenth: below the rounding of the sum.
+fn nodes_between(element: &Element, low: f64, high: f64) -> Option<impl Iterator<Item = (&'static f64, &'static f64)>> {
+    let (width, reach) = (high - low, high.min(element.largest_shift - low));
+    (width <= 0.25 * reach).then(|| gauss_nodes(if width < 0.0625 * reach { 1 } else { 2 }))
 }

@@ -68,12 +68,17 @@ pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize), Error> {
 struct Layout(Size);
 
 /// Arrays over the samples.
-const SAMPLE_ARRAYS: usize = 20;
+const SAMPLE_ARRAYS: usize = 19;
 
 impl Layout {
     /// Doubles of the rows over the coefficients of all samples.
     fn rows_length(&self) -> usize {
         4 * row_blocks(self.0.harmonics) * self.0.samples
+    }
+
+    /// Doubles of the pairs of functions of all samples.
+    fn pairs_length(&self) -> usize {
+        4 * row_blocks(self.0.harmonics) * sample_length(self.0.samples)
     }
 
     /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
@@ -110,11 +115,13 @@ impl WorkspaceLayout for Layout {
         let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
-            + folded_fourier::scratch_length(samples)
+            + folded_fourier::scratch_length(samples, 2 * harmonics)
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
             + 2 * self.rows_length()
+            + self.pairs_length()
+            + 4 * row_blocks(harmonics)
             + jacobian::memory_length(harmonics)
     }
 
@@ -176,7 +183,7 @@ impl<'a> Workspace<'a> {
             last_cut_force: array()?,
             last_cut_load: array()?,
         };
-        let (own, places, touched) = ([array()?, array()?], array()?, array()?);
+        let (own, places) = ([array()?, array()?], array()?);
         let walk = Walk {
             knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
             runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
@@ -186,6 +193,8 @@ impl<'a> Workspace<'a> {
         let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
         let gathered = [blocks(layout.pieces_length())?, blocks(layout.pieces_length())?];
         let (by_displacement, by_input) = (blocks(layout.rows_length())?, blocks(layout.rows_length())?);
+        let covered = blocks(4 * row_blocks(harmonics))?;
+        let touched_pairs = parts.take(layout.pairs_length())?.as_chunks_mut().0;
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity {
             row_blocks: row_blocks(harmonics),
@@ -194,8 +203,9 @@ impl<'a> Workspace<'a> {
             pieces,
             gathered,
             places,
-            touched,
-            touched_count: 0,
+            touched: 0,
+            touched_pairs,
+            covered,
             by_displacement,
             by_input,
             own,
@@ -234,8 +244,8 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// # Errors
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would be too wide
-/// for its length at a sample.
+/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
+/// wide for its length.
 #[inline(always)]
 pub fn harmonic_force(
     element: &Element,
@@ -252,7 +262,7 @@ pub fn harmonic_force(
     }
     check_coefficients(displacement)?;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
-    let motion = workspace.press(element, tangential, input)?;
+    let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
     let has_friction = !motion.open && element.friction_coefficient > 0.0;
     let needs_forces = force.is_some() || jacobian.is_some();
     let mut part = None;
@@ -261,10 +271,12 @@ pub fn harmonic_force(
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
-            let runs = evaluate_forces(element, samples, part, walk, tractions, jacobian.is_some());
+            let extent = walk.evaluate(element, samples, part);
+            let runs = walk.runs(extent, part, samples.count);
+            tractions.evaluate(element, samples, walk.cuts(extent), runs.clone(), jacobian.is_some());
             if jacobian.is_some() {
                 let context = Context { element, samples, part };
-                sensitivity.gather(&context, tractions, walk.cut_shift, walk.runs.get(..runs).unwrap_or(&[]));
+                sensitivity.gather(&context, tractions, walk.cut_shift, runs);
             }
         }
     }
@@ -282,6 +294,19 @@ pub fn harmonic_force(
     Ok(())
 }
 
+/// The least and the largest value.
+#[inline(always)]
+fn range_of(values: &[f64]) -> (f64, f64) {
+    let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
+    for block in values.as_chunks::<4>().0 {
+        for k in 0..4 {
+            least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+            largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
+        }
+    }
+    (least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max))
+}
+
 /// Rows of T in a column of the Jacobian.
 fn upper(column: &mut [f64], coefficients: usize) -> &mut [f64] {
     column.get_mut(..coefficients).unwrap_or(&mut [])
@@ -290,23 +315,6 @@ fn upper(column: &mut [f64], coefficients: usize) -> &mut [f64] {
 /// Rows of N.
 fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
     column.get_mut(coefficients..).unwrap_or(&mut [])
-}
-
-/// Evaluates the tangential forces of a part of the period; returns the number of runs.
-#[inline(always)]
-fn evaluate_forces(
-    element: &Element,
-    samples: &Samples,
-    part: &Part,
-    walk: &mut Walk,
-    tractions: &mut Tractions,
-    with_stiffness: bool,
-) -> usize {
-    let extent = walk.evaluate(element.friction_coefficient, element.by_approach(), samples, part);
-    let cut_shift = walk.cut_shift.get(..extent.cuts).unwrap_or(&[]);
-    tractions.evaluate_cuts(element, cut_shift, with_stiffness);
-    tractions.evaluate(element.friction_coefficient, samples, walk.runs.get(..extent.runs).unwrap_or(&[]));
-    extent.runs
 }
 
 impl Workspace<'_> {
@@ -322,7 +330,7 @@ impl Workspace<'_> {
         if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
             return Ok(());
         }
-        self.press(element, tangential, input).map(|_| ())
+        self.press(element, tangential, input, false).map(|_| ())
     }
 
     /// Evaluates the normal states of the samples.
@@ -330,7 +338,13 @@ impl Workspace<'_> {
     /// # Errors
     /// `BadNormalForce`, `LengthTooShort`.
     #[inline(always)]
-    fn press(&mut self, element: &Element, tangential: &[f64], input: &[f64]) -> Result<Motion, Error> {
+    fn press(
+        &mut self,
+        element: &Element,
+        tangential: &[f64],
+        input: &[f64],
+        with_slopes: bool,
+    ) -> Result<Motion, Error> {
         let Workspace { fourier, samples, .. } = self;
         let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
         let has = |coefficients: &[f64], parity: usize| {
@@ -342,40 +356,40 @@ impl Workspace<'_> {
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
             open: false,
         };
-        if element.by_approach() {
-            motion.open = mean + swing <= 0.0;
+        let rounding = if element.by_approach() {
+            motion.open = !element.is_closed(mean + swing);
+            f64::MAX
         } else {
-            let rounding = NORMAL_FORCE_ROUNDING * (mean.abs() + swing);
-            if mean < -rounding {
-                return Err(Error::BadNormalForce);
-            }
-            motion.open = motion.constant && mean <= 0.0;
-            if !motion.constant {
-                fourier.synthesise(input, samples.input);
-                let least = samples.input.iter().copied().fold(f64::MAX, f64::min);
-                if least < -rounding {
-                    return Err(Error::BadNormalForce);
-                }
-                samples.input.iter_mut().for_each(|force| *force = force.max(0.0));
-            }
+            NORMAL_FORCE_ROUNDING * (mean.abs() + swing)
+        };
+        if motion.open {
+            return Ok(motion);
         }
+        let (mut least, mut largest) = (mean, mean);
+        if !motion.constant {
+            fourier.synthesise(input, samples.input);
+            (least, largest) = range_of(samples.input);
+        }
+        if least < -rounding {
+            return Err(Error::BadNormalForce);
+        }
+        element.check_input(largest.max(0.0))?;
+        motion.open = !element.is_closed(largest);
         if motion.open {
             return Ok(motion);
         }
         if motion.constant {
-            element.check_input(mean)?;
             samples.input.fill(mean);
             samples.press_constantly(&element.normal(mean));
         } else {
-            if element.by_approach() {
-                fourier.synthesise(input, samples.input);
+            if !element.is_closed(least) {
+                let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
+                samples.input.iter_mut().for_each(|input| *input = open(*input));
             }
-            if element.check_input(mean.abs() + swing).is_err() {
-                samples.input.iter().try_for_each(|input| element.check_input(*input))?;
-            }
-            motion.open = samples.input.iter().all(|input| *input <= 0.0);
-            if !motion.open {
-                samples.press(element);
+            if with_slopes {
+                samples.press::<true>(element);
+            } else {
+                samples.press::<false>(element);
             }
         }
         Ok(motion)
@@ -441,7 +455,7 @@ impl Workspace<'_> {
             }
         }
         let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
-        if motion.open {
+        if motion.open && element.by_approach() {
             return;
         }
         if motion.constant || !element.by_approach() {

@@ -187,7 +187,7 @@ fn opening_or_closing(
             let path = Path { shift: [from.normal.shift, 0.0], displacement: crossing - from.displacement };
             step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
-        diagram.replace(0, &[Knot::centre(displacement)]);
+        diagram.replace(0, [Knot::centre(displacement)]);
         return (step, to);
     }
     let centre = Knot::centre(crossing);
@@ -222,10 +222,10 @@ impl<D: Diagram> Diagram for Touching<'_, D> {
         &self.knots
     }
 
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.sticks = kept > 0;
-        match new {
-            [end] if self.sticks => self.diagram.replace(0, &[self.knots[0].into(), *end]),
+        match new[..] {
+            [end] if self.sticks => self.diagram.replace(0, [self.knots[0].into(), end]),
             _ => self.diagram.replace(0, new),
         }
     }
@@ -279,15 +279,15 @@ impl Diagram for Polygon<'_> {
     }
 
     #[inline(always)]
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.anew = kept == 0;
         self.used = kept;
-        match self.knots.get_mut(kept..kept + new.len()) {
+        match self.knots.get_mut(kept..).and_then(<[_]>::first_chunk_mut) {
             Some(places) => {
-                places.iter_mut().zip(new).for_each(|(place, knot)| *place = (*knot).into());
-                self.used += new.len();
+                *places = new.map(Into::into);
+                self.used += N;
             }
-            None => new.iter().for_each(|knot| self.push(*knot)),
+            None => new.into_iter().for_each(|knot| self.push(knot)),
         }
     }
 }
@@ -393,12 +393,17 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
         return Err(Error::BadState);
     }
-    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => next_xi <= xi && next_eta >= eta && outer >= inner,
-        _ => true,
-    };
     let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
         return Err(Error::BadState);
+    };
+    // A knot is located by ξ and η: its load has their rounding errors, relative to the size of the contact.
+    let rounding = 16.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) * load;
+    let (size, allowed) = (0.5 * (last_eta - last_xi), rounding.min(f64::MAX));
+    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+            next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+        }
+        _ => true,
     };
     let centred = xi == eta && *first == 0.0 && *last <= load;
     // A frictionless or an open contact is its centre.
@@ -457,9 +462,11 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     Ok(())
 }
 
-/// As [`path`], from a copy of the state that holds at most 256 pieces exactly.
+/// As [`path`], from a copy of the state of the same length, but for at most 256 pieces.
 pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
     let mut buffer = [0.0; state_length(PIECES_OF_COPY)];
-    copy(element, state, &mut buffer);
-    path(element, &mut buffer, steps, output)
+    let length = state.len().min(buffer.len());
+    let buffer = buffer.get_mut(..length).ok_or(Error::StateTooShort)?;
+    copy(element, state, buffer);
+    path(element, buffer, steps, output)
 }

@@ -6,6 +6,7 @@
 //! middle has 16 terms, of which Chebyshev economization leaves 12.
 
 use crate::shape::{ORDER, Series};
+use wide::f64x2;
 
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
@@ -75,6 +76,23 @@ impl Table {
         (x * q, q + at.scaled * dq)
     }
 
+    /// The smallest argument inside.
+    #[inline(always)]
+    pub fn smallest(&self) -> f64 {
+        f64::from_bits(self.base << SHIFT)
+    }
+
+    /// Values and, if requested, slopes at four arguments; `None` if one is outside.
+    #[inline(always)]
+    pub fn four<const SLOPES: bool>(&self, &[a, b, c, d]: &[f64; 4]) -> Option<([f64; 4], [f64; 4])> {
+        let row = |x: f64| self.quarters.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize);
+        let rows = (row(a), row(b), row(c), row(d));
+        let (Some(row_a), Some(row_b), Some(row_c), Some(row_d)) = rows else { return None };
+        let ([a, b], [slope_a, slope_b]) = two::<SLOPES>([a, b], [row_a, row_b]);
+        let ([c, d], [slope_c, slope_d]) = two::<SLOPES>([c, d], [row_c, row_d]);
+        Some(([a, b, c, d], [slope_a, slope_b, slope_c, slope_d]))
+    }
+
     /// y''.
     #[inline(always)]
     pub fn curvature(&self, x: f64, at: Position) -> f64 {
@@ -107,6 +125,51 @@ impl Position {
     pub fn index(&self) -> usize {
         self.index
     }
+}
+
+/// Values and, if requested, slopes at two arguments from their rows.
+///
+/// The blocks of four coefficients are combined for each argument; the cubics that remain are transposed and evaluated together.
+#[inline(always)]
+fn two<const SLOPES: bool>(x: [f64; 2], rows: [&[f64; TERMS]; 2]) -> ([f64; 2], [f64; 2]) {
+    let mantissa = |x: f64, kept: u32| f64::from_bits((x.to_bits() & ((1 << kept) - 1)) | EXPONENT_OF_1);
+    let fractions = f64x2::new([mantissa(x[0], SHIFT), mantissa(x[1], SHIFT)]);
+    let t = fractions * f64x2::splat(POSITION) - f64x2::splat(POSITION + 1.0);
+    let t2 = t * t;
+    let [power_a, power_b] = (t2 * t2).to_array();
+    let [(low_a, high_a), (low_b, high_b)] = [cubic::<SLOPES>(rows[0], power_a), cubic::<SLOPES>(rows[1], power_b)];
+    let ([c0, c1], [c2, c3]) = (transposed(low_a[0], low_b[0]), transposed(high_a[0], high_b[0]));
+    let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
+    let values = (f64x2::new(x) * q).to_array();
+    if !SLOPES {
+        return (values, [0.0; 2]);
+    }
+    // With P1 and P2 the blocks behind the first, d/dt of P0 + t⁴ P1 + t⁸ P2 is that of the cubic, plus 4t³ (P1 + 2 t⁴ P2).
+    let ([d0, d1], [d2, d3]) = (transposed(low_a[1], low_b[1]), transposed(high_a[1], high_b[1]));
+    let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
+    let by_cubic = (c1 + (c2 + c2) * t) + f64x2::splat(3.0) * (c3 * t2);
+    let scaled = f64x2::new([mantissa(x[0], 52), mantissa(x[1], 52)]) * f64x2::splat(POSITION);
+    let slopes = q + scaled * (by_cubic + f64x2::splat(4.0) * (t * t2) * by_blocks);
+    (values, slopes.to_array())
+}
+
+/// Lower and upper half of P0 + t⁴ P1 + t⁸ P2, and of P1 + 2 t⁴ P2, given t⁴.
+#[inline(always)]
+fn cubic<const SLOPES: bool>(coefficients: &[f64; TERMS], power: f64) -> ([f64x2; 2], [f64x2; 2]) {
+    let &[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3] = coefficients;
+    let power = f64x2::splat(power);
+    let combined = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        let last = power * f64x2::new(c);
+        let high = f64x2::new(b) + last;
+        [f64x2::new(a) + power * high, if SLOPES { high + last } else { high }]
+    };
+    (combined([a0, a1], [b0, b1], [c0, c1]), combined([a2, a3], [b2, b3], [c2, c3]))
+}
+
+#[inline(always)]
+fn transposed(a: f64x2, b: f64x2) -> [f64x2; 2] {
+    let ([a0, a1], [b0, b1]) = (a.to_array(), b.to_array());
+    [f64x2::new([a0, b0]), f64x2::new([a1, b1])]
 }
 
 /// Middle and half-length of the quarter with this exponent and leading bits.

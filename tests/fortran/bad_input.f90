@@ -1,28 +1,30 @@
 program bad_input
-  ! Every procedure with a contact, by a table: each subset of the optional outputs, arrays of wrong size, invalid values (quiet
-  ! and signalling NaN, infinities), and memory that was never initialised or truncated. Each error has its own status and
-  ! modifies no output; compiled with traps, none raises a signal.
+  ! Every procedure with a contact or an element, by a table: each subset of the optional outputs, arrays of wrong size, invalid
+  ! values (quiet and signalling NaN, infinities), and memory that was never initialised or truncated. Each error has its own
+  ! status and modifies no output; compiled with traps, none raises a signal.
   use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use microslip
   use checks
   implicit none
 
-  integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, bad_values = 5
-  integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4
+  integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, me = 2*m, bad_values = 5
+  integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4, pieces = 4
+  integer(mslip_int), parameter :: one = 1
   integer(c_int64_t), parameter :: signalling(2) = [int(z'7FF0000000000001', c_int64_t), int(z'7FF4000000000000', c_int64_t)]
   integer(mslip_int), parameter :: none = MSLIP_OK, position = MSLIP_BAD_POSITION, force = MSLIP_BAD_FORCE, &
-    amplitude = MSLIP_BAD_AMPLITUDE, force_amplitude = MSLIP_BAD_FORCE_AMPLITUDE, shift = MSLIP_BAD_DISPLACEMENT
+    amplitude = MSLIP_BAD_AMPLITUDE, force_amplitude = MSLIP_BAD_FORCE_AMPLITUDE, shift = MSLIP_BAD_DISPLACEMENT, &
+    load = MSLIP_BAD_NORMAL_FORCE
 
   type :: procedure_info
     character(len=28) :: name
     integer(mslip_int) :: scalar, array  ! Status of an invalid scalar, and of an invalid element of the input array.
     character(len=5) :: outputs          ! Four outputs and the new state: shapes as in `set_up`, upper case if required.
     character :: memory = ' '            ! s: state, w: workspace.
-    logical :: batch = .false.
+    logical :: batch = .false., element = .false.
   end type procedure_info
 
-  type(procedure_info), parameter :: procedures(23) = [ &
+  type(procedure_info), parameter :: procedures(36) = [ &
     procedure_info('tractions', force, position, 'vv'), &
     procedure_info('slip', force, position, 'vv'), &
     procedure_info('monotonic_displacement', none, force, 'vvv'), &
@@ -45,7 +47,20 @@ program bad_input
     procedure_info('batch_complex_stiffness', none, amplitude, 'vvvv', batch=.true.), &
     procedure_info('batch_masing_update', none, shift, 'vvv B', 's', .true.), &
     procedure_info('batch_masing_advance', none, shift, 'vvv', 's', .true.), &
-    procedure_info('batch_harmonic_force', none, shift, 'fkv', 'w', .true.)]
+    procedure_info('batch_harmonic_force', none, shift, 'fkv', 'w', .true.), &
+    procedure_info('element_update', none, shift, 'pts N', 's', element=.true.), &
+    procedure_info('element_advance', none, shift, 'pts', 's', element=.true.), &
+    procedure_info('element_path', none, shift, 'abv N', 's', element=.true.), &
+    procedure_info('element_path_advance', none, shift, 'abv', 's', element=.true.), &
+    procedure_info('element_tractions', none, position, 'vv', 's', element=.true.), &
+    procedure_info('normal_force_at', none, shift, 'vvv', element=.true.), &
+    procedure_info('normal_force_at, one', shift, none, 'sss', element=.true.), &
+    procedure_info('normal_approach', none, load, 'vvv', element=.true.), &
+    procedure_info('normal_approach, one', load, none, 'sss', element=.true.), &
+    procedure_info('element_harmonic_force', none, shift, 'des', 'w', element=.true.), &
+    procedure_info('batch_element_update', none, shift, 'abv B', 's', .true., .true.), &
+    procedure_info('batch_element_advance', none, shift, 'abv', 's', .true., .true.), &
+    procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.)]
 
   ! One component is allocated; if none is, the argument is absent.
   type :: output
@@ -53,8 +68,10 @@ program bad_input
   end type output
 
   type(mslip_contact), allocatable :: contacts(:)
+  type(mslip_element), allocatable :: elements(:)
   type(output) :: out(5)
   real(wp), allocatable :: x(:), u(:, :), state(:), states(:, :), workspace(:)
+  real(wp), allocatable :: pair(:), pairs(:, :)  ! Displacements of an element.
   integer(mslip_int), allocatable :: index(:), active(:)
   real(wp) :: scalar, bad(bad_values)
   integer(mslip_int) :: status
@@ -75,6 +92,9 @@ program bad_input
   call test_contact_check()
   call test_state_check()
   call test_workspace()
+  call test_elements()
+  call test_element_state()
+  call test_element_workspace()
   call check('every status is returned, but for NULL pointers and misaligned ones', &
     all([(was_returned(int(p, mslip_int)) .or. mslip_status_text(int(p, mslip_int)) == mslip_status_text(-1_mslip_int) &
     .or. p == MSLIP_NULL_POINTER .or. p == MSLIP_BAD_ALIGNMENT, p = 1, 127)]))
@@ -105,6 +125,12 @@ contains
     allocate (contacts(items))
     call mslip_contact_init(flat_parameters(), contacts(1), ok)
     contacts = contacts(1)
+    if (allocated(elements)) deallocate (elements)
+    allocate (elements(items))
+    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, elements(1), ok)
+    elements = elements(1)
+    pair = [1.0e-7_wp, 2.0e-7_wp]
+    pairs = spread(pair, 2, n)
     scalar = 1.0e-7_wp
     x = [1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp]
     u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp], 2, items)
@@ -117,9 +143,18 @@ contains
     state = spread(0.0_wp, 1, int(mslip_state_length(reversals)))
     call mslip_state_init(state, ok)
     call mslip_masing_path_advance(contacts(1), state, [2.0e-7_wp, 0.5e-7_wp, 1.5e-7_wp], ok)
-    states = spread(state, 2, n)
     workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
     call mslip_harmonic_workspace_init(h, samples, workspace, ok)
+    if (procedures(p)%element) then
+      state = spread(0.0_wp, 1, int(mslip_element_state_length(one, pieces)))
+      call mslip_element_state_init(one, state, ok)
+      call mslip_element_path_advance(elements(1), state, reshape([1.0e-8_wp, 1.0e-7_wp, 0.0_wp, 2.0e-7_wp], [2, 2]), ok)
+      call check_status('set up: state', ok, MSLIP_OK)
+      u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp, 2.0e-7_wp, 5.0e-8_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp], 2, items)
+      workspace = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
+      call mslip_element_workspace_init(one, h, samples, workspace, ok)
+    end if
+    states = spread(state, 2, n)
     call check_status('set up', ok, MSLIP_OK)
     do i = 1, size(out)
       out(i) = output()
@@ -132,6 +167,14 @@ contains
       case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
       case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
       case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
+      case ('p'); out(i)%v = spread(untouched, 1, 2)
+      case ('t'); out(i)%m = reshape([real(wp) ::], [2, 2], pad=[untouched])
+      case ('a'); out(i)%m = reshape([real(wp) ::], [2, n], pad=[untouched])
+      case ('b'); out(i)%t = reshape([real(wp) ::], [2, 2, n], pad=[untouched])
+      case ('d'); out(i)%v = spread(untouched, 1, me)
+      case ('e'); out(i)%m = reshape([real(wp) ::], [me, me], pad=[untouched])
+      case ('g'); out(i)%m = reshape([real(wp) ::], [me, n], pad=[untouched])
+      case ('h'); out(i)%t = reshape([real(wp) ::], [me, me, n], pad=[untouched])
       end select
     end do
   end subroutine set_up
@@ -164,6 +207,21 @@ contains
     case (22); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, out(3)%v)
     case (23)
       call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    case (24); call mslip_element_update(elements(1), state, pair, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
+    case (25); call mslip_element_advance(elements(1), state, pair, status, out(1)%v, out(2)%m, out(3)%s)
+    case (26); call mslip_element_path(elements(1), state, pairs, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
+    case (27); call mslip_element_path_advance(elements(1), state, pairs, status, out(1)%m, out(2)%t, out(3)%v)
+    case (28); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
+    case (29); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (30); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (31); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (32); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (33); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
+    case (34)
+      call mslip_batch_element_update(elements, states, pairs, out(5)%m, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    case (35); call mslip_batch_element_advance(elements, states, pairs, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    case (36)
+      call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
     end select
   end subroutine perform
 
@@ -203,7 +261,7 @@ contains
   logical function is_optional(i)
     integer, intent(in) :: i
 
-    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfk') > 0
+    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdegh') > 0
   end function is_optional
 
   subroutine test_subsets()
@@ -257,6 +315,15 @@ contains
     call set_up()
     u = reshape([u], shape(u) + [1, 0], pad=[0.0_wp])
     if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_ARRAY_SIZE)
+    if (procedures(p)%element .and. procedures(p)%memory == 's' .and. procedures(p)%array == shift) then
+      call set_up()
+      pair = [pair, 0.0_wp]
+      pairs = reshape([pairs], [3, n], pad=[0.0_wp])
+      call rejected('components', MSLIP_BAD_ARRAY_SIZE)
+      pair = pair(:1)
+      pairs = pairs(:1, :)
+      call rejected('components', MSLIP_BAD_ARRAY_SIZE)
+    end if
     if (.not. procedures(p)%batch) return
     call set_up()
     index = [index, 1_mslip_int]
@@ -266,7 +333,8 @@ contains
     call rejected('size of active', MSLIP_BAD_ARRAY_SIZE)
     call set_up()
     x = [x, 0.0_wp]
-    u = reshape([u], [m, n + 1], pad=[0.0_wp])
+    u = reshape([u], shape(u) + [0, 1], pad=[0.0_wp])
+    pairs = reshape([pairs], [2, n + 1], pad=[0.0_wp])
     call rejected('size of the input', MSLIP_BAD_ARRAY_SIZE)
     call set_up()
     states = reshape([states], [size(states, 1), n + 1], pad=[0.0_wp])
@@ -283,7 +351,10 @@ contains
       call set_up()
       x(n) = bad(k)
       u(m, size(u, 2)) = bad(k)
+      pair(1) = bad(k)
+      pairs(1, n) = bad(k)
       if (procedures(p)%array /= none) call rejected('array', procedures(p)%array)
+      if (procedures(p)%element .and. procedures(p)%array == shift .and. procedures(p)%memory /= ' ') call test_normal_value(bad(k))
     end do
     do k = -1, 1, 2
       call set_up()
@@ -296,13 +367,41 @@ contains
     end do
   end subroutine test_values
 
+  subroutine test_normal_value(value)
+    ! The normal component of a displacement is an approach or a normal force.
+    real(wp), intent(in) :: value
+
+    integer(mslip_int) :: ok
+    integer :: input, i
+
+    do input = 0, 1
+      call set_up()
+      do i = 1, size(elements)
+        call mslip_element_init(flat_parameters(), one, int(input, mslip_int), elements(i), ok)
+      end do
+      pair(2) = value
+      pairs(2, n) = value
+      u(m + 1, size(u, 2)) = value
+      if (input == MSLIP_APPROACH .or. procedures(p)%memory == 'w') then
+        call rejected('a normal component', MSLIP_BAD_DISPLACEMENT)
+      else
+        call rejected('a normal component', MSLIP_BAD_NORMAL_FORCE)
+      end if
+      pair(2) = merge(1.0_wp, -1.0_wp, input == MSLIP_APPROACH)
+      pairs(2, n) = pair(2)
+      u(m + 1, size(u, 2)) = pair(2)
+      call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_APPROACH))
+    end do
+  end subroutine test_normal_value
+
   subroutine test_memory()
-    ! Contacts, states and workspaces that were never initialised, hold other values, or are truncated.
+    ! Contacts, elements, states and workspaces that were never initialised, hold other values, or are truncated.
     integer :: k
 
     call set_up()
     contacts(size(contacts)) = mslip_contact()
-    call rejected('an uninitialised contact', MSLIP_BAD_CONTACT)
+    elements(size(elements)) = mslip_element()
+    call rejected('an uninitialised contact or element', merge(MSLIP_BAD_ELEMENT, MSLIP_BAD_CONTACT, procedures(p)%element))
     if (procedures(p)%name == 'slip') then
       call set_up()
       call mslip_contact_init_elliptic(ellipse_parameters(), contacts(1), status)
@@ -345,8 +444,10 @@ contains
       call set_up()
       if (k == 1) x(n) = bad(4)
       if (k == 1) u(:, n) = bad(4)
+      if (k == 1) pairs(:, n) = bad(4)
       if (k == 2) index(n) = 0
       if (k == 3) contacts(n) = mslip_contact()
+      if (k == 3) elements(n) = mslip_element()
       active(n) = 0
       call perform()
       call check_status(trim(procedures(p)%name)//': an invalid item is skipped', status, MSLIP_OK)
@@ -474,6 +575,152 @@ contains
     call check_status('error of an uninitialised state', status, MSLIP_BAD_STATE)
     call check('error of an uninitialised state', is_untouched([error]))
   end subroutine test_state_check
+
+  subroutine test_elements()
+    ! Invalid parameters, numbers of directions and normal inputs; any changed bit.
+    integer(mslip_int), parameter :: directions(5) = [0_mslip_int, -1_mslip_int, 3_mslip_int, huge(one), 2_mslip_int]
+    type(mslip_parameters) :: parameters
+    type(mslip_elliptic_parameters) :: ellipse, unset
+    type(mslip_element) :: element
+    real(wp) :: words(storage_size(element)/64)
+    integer(mslip_int) :: expected
+    integer :: i, bit, found, changed
+
+    element%half_width = untouched
+    do i = 1, size(directions)
+      expected = merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, i == 5)
+      call mslip_element_init(flat_parameters(), directions(i), MSLIP_APPROACH, element, status)
+      call check_status('directions of an element', status, expected)
+      call mslip_element_init_elliptic(ellipse_parameters(), directions(i), MSLIP_APPROACH, element, status)
+      call check_status('directions of an elliptical element', status, expected)
+      call check('no state for these directions', mslip_element_state_length(directions(i), pieces) == 0)
+    end do
+    call mslip_element_init(flat_parameters(), one, 2_mslip_int, element, status)
+    call check_status('normal input of an element', status, MSLIP_BAD_NORMAL_INPUT)
+    call mslip_element_init_elliptic(ellipse_parameters(), one, -1_mslip_int, element, status)
+    call check_status('normal input of an elliptical element', status, MSLIP_BAD_NORMAL_INPUT)
+    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call check_status('an element of unset parameters', status, MSLIP_BAD_FLAT_HALF_WIDTH)
+    call mslip_element_init_elliptic(unset, one, MSLIP_APPROACH, element, status)
+    call check_status('an elliptical element of unset parameters', status, MSLIP_BAD_SEMI_AXIS_X)
+    parameters = flat_parameters()
+    parameters%normal_force = 0
+    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call check_status('an element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
+    ellipse = ellipse_parameters()
+    ellipse%normal_force = 0
+    call mslip_element_init_elliptic(ellipse, one, MSLIP_APPROACH, element, status)
+    call check_status('an elliptical element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
+    parameters = flat_parameters()
+    parameters%length = 1.0e-4_wp
+    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call check_status('an element of a short length', status, MSLIP_LENGTH_TOO_SHORT)
+    parameters%edge_radius = 1.0e300_wp
+    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call check_status('an element of a large radius', status, MSLIP_OUT_OF_RANGE)
+    call check('a rejected element is not modified', is_untouched([element%half_width]))
+
+    call mslip_element_check(element, status)
+    call check_status('check of an uninitialised element', status, MSLIP_BAD_ELEMENT)
+    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, element, status)
+    call mslip_element_check(element, status)
+    call check_status('check of an element', status, MSLIP_OK)
+    words = transfer(element, words)
+    found = 0
+    changed = 0
+    do i = 1, size(words), 7
+      do bit = 0, 63, 3
+        changed = changed + 1
+        words(i) = flipped(words(i), bit)
+        element = transfer(words, element)
+        call mslip_element_check(element, status)
+        if (status == MSLIP_BAD_ELEMENT) found = found + 1
+        words(i) = flipped(words(i), bit)
+      end do
+    end do
+    call check('the check of an element finds changed bits', found == changed)
+  end subroutine test_elements
+
+  subroutine test_element_state()
+    real(wp), allocatable :: changed(:)
+    real(wp) :: error
+    integer(mslip_int) :: directions
+    integer :: i, k
+
+    p = 25
+    call set_up()
+    call mslip_element_state_check(one, state, status)
+    call check_status('check of the state of an element', status, MSLIP_OK)
+    do k = 1, bad_values
+      do i = 1, 16
+        changed = state
+        changed(i) = bad(k)
+        call mslip_element_state_check(one, changed, status)
+        call check_status('check of the state of an element with an invalid value', status, MSLIP_BAD_STATE)
+      end do
+    end do
+    error = untouched
+    do directions = 0, 3
+      if (directions == 1) cycle
+      call mslip_element_state_init(directions, state, status)
+      call check_status('state of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
+      call mslip_element_state_check(directions, state, status)
+      call check_status('check of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
+      call mslip_element_state_error(directions, state, error, status)
+      call check_status('error of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
+    end do
+    call mslip_element_state_check(one, state, status)
+    call check_status('check after rejected initialisations', status, MSLIP_OK)
+    do i = 0, 27, 27
+      call mslip_element_state_init(one, state(:i), status)
+      call check_status('a short state of an element', status, MSLIP_STATE_TOO_SHORT)
+      call mslip_element_state_check(one, state(:i), status)
+      call check_status('check of a short state of an element', status, MSLIP_STATE_TOO_SHORT)
+      call mslip_element_state_error(one, state(:i), error, status)
+      call check_status('error of a short state of an element', status, MSLIP_STATE_TOO_SHORT)
+    end do
+    state = 0
+    call mslip_element_state_error(one, state, error, status)
+    call check_status('error of an uninitialised state of an element', status, MSLIP_BAD_STATE)
+    call check('no error of rejected states', is_untouched([error]))
+  end subroutine test_element_state
+
+  subroutine test_element_workspace()
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: kinds(2)
+    integer :: last
+
+    workspace = spread(untouched, 1, int(mslip_element_workspace_length(one, h, samples)))
+    last = size(workspace)
+    call mslip_element_workspace_init(0_mslip_int, h, samples, workspace, status)
+    call check_status('workspace: directions', status, MSLIP_BAD_DIRECTIONS)
+    call mslip_element_workspace_init(2_mslip_int, h, samples, workspace, status)
+    call check_status('workspace: two directions', status, MSLIP_NOT_AVAILABLE)
+    call mslip_element_workspace_init(one, 0_mslip_size, samples, workspace, status)
+    call check_status('workspace: no harmonics', status, MSLIP_BAD_HARMONICS)
+    call mslip_element_workspace_init(one, h, 2*h, workspace, status)
+    call check_status('workspace: too few samples', status, MSLIP_BAD_SAMPLES)
+    call mslip_element_workspace_init(one, h, samples, workspace, status, 2_mslip_int)
+    call check_status('workspace: unknown rule', status, MSLIP_BAD_RULE)
+    call mslip_element_workspace_init(one, h, samples, workspace, status, MSLIP_EVENT_DRIVEN)
+    call check_status('workspace: event-driven', status, MSLIP_NOT_AVAILABLE)
+    call mslip_element_workspace_init(one, h, samples, workspace(1:last - 1), status)
+    call check_status('workspace of an element too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call mslip_element_workspace_init(one, h, samples, workspace(1:0), status)
+    call check_status('workspace of an element without elements', status, MSLIP_WORKSPACE_TOO_SHORT)
+    found = -1
+    kinds = -1
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
+    call check_status('size of an uninitialised workspace of an element', status, MSLIP_BAD_WORKSPACE)
+    call check('rejected workspaces of an element: nothing written', is_untouched(workspace))
+    call mslip_element_workspace_init(one, h, samples, workspace, status)
+    call mslip_element_workspace_size(workspace(1:last - 1), kinds(1), found(1), found(2), kinds(2), status)
+    call check_status('size of a truncated workspace of an element', status, MSLIP_WORKSPACE_TOO_SHORT)
+    call check('rejected workspaces of an element: no size', all(found == -1) .and. all(kinds == -1))
+    call check('no length for invalid sizes of an element', all([mslip_element_workspace_length(one, h, samples, 2_mslip_int), &
+      mslip_element_workspace_length(one, 0_mslip_size, samples), mslip_element_workspace_length(2_mslip_int, h, samples), &
+      mslip_element_workspace_length(one, -1_mslip_size, -1_mslip_size)] == 0))
+  end subroutine test_element_workspace
 
   subroutine test_workspace()
     integer(mslip_size) :: found(2)

@@ -27,6 +27,11 @@ program test_microslip
   call test_equivalents()
   call test_elliptic()
   call test_strides()
+  call test_element()
+  call test_element_law()
+  call test_element_steps()
+  call test_element_harmonic_force()
+  call test_element_batch()
   call report()
 
 contains
@@ -693,5 +698,301 @@ contains
     call mslip_batch_masing_advance(contacts(1:0), table(:, 1:0), x(1:0), status)
     call check_status('no states', status, MSLIP_OK)
   end subroutine test_strides
+
+  function element_of(normal_input) result(element)
+    ! The geometry and materials of a history of the reference table.
+    integer(mslip_int), intent(in) :: normal_input
+    type(mslip_element) :: element
+
+    type(mslip_parameters) :: p
+    integer(mslip_int) :: status
+
+    p = mslip_parameters(flat_half_width=1.75081e-4_wp, edge_radius=8.63e-3_wp, length=1.23e-3_wp, normal_force=17.0_wp, &
+      friction_coefficient=0.35_wp, material=spread(mslip_material(6.2e11_wp, 0.22_wp), 1, 2))
+    call mslip_element_init(p, 1_mslip_int, normal_input, element, status)
+    call check_status('initialise an element', status, MSLIP_OK)
+  end function element_of
+
+  function element_state(pieces) result(state)
+    integer(mslip_size), intent(in) :: pieces
+    real(wp) :: state(mslip_element_state_length(1_mslip_int, pieces))
+
+    integer(mslip_int) :: status
+
+    call mslip_element_state_init(1_mslip_int, state, status)
+    call check_status('initialise the state of an element', status, MSLIP_OK)
+  end function element_state
+
+  subroutine test_element()
+    ! Rows of the reference table: rising and falling loads, slip in both directions, gross slip.
+    integer, parameter :: steps = 6
+    real(wp), parameter :: displacement(2, steps) = reshape([ &
+      2.5047919856428545e-8_wp, 3.943122714139546e-8_wp, 1.1722536786874625e-8_wp, 5.4339586390886424e-8_wp, &
+      1.7079577218179037e-8_wp, 3.593852562408462e-8_wp, -2.3732980213700233e-10_wp, 5.754622795830807e-8_wp, &
+      -1.795778517140069e-8_wp, 1.9485592645523398e-8_wp, 1.6062677298597924e-9_wp, 6.064170373418358e-8_wp], [2, steps])
+    real(wp), parameter :: force(2, steps) = reshape([ &
+      3.314151429997902627204149_wp, 9.469004085708293821309359_wp, 0.4107581168609077725519811_wp, 13.07442920778120653977642_wp, &
+      1.580569807443908937563438_wp, 8.626046604468900418559391_wp, -2.187056528062207239562684_wp, 13.85138983478861544399583_wp, &
+      -1.632725642307153993068073_wp, 4.664930406591868847572388_wp, 2.625664475971551520214349_wp, &
+      14.6018862471478065027045_wp], [2, steps])
+    real(wp), parameter :: tangent(3, steps) = reshape([ &
+      0.0_wp, 84505839.81871214203114223_wp, 241445256.6248918496922968_wp, &
+      217416195.9873673571446466_wp, -421256.4434870667255680024_wp, 242218902.8986542490946348_wp, &
+      217301373.9878601149513024_wp, -159794.3659726366703727244_wp, 241250259.1740997628163813_wp, &
+      216664700.6164961777598001_wp, -762222.9469269016266874917_wp, 242375203.1114422999890495_wp, &
+      0.0_wp, -84078118.44527620451852819_wp, 240223195.5579320281501561_wp, &
+      216600009.2455030531718391_wp, 834114.0392402721081600488_wp, 242523259.2990325285858671_wp], [3, steps])
+    real(wp), parameter :: dissipated(steps) = [1.614628639645999951714049e-8_wp, 1.341500451784501531208109e-11_wp, &
+      4.784880355286872540729054e-12_wp, 6.237209838520305805897411e-11_wp, 5.326530241686197046080525e-8_wp, &
+      2.526574107512012322715549e-11_wp]
+    type(mslip_element) :: element
+    real(wp), dimension(mslip_element_state_length(1_mslip_int, 16_mslip_size)) :: old, new
+    real(wp) :: found(2), slopes(2, 2), energy
+    integer(mslip_int) :: status
+    integer :: i
+
+    element = element_of(MSLIP_APPROACH)
+    call mslip_element_check(element, status)
+    call check_status('check of an element', status, MSLIP_OK)
+    call check('size of an element: no padding', storage_size(element) == 64*(8 + size(element%reserved)))
+    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_APPROACH)
+    call check_close('element: friction coefficient', element%friction_coefficient, 0.35_wp, tight)
+    call check_close('element: normal force', element%normal_force, 17.0_wp, tight)
+    old = element_state(16_mslip_size)
+    do i = 1, steps
+      call mslip_element_update(element, old, displacement(:, i), new, status, found, slopes, energy)
+      call check_status('element: step', status, MSLIP_OK)
+      call check_close('element: tangential force', found(1), force(1, i), tight)
+      call check_close('element: normal force of a step', found(2), force(2, i), tight)
+      call check_close('element: energy', energy, dissipated(i), 1.0e-10_wp)
+      call check('element: dT/du', abs(slopes(1, 1) - tangent(1, i)) <= 1.0e-11_wp*element%tangential_stiffness)
+      call check('element: dT/dw', abs(slopes(1, 2) - tangent(2, i)) <= 1.0e-11_wp*element%normal_stiffness)
+      call check_close('element: dN/dw', slopes(2, 2), tangent(3, i), 1.0e-11_wp)
+      call check_same('element: dN/du', slopes(2:2, 1), [0.0_wp])
+      call mslip_element_state_check(1_mslip_int, new, status)
+      call check_status('element: check of a state', status, MSLIP_OK)
+      old = new
+    end do
+    call mslip_element_state_error(1_mslip_int, new, energy, status)
+    call check_same('element: nothing was merged', [energy], [0.0_wp])
+  end subroutine test_element
+
+  subroutine test_element_law()
+    ! The normal law of a row of the reference table, both ways, and its end.
+    type(mslip_element) :: element
+    real(wp) :: found(3), values(2), slopes(2), widths(2), back(2)
+    integer(mslip_int) :: status
+    integer(mslip_int), parameter :: inputs(2) = [MSLIP_APPROACH, MSLIP_NORMAL_FORCE]
+    integer :: i
+
+    do i = 1, 2
+      element = element_of(inputs(i))
+      call mslip_normal_force_at(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
+      call check_status('normal force', status, MSLIP_OK)
+      call check_close('normal force', found(1), 13.07442920778120653977642_wp, tight)
+      call check_close('normal stiffness', found(2), 242218902.8986542490946348_wp, tight)
+      call mslip_normal_approach(element, found(1), status, values(1), slopes(1), widths(1))
+      call check_close('approach', values(1), 5.4339586390886424e-8_wp, tight)
+      call check_close('normal compliance', slopes(1)*found(2), 1.0_wp, tight)
+      call check_close('half-width', widths(1), found(3), tight)
+      call mslip_normal_force_at(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
+      call check_status('normal forces', status, MSLIP_OK)
+      call check_close('normal force of the parameters', values(1), element%normal_force, tight)
+      call check_close('half-width of the parameters', widths(1), element%half_width, tight)
+      call check_same('open', [values(2), slopes(2), widths(2)], spread(0.0_wp, 1, 3))
+      call mslip_normal_approach(element, values, status, back, slopes, widths)
+      call check_status('approaches', status, MSLIP_OK)
+      call check_close('approach of the parameters', back(1), element%approach, tight)
+      call check_same('approach without a force', [back(2), widths(2)], [0.0_wp, 0.0_wp])
+      call mslip_normal_approach(element, values, status, compliance=slopes)
+      call check_close('normal stiffness of the parameters', slopes(1)*element%normal_stiffness, 1.0_wp, tight)
+    end do
+  end subroutine test_element_law
+
+  subroutine test_element_steps()
+    ! In place, as a path and with sections: the same bits. Tractions carry the forces. An elliptical element.
+    integer, parameter :: steps = 12, points = 2000
+    type(mslip_element) :: element, sphere
+    type(mslip_elliptic_parameters) :: p
+    real(wp) :: displacement(2, steps), force(2, steps), tangent(2, 2, steps), dissipated(steps)
+    real(wp) :: path_force(2, steps), path_tangent(2, 2, steps), path_dissipated(steps), scattered(3, 2, steps)
+    real(wp), dimension(mslip_element_state_length(1_mslip_int, 16_mslip_size)) :: state, start, last
+    real(wp) :: shortest(mslip_element_state_length(1_mslip_int, 0_mslip_size)), error, angle
+    real(wp) :: half_width
+    real(wp), dimension(points) :: x, weight, pressure, shear
+    integer(mslip_int) :: status
+    integer :: i
+
+    element = element_of(MSLIP_NORMAL_FORCE)
+    displacement(1, :) = [(1.0e-8_wp*sin(1.7_wp*i), i = 1, steps)]
+    displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
+    start = element_state(16_mslip_size)
+    state = start
+    do i = 1, steps
+      call mslip_element_advance(element, state, displacement(:, i), status, force(:, i), tangent(:, :, i), dissipated(i))
+      call check_status('element: step in place', status, MSLIP_OK)
+    end do
+    call check_same('element: the given normal force', force(2, :), displacement(2, :))
+    call mslip_element_path(element, start, displacement, last, status, path_force, path_tangent, path_dissipated)
+    call check_status('element: path', status, MSLIP_OK)
+    call check_same('element: path', [path_force, path_tangent, path_dissipated], [force, tangent, dissipated])
+    call check_same('element: the state before a path is kept', start, element_state(16_mslip_size))
+    last = start
+    scattered = untouched
+    scattered(2, :, :) = displacement
+    call mslip_element_path_advance(element, last, scattered(2, :, :), status, force=scattered(1, :, :))
+    call check_status('element: path in place, sections', status, MSLIP_OK)
+    call check_same('element: path in place, sections', [scattered(1, :, :)], [force])
+    call check_same('element: gaps are not written', [scattered(3, :, :)], spread(untouched, 1, 2*steps))
+    call check_same('element: state after a path', last(:12), state(:12))
+    call mslip_element_path(element, start, displacement(:, 1:0), last, status)
+    call check_status('element: path without steps', status, MSLIP_OK)
+
+    call mslip_normal_approach(element, force(2, steps), status, half_width=half_width)
+    do i = 1, points
+      angle = pi*(real(i, wp) - 0.5_wp)/points
+      x(i) = half_width*cos(angle)
+      weight(i) = 1.23e-3_wp*half_width*pi/points*sin(angle)
+    end do
+    call mslip_element_tractions(element, state, x, status, pressure, shear)
+    call check_status('element: tractions', status, MSLIP_OK)
+    call check_close('element: pressure carries the normal force', sum(weight*pressure), force(2, steps), 1.0e-5_wp)
+    call check('element: shear carries the tangential force', abs(sum(weight*shear) - force(1, steps)) <= 1.0e-5_wp*force(2, steps))
+    call mslip_element_tractions(element, state, [2.0_wp*element%half_width], status, shear=shear(1:1))
+    call check_same('element: no tractions outside', shear(1:1), [0.0_wp])
+
+    call mslip_element_state_init(1_mslip_int, shortest, status)
+    do i = 1, 10
+      call mslip_element_advance(element, shortest, [1.0e-10_wp*(-1)**i, 1.0_wp + i], status)
+    end do
+    call mslip_element_state_error(1_mslip_int, shortest, error, status)
+    call check('element: a bound on the error of merged pieces', error > 0 .and. error < 0.35_wp*17)
+
+    p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
+    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_APPROACH, sphere, status)
+    call check_status('element of a sphere', status, MSLIP_OK)
+    ! Hertz: N = 4/3 E* a^3/R, w = a^2/R.
+    call check_close('sphere: approach', sphere%approach, 0.75_wp*50.0_wp/(sphere%composite_modulus*1.0e-4_wp), tight)
+    call check_close('sphere: normal stiffness', sphere%normal_stiffness, 2.0_wp*sphere%composite_modulus*1.0e-4_wp, tight)
+    ! Mindlin: K_t/K_n = 2 (1 - nu)/(2 - nu).
+    call check_close('sphere: tangential stiffness', sphere%tangential_stiffness/sphere%normal_stiffness, 1.4_wp/1.7_wp, tight)
+  end subroutine test_element_steps
+
+  subroutine test_element_harmonic_force()
+    ! At constant load that of a contact. The Jacobian is the derivative of the force, also with separation.
+    integer, parameter :: h = 2, m = 2*h + 1
+    integer(mslip_size), parameter :: harmonics = h, samples = 64
+    type(mslip_parameters) :: p
+    type(mslip_contact) :: contact
+    type(mslip_element) :: element
+    real(wp) :: workspace(mslip_element_workspace_length(1_mslip_int, harmonics, samples)), energy(2), step
+    real(wp) :: of_contact(mslip_harmonic_workspace_length(harmonics, samples)), expected(m), square(m, m)
+    real(wp), dimension(2*m) :: displacement, force, other, changed
+    real(wp) :: jacobian(2*m, 2*m)
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: status, kinds(2)
+    integer :: j
+
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call check_status('element: workspace', status, MSLIP_OK)
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
+    call check('element: size of a workspace', all(found == [harmonics, samples]) .and. &
+      all(kinds == [1_mslip_int, MSLIP_UNIFORM_SAMPLING]))
+    call mslip_harmonic_workspace_init(harmonics, samples, of_contact, status)
+    p = flat_parameters()
+    call mslip_contact_init(p, contact, status)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_NORMAL_FORCE, element, status)
+    displacement = 0
+    displacement(1:m) = [0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]
+    displacement(m + 1) = 800
+    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1))
+    call check_status('element: harmonic force', status, MSLIP_OK)
+    call mslip_harmonic_force(contact, of_contact, displacement(1:m), status, expected, square, energy(2))
+    call check('element: harmonic force at constant load', all(abs(force(1:m) - expected) <= 1.0e-11_wp*contact%slip_force))
+    call check('element: constant normal force', all(abs(force(m + 1:) - displacement(m + 1:)) <= 1.0e-12_wp*800))
+    call check_close('element: energy at constant load', energy(1), energy(2), 1.0e-9_wp)
+    call check('element: Jacobian at constant load', &
+      all(abs(jacobian(1:m, 1:m) - square) <= 1.0e-9_wp*contact%initial_stiffness))
+
+    element = element_of(MSLIP_APPROACH)
+    displacement = 0
+    displacement(2) = 1.2e-8_wp
+    displacement(5) = 3.0e-9_wp
+    displacement(m + 1:m + 3) = [2.0e-8_wp, 1.0e-8_wp, 2.4e-8_wp]
+    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1))
+    call check_status('element: harmonic force with separation', status, MSLIP_OK)
+    call check('element: positive energy', energy(1) > 0)
+    step = 1.0e-14_wp
+    do j = 1, 2*m
+      changed = displacement
+      changed(j) = changed(j) + step
+      call mslip_element_harmonic_force(element, workspace, changed, status, other)
+      changed(j) = displacement(j) - step
+      call mslip_element_harmonic_force(element, workspace, changed, status, force)
+      call check('element: Jacobian', all(abs((other - force)/(2*step) - jacobian(:, j)) <= 1.0e-4_wp*element%normal_stiffness))
+    end do
+  end subroutine test_element_harmonic_force
+
+  subroutine test_element_batch()
+    ! Single calls and batches have the same bits; items share elements by an index from 1; an item is skipped if flagged.
+    integer, parameter :: n = 4
+    integer(mslip_size), parameter :: harmonics = 1, samples = 16
+    integer(mslip_int), parameter :: index(n) = [2_mslip_int, 1_mslip_int, 2_mslip_int, 1_mslip_int]
+    integer(mslip_int), parameter :: active(n) = [1_mslip_int, 1_mslip_int, 0_mslip_int, 5_mslip_int]
+    real(wp), parameter :: displacement(2, n) = reshape([1.0e-8_wp, 5.0e-8_wp, 2.0e-8_wp, 6.0e-8_wp, -1.0e-8_wp, 3.0e-8_wp, &
+      4.0e-9_wp, -1.0e-9_wp], [2, n])
+    type(mslip_element), allocatable :: elements(:), each(:)
+    type(mslip_parameters) :: p
+    real(wp), dimension(mslip_element_state_length(1_mslip_int, 4_mslip_size), n) :: start, states, expected
+    real(wp), dimension(mslip_element_workspace_length(1_mslip_int, harmonics, samples)) :: workspace
+    real(wp) :: force(2, n), tangent(2, 2, n), dissipated(n), all_force(2, n), all_tangent(2, 2, n), all_dissipated(n)
+    real(wp) :: coefficients(6, n), harmonic(6, n), jacobian(6, 6, n), energy(n), one(6), square(6, 6), single
+    integer(mslip_int) :: status
+    integer :: i
+
+    p = flat_parameters()
+    allocate (elements(2), each(n))
+    elements(1) = element_of(MSLIP_APPROACH)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, elements(2), status)
+    each = elements(index)
+    start = spread(element_state(4_mslip_size), 2, n)
+    expected = start
+    do i = 1, n
+      call mslip_element_advance(each(i), expected(:, i), displacement(:, i), status, force(:, i), tangent(:, :, i), dissipated(i))
+      call check_status('element: single step', status, MSLIP_OK)
+    end do
+    states = start
+    call mslip_batch_element_update(each, start, displacement, states, status, force=all_force, tangent=all_tangent, &
+      dissipated=all_dissipated)
+    call check_status('element: batch', status, MSLIP_OK)
+    call check_same('element: batch', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
+    call check_same('element: states of a batch', [states], [expected])
+    states = start
+    all_force = untouched
+    call mslip_batch_element_advance(elements, states, displacement, status, index, active, all_force)
+    call check_status('element: batch in place with index and flags', status, MSLIP_OK)
+    call check_same('element: batch in place with index and flags', [all_force], &
+      [force(:, 1:2), spread(untouched, 1, 2), force(:, 4)])
+    call check_same('element: skipped state', [states], [expected(:, 1:2), start(:, 3), expected(:, 4)])
+    call mslip_batch_element_advance(elements(1:0), states(:, 1:0), displacement(:, 1:0), status)
+    call check_status('element: no items', status, MSLIP_OK)
+
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    coefficients = 0
+    coefficients(2, :) = displacement(1, :)
+    coefficients(4, :) = displacement(2, :)
+    coefficients(6, :) = 1.0e-8_wp
+    harmonic = untouched
+    call mslip_batch_element_harmonic_force(elements, workspace, coefficients, status, index, active, harmonic, jacobian, energy)
+    call check_status('element: batch of harmonic forces', status, MSLIP_OK)
+    do i = 1, n
+      if (active(i) == 0) cycle
+      call mslip_element_harmonic_force(each(i), workspace, coefficients(:, i), status, one, square, single)
+      call check_same('element: harmonic force of each', [harmonic(:, i), [jacobian(:, :, i)], energy(i)], [one, [square], single])
+    end do
+    call check_same('element: skipped harmonic force', harmonic(:, 3), spread(untouched, 1, 6))
+    call mslip_batch_element_harmonic_force(each, workspace, coefficients, status, force=harmonic)
+    call check_same('element: the last harmonic force', harmonic(:, n), one)
+  end subroutine test_element_batch
 
 end program test_microslip

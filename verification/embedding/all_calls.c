@@ -6,6 +6,7 @@
 #include <string.h>
 
 enum { POINTS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 6, STEPS = 41, ITEMS = 2, SLIDERS = 7 };
+enum { PIECES = 5, COMPONENTS = 2, TANGENT = 4, ALL = COMPONENTS * COEFFICIENTS };
 
 static uint64_t hashed(uint64_t hash, const void *bytes, size_t n)
 {
@@ -98,7 +99,58 @@ static double *workspace(int32_t rule)
     return memory;
 }
 
-void initialise(int which, mslip_contact *contact)
+/* A path of an element with more pieces than the state can hold, slip in both directions, gross slip and separation. */
+static double *element_path(struct sequence *s)
+{
+    double *x = *arrays(s, 1, COMPONENTS * STEPS);
+    const mslip_element *e = s->element;
+    const double unit = e->approach * (e->friction_coefficient > 0.0 ? e->friction_coefficient : 1.0);
+    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE;
+    for (size_t i = 0; i < STEPS; ++i) {
+        const double t = (double)(i % 8), sign = i % 2 == 0 ? 1.0 : -1.0;
+        const double normal = i % 24 == 23 ? (by_force ? 0.0 : -0.1) : 0.1 + 0.14 * t;
+        x[COMPONENTS * i] = unit * (i % 16 < 8 ? 0.01 * sign : i % 24 == 20 ? 3.0 : 0.2 * sign * t);
+        x[COMPONENTS * i + 1] = (by_force ? e->normal_force : e->approach) * normal;
+    }
+    return x;
+}
+
+static double *element_states(struct sequence *s, size_t items)
+{
+    const size_t n = mslip_element_state_length(1, PIECES);
+    double *memory = *arrays(s, 1, items * n);
+    for (size_t i = 0; i < items; ++i) {
+        accept(mslip_element_state_init(1, n, memory + i * n));
+    }
+    return memory;
+}
+
+/* Coefficients of displacements of an element; by approach it opens. */
+static double *element_coefficients(struct sequence *s, size_t items)
+{
+    double *c = *arrays(s, 1, items * ALL);
+    const mslip_element *e = s->element;
+    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE;
+    for (size_t i = 0; i < items * ALL; ++i) {
+        const size_t k = i % ALL, harmonic = k % COEFFICIENTS;
+        const double normal = by_force ? e->normal_force : e->approach;
+        c[i] = k < COEFFICIENTS ? e->approach * (k == 1 ? 0.4 : 0.1 / (double)(k + 1))
+            : normal * (harmonic == 0 ? (by_force ? 0.6 : 0.3) : harmonic < 3 ? 0.25 : 0.0);
+    }
+    return c;
+}
+
+static void initialise_element(int which, const mslip_parameters *flat, const mslip_elliptic_parameters *ellipse,
+                               mslip_element *element)
+{
+    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_APPROACH : MSLIP_NORMAL_FORCE;
+    if (element != NULL) {
+        accept(flat != NULL ? mslip_element_init(flat, 1, normal_input, element)
+                            : mslip_element_init_elliptic(ellipse, 1, normal_input, element));
+    }
+}
+
+void initialise(int which, mslip_contact *contact, mslip_element *element)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, OPEN, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
@@ -113,6 +165,7 @@ void initialise(int which, mslip_contact *contact)
         p.friction_coefficient = 0.4;
         p.material[0] = p.material[1] = steel;
         accept(mslip_contact_init_elliptic(&p, contact));
+        initialise_element(which, NULL, &p, element);
     } else {
         mslip_parameters p;
         mslip_parameters_default(&p);
@@ -124,17 +177,27 @@ void initialise(int which, mslip_contact *contact)
         p.material[0] = p.material[1] = steel;
         p.displacement_reference = kind == RIGID ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
         accept(mslip_contact_init(&p, contact));
+        p.normal_force = 10.0 + size;
+        p.length = kind == SHORT ? 5e-4 : p.length; /* the normal law needs more of it */
+        initialise_element(which, &p, NULL, element);
     }
 }
 
 static void initialisation(struct sequence *s)
 {
     mslip_contact contact;
-    for (int which = 0; which < CONTACTS; ++which) {
-        initialise(which, &contact);
-        accept(mslip_contact_check(&contact));
-        s->hash = hashed(s->hash, &contact, sizeof contact);
+    mslip_element *element = (mslip_element *)malloc(sizeof *element);
+    if (element == NULL) {
+        abort();
     }
+    for (int which = 0; which < CONTACTS; ++which) {
+        initialise(which, &contact, element);
+        accept(mslip_contact_check(&contact));
+        accept(mslip_element_check(element));
+        s->hash = hashed(s->hash, &contact, sizeof contact);
+        s->hash = hashed(s->hash, element, sizeof *element);
+    }
+    free(element);
 }
 
 static void workspaces(struct sequence *s)
@@ -265,6 +328,88 @@ static void batch_harmonic_force(struct sequence *s)
     }
 }
 
+static void normal_law(struct sequence *s)
+{
+    double *x = multiples(s, s->element->approach, 2.0), **o = arrays(s, 3, POINTS), **inverse = arrays(s, 3, POINTS);
+    accept(mslip_normal_force(s->element, POINTS, x, o[0], o[1], o[2]));
+    accept(mslip_normal_approach(s->element, POINTS, o[0], inverse[0], inverse[1], inverse[2]));
+}
+
+static void element_update(struct sequence *s)
+{
+    const size_t n = mslip_element_state_length(1, PIECES);
+    double *state = element_states(s, 1), *x = element_path(s), *state_new = element_states(s, 1);
+    double *force = *arrays(s, 1, COMPONENTS * STEPS), *tangent = *arrays(s, 1, TANGENT * STEPS), *energy = *arrays(s, 1, STEPS);
+    for (size_t i = 0; i < STEPS; ++i) {
+        accept(mslip_element_update(s->element, n, state, x + COMPONENTS * i, state_new, force + COMPONENTS * i,
+                                    tangent + TANGENT * i, energy + i));
+        memcpy(state, state_new, n * sizeof *state);
+    }
+}
+
+static void element_whole_path(struct sequence *s)
+{
+    const size_t n = mslip_element_state_length(1, PIECES);
+    double *state = element_states(s, 1), *x = element_path(s), *discarded = *arrays(s, 1, COMPONENTS * STEPS);
+    double *force = *arrays(s, 1, COMPONENTS * STEPS), *tangent = *arrays(s, 1, TANGENT * STEPS), *energy = *arrays(s, 1, STEPS);
+    accept(mslip_element_path(s->element, n, state, STEPS, x, NULL, discarded, NULL, NULL));
+    accept(mslip_element_path(s->element, n, state, STEPS, x, state, force, tangent, energy));
+    accept(mslip_element_state_check(1, n, state));
+    accept(mslip_element_state_error(1, n, state, *arrays(s, 1, 1)));
+}
+
+static void element_tractions(struct sequence *s)
+{
+    const size_t n = mslip_element_state_length(1, PIECES);
+    double *state = element_states(s, 1), *path = element_path(s), *x = multiples(s, s->element->half_width, 1.1);
+    double **o = arrays(s, 2, POINTS);
+    accept(mslip_element_path(s->element, n, state, STEPS - 3, path, state, NULL, NULL, NULL));
+    accept(mslip_element_tractions(s->element, n, state, POINTS, x, o[0], o[1]));
+}
+
+static double *make_element_workspace(void)
+{
+    const size_t n = mslip_element_workspace_length(1, HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
+    double *memory = (double *)malloc(n * sizeof *memory);
+    if (memory == NULL) {
+        abort();
+    }
+    accept(mslip_element_workspace_init(1, HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, n, memory));
+    return memory;
+}
+
+static void element_workspaces(struct sequence *s)
+{
+    size_t size[2];
+    int32_t kind[2];
+    double *memory = make_element_workspace();
+    accept(mslip_element_workspace_size(memory, &kind[0], &size[0], &size[1], &kind[1]));
+    s->hash = hashed(hashed(s->hash, size, sizeof size), kind, sizeof kind);
+    free(memory);
+}
+
+static void element_harmonic_force(struct sequence *s)
+{
+    double *x = element_coefficients(s, 1), *force = *arrays(s, 1, ALL), *jacobian = *arrays(s, 1, ALL * ALL);
+    accept(mslip_element_harmonic_force(s->element, s->element_workspace, x, force, jacobian, *arrays(s, 1, 1)));
+}
+
+static void batch_element_update(struct sequence *s)
+{
+    const size_t n = mslip_element_state_length(1, PIECES);
+    double *state = element_states(s, ITEMS), *x = element_path(s), *force = *arrays(s, 1, COMPONENTS * ITEMS);
+    double *tangent = *arrays(s, 1, TANGENT * ITEMS), *energy = *arrays(s, 1, ITEMS);
+    accept(mslip_batch_element_update(ITEMS, 1, s->element, shared, NULL, n, state, x, state, force, tangent, energy));
+}
+
+static void batch_element_harmonic_force(struct sequence *s)
+{
+    double *x = element_coefficients(s, ITEMS), *force = *arrays(s, 1, ITEMS * ALL), *jacobian = *arrays(s, 1, ITEMS * ALL * ALL);
+    double *energy = *arrays(s, 1, ITEMS);
+    accept(mslip_batch_element_harmonic_force(ITEMS, 1, s->element, shared, NULL, s->element_workspace, x, force, jacobian,
+                                              energy));
+}
+
 static void version(struct sequence *s)
 {
     if (mslip_abi_version() != MSLIP_ABI_VERSION) {
@@ -278,7 +423,9 @@ const struct call calls[] = {
     CALL(version), CALL(initialisation), CALL(workspaces), CALL(tractions), CALL(slip), CALL(monotonic_displacement),
     CALL(monotonic_force), CALL(masing_update), CALL(masing_path), CALL(masing_tractions), CALL(hysteresis_loop),
     CALL(dissipated_energy), CALL(complex_stiffness), CALL(harmonic_force), CALL(equivalents), CALL(batch_complex_stiffness),
-    CALL(batch_masing_update), CALL(batch_harmonic_force),
+    CALL(batch_masing_update), CALL(batch_harmonic_force), CALL(normal_law), CALL(element_update),
+    { "element_path", element_whole_path }, CALL(element_tractions), CALL(element_workspaces), CALL(element_harmonic_force),
+    CALL(batch_element_update), CALL(batch_element_harmonic_force),
 };
 const size_t number_of_calls = sizeof calls / sizeof *calls;
 
@@ -288,12 +435,14 @@ void begin_sequence(struct sequence *s)
     s->hash = UINT64_C(0xcbf29ce484222325);
     s->workspace[0] = workspace(MSLIP_UNIFORM_SAMPLING);
     s->workspace[1] = workspace(MSLIP_EVENT_DRIVEN);
+    s->element_workspace = make_element_workspace();
 }
 
 void end_sequence(struct sequence *s)
 {
     free(s->workspace[0]);
     free(s->workspace[1]);
+    free(s->element_workspace);
 }
 
 void make_call(struct sequence *s, size_t call)
@@ -305,9 +454,10 @@ void make_call(struct sequence *s, size_t call)
     release(s);
 }
 
-uint64_t hash_of_contact(struct sequence *s, const mslip_contact *contact)
+uint64_t hash_of_one(struct sequence *s, const mslip_contact *contact, const mslip_element *element)
 {
     s->contact = contact;
+    s->element = element;
     s->hash = UINT64_C(0xcbf29ce484222325);
     for (size_t i = 0; i < number_of_calls; ++i) {
         make_call(s, i);
@@ -319,13 +469,18 @@ uint64_t hash_of_all(void)
 {
     struct sequence s;
     uint64_t hash = 0;
+    mslip_element *element = (mslip_element *)malloc(sizeof *element);
+    if (element == NULL) {
+        abort();
+    }
     begin_sequence(&s);
     for (int which = 0; which < CONTACTS; ++which) {
         mslip_contact contact;
-        initialise(which, &contact);
-        const uint64_t one = hash_of_contact(&s, &contact);
+        initialise(which, &contact, element);
+        const uint64_t one = hash_of_one(&s, &contact, element);
         hash = hashed(hash, &one, sizeof one);
     }
     end_sequence(&s);
+    free(element);
     return hash;
 }

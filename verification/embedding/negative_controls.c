@@ -46,7 +46,7 @@ static int race(void)
 int main(int argc, char **argv)
 {
     const char *name = argc == 2 ? argv[1] : "";
-    initialise(0, &contact);
+    initialise(0, &contact, NULL);
     return strcmp(name, "read") == 0          ? monotonic_force(4, 5, 1)
         : strcmp(name, "write") == 0          ? monotonic_force(5, 4, 1)
         : strcmp(name, "uninitialised") == 0  ? monotonic_force(5, 5, 0)

@@ -12,6 +12,7 @@
 enum { SIZE = 1 << 20, PATTERN = 0xa5, LIMIT = 16 * 1024 };
 
 static struct sequence sequence;
+static mslip_element element;
 
 static void *run(void *call)
 {
@@ -54,13 +55,14 @@ int main(void)
         size_t deepest = 0;
         for (int which = 0; which < CONTACTS; ++which) {
             mslip_contact contact;
-            initialise(which, &contact);
+            initialise(which, &contact, &element);
             sequence.contact = &contact;
+            sequence.element = &element;
             const size_t taken = depth(&i, stack) - thread;
             deepest = taken > deepest ? taken : deepest;
         }
         failed += deepest > LIMIT;
-        printf("%-24s %6zu bytes%s\n", calls[i].name, deepest, deepest > LIMIT ? ": exceeds the limit" : "");
+        printf("%-28s %6zu bytes%s\n", calls[i].name, deepest, deepest > LIMIT ? ": exceeds the limit" : "");
     }
     end_sequence(&sequence);
     return failed != 0;

@@ -1,5 +1,5 @@
-/* threads.c [once]: contacts shared by 1 to 8 threads, each with workspaces of its own, give the results of one thread, bit by bit.
-   The first call is made by several threads at once or, with an argument, before there are any. */
+/* threads.c [once]: contacts and elements shared by 1 to 8 threads, each with workspaces of its own, give the results of one
+   thread, bit by bit. The first call is made by several threads at once or, with an argument, before there are any. */
 #include "all_calls.h"
 
 #include <pthread.h>
@@ -10,6 +10,7 @@
 enum { MOST = 8 };
 
 static mslip_contact contacts[CONTACTS];
+static mslip_element elements[CONTACTS];
 static uint64_t hashes[CONTACTS];
 static int threads;
 
@@ -17,7 +18,7 @@ static int threads;
 static void *initialise_some(void *first)
 {
     for (mslip_contact *contact = (mslip_contact *)first; contact < contacts + CONTACTS; contact += MOST) {
-        initialise((int)(contact - contacts), contact);
+        initialise((int)(contact - contacts), contact, &elements[contact - contacts]);
     }
     return NULL;
 }
@@ -27,7 +28,7 @@ static void *call_some(void *first)
     struct sequence sequence;
     begin_sequence(&sequence);
     for (mslip_contact *contact = (mslip_contact *)first; contact < contacts + CONTACTS; contact += threads) {
-        hashes[contact - contacts] = hash_of_contact(&sequence, contact);
+        hashes[contact - contacts] = hash_of_one(&sequence, contact, &elements[contact - contacts]);
     }
     end_sequence(&sequence);
     return NULL;
@@ -51,14 +52,15 @@ int main(int argc, char **argv)
     uint64_t expected[CONTACTS];
     (void)argv;
     if (argc > 1) {
-        initialise(0, contacts);
+        initialise(0, contacts, elements);
     }
     on_threads(MOST, initialise_some);
     for (int i = 0; i < CONTACTS; ++i) {
-        mslip_contact contact;
-        initialise(i, &contact);
-        if (memcmp(&contact, &contacts[i], sizeof contact) != 0) {
-            return printf("contact %d is another if initialised by several threads\n", i), 1;
+        static mslip_contact contact;
+        static mslip_element element;
+        initialise(i, &contact, &element);
+        if (memcmp(&contact, &contacts[i], sizeof contact) != 0 || memcmp(&element, &elements[i], sizeof element) != 0) {
+            return printf("contact or element %d is another if initialised by several threads\n", i), 1;
         }
     }
     for (threads = 1; threads <= MOST; threads *= 2) {

@@ -1,46 +1,41 @@
 //! Energy dissipated along a period: the sum over its steps.
 
-use crate::varying_load::diagram::{self, Diagram as _, Knot};
+use crate::varying_load::diagram::{self, Diagram, Knot};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{Path, dissipated};
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at, ranges};
 use crate::varying_load::harmonic_force::walk::closing;
 
 /// The diagram, in the memory of the workspace.
-struct Diagram<'a> {
+struct Polygon<'a> {
     knots: &'a mut [[f64; 4]],
     count: usize,
 }
 
-impl Diagram<'_> {
-    fn restart(&mut self, knots: &[Knot]) {
-        self.count = 0;
-        knots.iter().for_each(|knot| self.push(*knot));
-    }
-
-    fn push(&mut self, knot: Knot) {
-        if let Some(place) = self.knots.get_mut(self.count) {
-            *place = knot.into();
-            self.count += 1;
-        }
-    }
-
-    /// The step to a closed sample.
-    fn step(&mut self, element: &Element, displacement: f64, normal: &Normal) {
-        diagram::step(element, self, displacement, normal);
+impl Polygon<'_> {
+    fn restart<const N: usize>(&mut self, knots: [Knot; N]) {
+        self.replace(0, knots);
     }
 }
 
-impl diagram::Diagram for Diagram<'_> {
+impl Diagram for Polygon<'_> {
     fn knots(&self) -> &[[f64; 4]] {
         self.knots.get(..self.count).unwrap_or(self.knots)
     }
 
-    fn replace(&mut self, kept: usize, new: &[Knot]) {
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.count = kept;
-        new.iter().for_each(|knot| self.push(*knot));
+        for knot in new {
+            if let Some(place) = self.knots.get_mut(self.count) {
+                *place = knot.into();
+                self.count += 1;
+            }
+        }
     }
 }
+
+/// The centre at no displacement.
+const CENTRE: Knot = Knot::centre(0.0);
 
 /// Energy \[J\] dissipated in the steps of a part of a period, from the sample at which it starts.
 #[inline(never)]
@@ -52,20 +47,22 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
         load_slope: at(samples.load_slope, sample),
         shift_slope: at(samples.shift_slope, sample),
     };
-    let mut diagram = Diagram { knots, count: 0 };
+    let mut diagram = Polygon { knots, count: 0 };
     let [xi, eta] = [at(samples.xi, part.start), at(samples.eta, part.start)];
-    if !part.opens {
-        let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
-        let (load, _) = element.load_at_shift(shift_without_slip);
-        let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
-        // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
-        diagram.restart(&[Knot::centre(0.0), core]);
-        if shift_without_slip == 0.0 {
-            diagram.restart(&[Knot::centre(0.0)]);
-        }
-        diagram.step(element, at(samples.displacement, part.start), &normal(part.start));
+    if part.opens {
+        diagram.restart([Knot::centre(at(samples.displacement, part.start))]);
     } else {
-        diagram.restart(&[Knot::centre(at(samples.displacement, part.start))]);
+        // The steady state at the first sample: the part with D = 0, and slip or gross slip beyond.
+        let shift_without_slip = xi.max(-eta).min(0.0) / -mu;
+        let (load, _) = element.load_at_shift(shift_without_slip.max(0.0));
+        let core = Knot { xi: -mu * shift_without_slip, eta: mu * shift_without_slip, load, force: 0.0 };
+        let knots = [CENTRE, core];
+        if shift_without_slip > 0.0 {
+            diagram.restart(knots);
+        } else {
+            diagram.restart([knots[0]]);
+        }
+        diagram::step(element, &mut diagram, at(samples.displacement, part.start), &normal(part.start));
     }
     // All steps of the part, the one to its first sample (or its counterpart half a period later) last.
     let [first, second] = ranges(&Part { start: part.start + 1, ..*part }, samples.count);
@@ -82,19 +79,19 @@ pub(super) fn dissipated_in(element: &Element, samples: &Samples, part: &Part, k
                 let path = Path { shift: [shift_before, 0.0], displacement: end - start };
                 energy += dissipated(element, diagram.knots(), &path);
             }
-            diagram.restart(&[Knot::centre(displacement)]);
+            diagram.restart([Knot::centre(displacement)]);
             continue;
         }
         let start = if was_open {
             let start = closing(samples, element.by_approach(), sample).displacement;
-            diagram.restart(&[Knot::centre(start)]);
+            diagram.restart([Knot::centre(start)]);
             start
         } else {
             at(samples.displacement, before)
         };
         let path = Path { shift: [shift_before, at(samples.shift, sample)], displacement: displacement - start };
         energy += dissipated(element, diagram.knots(), &path);
-        diagram.step(element, displacement, &normal(sample));
+        diagram::step(element, &mut diagram, displacement, &normal(sample));
     }
     energy
 }

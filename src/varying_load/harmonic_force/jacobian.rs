@@ -9,16 +9,16 @@
 
 use crate::error::Error;
 use crate::hbm::workspace::{Blocks, Parts, Size, padded};
-use crate::varying_load::harmonic_force::sensitivity::{Sensitivity, row_blocks};
+use crate::varying_load::harmonic_force::sensitivity::{Sensitivity, plus, row_blocks};
 
 /// Doubles for the pairs of the orders from -H to 2H.
 fn pairs_length(harmonics: usize) -> usize {
-    2 * (3 * harmonics + 1)
+    2 * (3 * harmonics + 2)
 }
 
 /// Doubles of an [`Assembly`].
 pub(super) fn memory_length(harmonics: usize) -> usize {
-    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 1)
+    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 2)
 }
 
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl<'a> Assembly<'a> {
         let sums = parts.take(4 * size.harmonics + 1)?;
         let mut pairs = || parts.take(pairs_length(size.harmonics));
         let pairs = [pairs()?, pairs()?];
-        let products = parts.take_blocks(row_blocks(size.harmonics) * size.coefficients())?;
+        let products = parts.take_blocks(row_blocks(size.harmonics) * (2 * size.harmonics + 2))?;
         Ok(Assembly { size, sums, pairs, products })
     }
 
@@ -77,8 +77,16 @@ impl<'a> Assembly<'a> {
             let Some((constant, rows)) = column.split_first_mut() else { continue };
             *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
             let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-            for ((row, sum), difference) in rows.iter_mut().zip(sums).zip(differences) {
-                *row = sum + sign * difference;
+            let (blocks, rest) = rows.as_chunks_mut::<4>();
+            let (sums, differences) = (sums.as_chunks::<4>().0, differences.as_chunks::<4>().0);
+            // The pairs extend beyond H: whole blocks are left for the last rows.
+            if let ([row, next], Some(sum), Some(difference)) =
+                (rest, sums.get(blocks.len()), differences.get(blocks.len()))
+            {
+                (*row, *next) = (sum[0] + sign * difference[0], sum[1] + sign * difference[1]);
+            }
+            for ((row, sum), difference) in blocks.iter_mut().zip(sums).zip(differences) {
+                *row = plus(*sum, sign, *difference);
             }
         }
     }
@@ -93,19 +101,35 @@ impl<'a> Assembly<'a> {
         symmetry: Option<f64>,
         columns: impl Iterator<Item = &'c mut [f64]>,
     ) {
-        if sensitivity.touched_count == 0 {
+        if sensitivity.touched == 0 {
             return;
         }
         sensitivity.products(index, self.products);
         let weight = 1.0 / self.size.samples as f64;
         let length = row_blocks(self.size.harmonics).max(1);
         for ((c, column), product) in columns.enumerate().zip(self.products.chunks_exact(length)) {
-            let mut factor = 1.0;
-            for (r, (value, product)) in column.iter_mut().zip(product.as_flattened()).enumerate() {
-                let parity = if (r.div_ceil(2) + c.div_ceil(2)).is_multiple_of(2) { 1.0 } else { -1.0 };
-                let repeated = symmetry.map_or(1.0, |symmetry| 1.0 + symmetry * parity);
-                *value += factor * repeated * weight * product;
-                factor = 2.0;
+            // Rows 0, then pairs of equal order: even, odd, odd, even, and so on.
+            let parity = if c.div_ceil(2).is_multiple_of(2) { 1.0 } else { -1.0 };
+            let [even, odd] = match symmetry {
+                Some(symmetry) => [1.0 + symmetry * parity, 1.0 - symmetry * parity],
+                None => [1.0; 2],
+            };
+            let factors = [even, odd, odd, even].map(|repeated| 2.0 * weight * repeated);
+            let constant = column.first().copied().unwrap_or(0.0);
+            let (blocks, rest) = column.as_chunks_mut::<4>();
+            if let Some(last) = product.get(blocks.len()) {
+                for k in 0..3 {
+                    if let Some(value) = rest.get_mut(k) {
+                        *value += factors[k] * last[k];
+                    }
+                }
+            }
+            for (block, product) in blocks.iter_mut().zip(product) {
+                let ([a, b, c, d], [e, f, g, h]) = (*block, *product);
+                *block = [a + factors[0] * e, b + factors[1] * f, c + factors[2] * g, d + factors[3] * h];
+            }
+            if let (Some(first), Some([product, ..])) = (column.first_mut(), product.first()) {
+                *first = constant + 0.5 * factors[0] * product;
             }
         }
     }

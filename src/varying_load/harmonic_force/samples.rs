@@ -78,31 +78,34 @@ impl Samples<'_> {
         self.shift.fill(normal.shift);
         self.load_slope.fill(normal.load_slope);
         self.shift_slope.fill(normal.shift_slope);
-        self.stiffness.fill(normal.tangential_stiffness());
+        self.stiffness.fill(normal.load_slope / normal.shift_slope);
     }
 
-    /// The normal states of all samples.
+    /// The normal states of all samples, with derivatives if requested.
     #[inline(always)]
-    pub fn press(&mut self, element: &Element) {
-        for ((((((input, load), shift), load_slope), shift_slope), stiffness), _) in self
+    pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
+        let blocks = self
             .input
+            .as_chunks::<4>()
+            .0
             .iter()
-            .zip(self.load.iter_mut())
-            .zip(self.shift.iter_mut())
-            .zip(self.load_slope.iter_mut())
-            .zip(self.shift_slope.iter_mut())
-            .zip(self.stiffness.iter_mut())
-            .zip(0..self.count)
-        {
-            let closed = *input > 0.0;
-            let normal = if closed { element.normal(*input) } else { Normal::OPEN };
-            *load = normal.load;
-            *shift = normal.shift;
-            *load_slope = normal.load_slope;
-            *shift_slope = normal.shift_slope;
-            *stiffness = if closed { normal.tangential_stiffness() } else { 0.0 };
+            .zip(self.load.as_chunks_mut::<4>().0)
+            .zip(self.shift.as_chunks_mut::<4>().0)
+            .zip(self.load_slope.as_chunks_mut::<4>().0)
+            .zip(self.shift_slope.as_chunks_mut::<4>().0)
+            .zip(self.stiffness.as_chunks_mut::<4>().0);
+        for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
+            let states = element.four_normals::<SLOPES>(input);
+            (*load, *shift) = (states[0], states[1]);
+            if SLOPES {
+                (*load_slope, *shift_slope) = (states[2], states[3]);
+                for k in 0..4 {
+                    // 0 if open.
+                    stiffness[k] = load_slope[k] / if input[k] > 0.0 { shift_slope[k] } else { 1.0 };
+                }
+            }
         }
-        continue_periodically(self.load, self.count);
+        // The same bits: arguments outside the tables are evaluated differently in company.
         continue_periodically(self.shift, self.count);
     }
 

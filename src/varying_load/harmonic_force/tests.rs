@@ -11,7 +11,7 @@ use std::vec::Vec;
 const INPUTS: [NormalInput; 2] = [NormalInput::Approach, NormalInput::Force];
 
 /// A cylinder, a flat with rounded edges, and a sphere.
-fn elements(input: NormalInput) -> [Element; 3] {
+fn elements(input: NormalInput) -> Vec<Element> {
     let steel = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
     let sphere = EllipticParameters {
         semi_axis_x: 2e-4,
@@ -21,7 +21,7 @@ fn elements(input: NormalInput) -> [Element; 3] {
         material: [steel; 2],
     };
     let flat = |flat| Element::rounded_flat(&parameters(flat), input).unwrap();
-    [flat(0.0), flat(50e-6), Element::elliptic(&sphere, input).unwrap()]
+    vec![flat(0.0), flat(50e-6), Element::elliptic(&sphere, input).unwrap()]
 }
 
 /// Uniformly distributed values from -1 to 1.
@@ -61,10 +61,22 @@ fn motion(element: &Element, harmonics: usize, size: f64, mean: f64, swing: f64,
     displacement
 }
 
+/// Odd orders of u and even ones of the normal component only.
+fn half_wave_symmetric(mut displacement: Vec<f64>) -> Vec<f64> {
+    let coefficients = displacement.len() / 2;
+    for (c, value) in displacement.iter_mut().enumerate() {
+        let (order, parity) = if c < coefficients { (c.div_ceil(2), 1) } else { ((c - coefficients).div_ceil(2), 0) };
+        if order % 2 != parity {
+            *value = 0.0;
+        }
+    }
+    displacement
+}
+
 fn sampled(coefficients: &[f64], samples: usize) -> Vec<f64> {
     let function = |c: usize, n: usize| {
         let angle = angle(c.div_ceil(2), n, samples);
-        if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+        if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
     };
     (0..samples).map(|n| coefficients.iter().enumerate().map(|(c, a)| a * function(c, n)).sum()).collect()
 }
@@ -75,7 +87,7 @@ fn coefficients_of(values: &[f64], harmonics: usize) -> Vec<f64> {
         .map(|c| {
             let function = |n: usize| {
                 let angle = angle(c.div_ceil(2), n, samples);
-                if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() }
+                if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
             };
             let sum: f64 = values.iter().enumerate().map(|(n, value)| value * function(n)).sum();
             sum * if c == 0 { 1.0 } else { 2.0 } / samples as f64
@@ -161,14 +173,17 @@ const SCENES: [[f64; 3]; 10] = [
 fn force_and_energy_are_those_of_the_definition() {
     let mut random = Scattered(1);
     for element in INPUTS.into_iter().flat_map(elements) {
-        for (harmonics, samples) in [(1, 3), (1, 16), (2, 33), (3, 34), (4, 64), (5, 11), (9, 100)] {
+        for (harmonics, samples) in [(1, 3), (1, 16), (2, 33), (3, 34), (4, 64), (5, 11), (9, 100), (12, 40)] {
             let mut memory = workspace(harmonics, samples);
             for [size, mean, swing] in SCENES {
                 if mean < 0.0 && !element.by_approach() {
                     continue;
                 }
-                for _ in 0..8 {
-                    let displacement = motion(&element, harmonics, size, mean, swing, &mut random);
+                for round in 0..9 {
+                    let mut displacement = motion(&element, harmonics, size, mean, swing, &mut random);
+                    if round % 3 == 0 && element.by_approach() {
+                        displacement = half_wave_symmetric(displacement);
+                    }
                     let (force, energy) = by_definition(&element, samples, &displacement);
                     let (mine, _, my_energy) = all(&element, &mut memory, &displacement);
                     let largest = scales(&element).2 * (mean.abs() + swing).max(1.0).powi(2);
@@ -193,10 +208,10 @@ fn force_and_energy_are_those_of_the_definition() {
 #[test]
 fn the_jacobian_is_the_derivative_of_the_force() {
     let mut random = Scattered(2);
-    let (mut count, mut bad) = (0, 0);
+    let (mut count, mut corners) = (0, 0);
     for element in INPUTS.into_iter().flat_map(elements) {
         let (input, shift, load) = scales(&element);
-        for (harmonics, samples) in [(1, 16), (4, 33), (5, 64), (9, 50)] {
+        for (harmonics, samples) in [(1, 16), (4, 33), (5, 64), (9, 50), (12, 30)] {
             let mut memory = workspace(harmonics, samples);
             for [size, mean, swing] in SCENES {
                 if mean < 0.0 && !element.by_approach() || size < 1e-3 {
@@ -208,32 +223,247 @@ fn the_jacobian_is_the_derivative_of_the_force() {
                     let (_, jacobian, _) = all(&element, &mut memory, &displacement);
                     let mut worst: f64 = 0.0;
                     for j in 0..n {
-                        let step = 1e-6 * if j < n / 2 { element.friction_coefficient * shift } else { input };
-                        let mut at = |factor: f64| {
-                            let mut moved = displacement.clone();
-                            moved[j] += factor * step;
-                            force_of(&element, &mut memory, &moved)
+                        let unit = if j < n / 2 { element.friction_coefficient * shift } else { input };
+                        let mut difference = |step: f64| {
+                            let mut at = |step: f64| {
+                                let mut moved = displacement.clone();
+                                moved[j] += step * unit;
+                                force_of(&element, &mut memory, &moved)
+                            };
+                            let (plus, minus) = (at(step), at(-step));
+                            plus.into_iter().zip(minus).map(move |(plus, minus)| (plus - minus) / (2.0 * step * load))
                         };
-                        let (plus, minus) = (at(1.0), at(-1.0));
-                        let scale = step / load;
-                        for i in 0..n {
-                            let difference = (plus[i] - minus[i]) / (2.0 * step);
-                            worst = worst.max((difference - jacobian[i + n * j]).abs() * step / 1e-6 / load);
+                        // Extrapolated to order four.
+                        let (coarse, fine) = (difference(4e-6).collect::<Vec<_>>(), difference(2e-6));
+                        for (i, (coarse, fine)) in coarse.into_iter().zip(fine).enumerate() {
+                            let exact = (4.0 * fine - coarse) / 3.0;
+                            worst = worst.max((exact - jacobian[i + n * j] * unit / load).abs());
                         }
-                        let _ = scale;
                     }
+                    // Rarely a corner lies between the points of a difference.
                     count += 1;
-                    if worst > 2e-8 {
-                        bad += 1;
-                        std::println!(
-                            "H={harmonics} N={samples} {size} {mean} {swing} {:?} worst {worst:.1e}",
-                            element.by_approach()
-                        );
+                    corners += usize::from(worst > 5e-9);
+                    assert!(worst < 0.02, "{harmonics} {samples} {size} {mean} {swing}: {worst}");
+                }
+            }
+        }
+    }
+    assert!(corners * 100 < count, "{corners} of {count}");
+}
+
+#[test]
+fn half_of_a_half_wave_symmetric_motion_is_enough() {
+    let mut random = Scattered(6);
+    for element in INPUTS.into_iter().flat_map(elements) {
+        let (input, shift, load) = scales(&element);
+        for (harmonics, samples) in [(1, 16), (4, 34), (5, 64), (9, 50)] {
+            let mut memory = workspace(harmonics, samples);
+            for [size, mean, swing] in SCENES.into_iter().filter(|scene| scene[1] > 0.3 || element.by_approach()) {
+                let displacement =
+                    half_wave_symmetric(motion(&element, harmonics, size, mean, 0.7 * swing, &mut random));
+                let half = all(&element, &mut memory, &displacement);
+                // Not symmetric, but by a negligible amount.
+                let mut not_quite = displacement.clone();
+                not_quite[0] = 1e-200;
+                let whole = all(&element, &mut memory, &not_quite);
+                assert!((half.2 - whole.2).abs() <= 1e-12 * whole.2 + 1e-16 * load * shift);
+                let largest = load * (mean.abs() + swing).max(1.0).powi(2);
+                for (one, two) in half.0.iter().zip(&whole.0) {
+                    assert!((one - two).abs() < 1e-14 * largest, "{harmonics} {samples} {size} {mean}: {one} {two}");
+                }
+                let n = displacement.len();
+                for (index, (one, two)) in half.1.iter().zip(&whole.1).enumerate() {
+                    let unit = if index < n * n / 2 { element.friction_coefficient * shift } else { input };
+                    assert!(
+                        (one - two).abs() * unit < 1e-11 * largest,
+                        "{harmonics} {samples} {size} {index}: {one} {two}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_constant_normal_force_gives_the_law_of_constant_load() {
+    let mut random = Scattered(3);
+    for input in INPUTS {
+        let element = &elements(input)[1];
+        let contact = crate::constant_load::contact::tests::contact(50e-6);
+        let normal = if element.by_approach() { element.approach } else { element.normal_force };
+        for (harmonics, samples, size) in [(1, 16, 0.8), (4, 64, 0.5), (5, 33, 3.0), (9, 128, 0.9)] {
+            for symmetric in [false, true] {
+                let mut displacement = motion(element, harmonics, size, 1.0, 0.0, &mut random);
+                if symmetric {
+                    displacement = half_wave_symmetric(displacement);
+                }
+                let c = 2 * harmonics + 1;
+                displacement[c] = normal;
+                let (force, jacobian, energy) = all(element, &mut workspace(harmonics, samples), &displacement);
+                let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(harmonics, samples)];
+                Rule::UniformSampling.workspace_init(harmonics, samples, &mut memory).unwrap();
+                let (mut constant, mut derivative, mut loss) = (vec![0.0; c], vec![0.0; c * c], 0.0);
+                let output = HarmonicOutput {
+                    force: Some(&mut constant),
+                    jacobian: Some(&mut derivative),
+                    dissipated: Some(&mut loss),
+                };
+                let mut opened = crate::hbm::Workspace::new(&mut memory).unwrap();
+                crate::hbm::harmonic_force(&contact, &mut opened, &displacement[..c], output).unwrap();
+                for (one, two) in force.iter().zip(&constant) {
+                    assert!(
+                        (one - two).abs() < 2e-14 * contact.slip_force,
+                        "{harmonics} {size}: {force:?} {constant:?}"
+                    );
+                }
+                assert!((energy - loss).abs() < 1e-12 * loss, "{energy} {loss}");
+                for (j, column) in derivative.chunks(c).enumerate() {
+                    for (i, exact) in column.iter().enumerate() {
+                        // Rounding of the displacement is amplified near gross slip.
+                        let error = jacobian[i + 2 * c * j] - exact;
+                        assert!(error.abs() < 1e-9 * contact.initial_stiffness, "{harmonics} {size} {i} {j}: {error}");
                     }
                 }
             }
         }
     }
-    std::println!("{bad} of {count}");
-    assert!(bad == 0);
+}
+
+#[test]
+fn scenes_without_friction_or_contact_are_zero_and_normal_forces_remain() {
+    let frictionless = crate::parameters::Parameters { friction_coefficient: 0.0, ..parameters(50e-6) };
+    let mut random = Scattered(4);
+    for input in INPUTS {
+        let rough = elements(input)[1];
+        let smooth = Element::rounded_flat(&frictionless, input).unwrap();
+        let mut memory = workspace(3, 24);
+        let displacement = motion(&rough, 3, 0.5, 0.5, 0.4, &mut random);
+        let (one, one_jacobian, _) = all(&rough, &mut memory, &displacement);
+        let (two, two_jacobian, energy) = all(&smooth, &mut memory, &displacement);
+        assert_eq!(one[7..], two[7..]);
+        assert!(two[..7].iter().all(|value| *value == 0.0) && energy == 0.0);
+        for (c, (one, two)) in one_jacobian.chunks(14).zip(two_jacobian.chunks(14)).enumerate() {
+            assert!(two[..7].iter().all(|value| *value == 0.0) && one[7..] == two[7..], "{c}");
+        }
+        for constant in [true, false] {
+            let mut open = displacement.clone();
+            open[7..].fill(0.0);
+            if !constant && rough.by_approach() {
+                (open[7], open[8]) = (-1e-6, 1e-6);
+            }
+            let (force, jacobian, energy) = all(&rough, &mut memory, &open);
+            assert!(force.iter().all(|value| *value == 0.0) && energy == 0.0);
+            let stiffness = rough.normal_stiffness;
+            for (index, value) in jacobian.iter().enumerate() {
+                // The force of an open contact does not change; an input of the normal force is passed on.
+                let passed_on = !rough.by_approach() && index % 15 == 0 && index >= 7 * 15;
+                assert!((value - f64::from(u8::from(passed_on))).abs() <= 1e-12 * stiffness, "{index} {value}");
+            }
+        }
+    }
+}
+
+#[test]
+fn negative_normal_forces_are_rejected_but_for_rounding() {
+    let element = elements(NormalInput::Force)[0];
+    let mut memory = workspace(2, 16);
+    let mut displacement = [0.0; 10];
+    displacement[1] = 1e-6;
+    for (mean, cosine, is_valid) in [
+        (100.0, 100.0, true),
+        (100.0, 100.0 * (1.0 + 1e-15), true),
+        (100.0, 100.0 * (1.0 + 1e-13), false),
+        (-1.0, 0.0, false),
+        (-1.0, 3.0, false),
+        (0.0, 0.0, true),
+        (0.0, 1e-3, false),
+    ] {
+        (displacement[5], displacement[6]) = (mean, cosine);
+        let (mut force, mut jacobian, mut energy) = ([7.0; 10], [7.0; 100], 7.0);
+        let output =
+            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        let result = evaluate(&element, &mut memory, &displacement, output);
+        assert_eq!(result, if is_valid { Ok(()) } else { Err(Error::BadNormalForce) }, "{mean} {cosine}");
+        assert!(is_valid || (energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0)));
+        assert!(!is_valid || (force[5..] == displacement[5..] && force[1].is_finite()));
+    }
+}
+
+#[test]
+fn a_huge_displacement_gives_a_square_wave() {
+    for input in INPUTS {
+        let element = elements(input)[1];
+        let normal = if element.by_approach() { element.approach } else { element.normal_force };
+        for huge in [1.0, 1e150] {
+            let mut displacement = [0.0; 6];
+            (displacement[1], displacement[3]) = (huge, normal);
+            let (force, _, energy) = all(&element, &mut workspace(1, 32), &displacement);
+            let slip_force = element.friction_coefficient * element.normal_force;
+            // The first coefficient of sign(cos t) at 32 samples, from steps with cos t = 0.
+            assert!(force[2].abs() > 0.12 * slip_force && force[1].hypot(force[2]) < 1.28 * slip_force, "{force:?}");
+            assert!((energy / (4.0 * slip_force * huge) - 1.0).abs() < 1e-5, "{energy}");
+        }
+    }
+}
+
+#[test]
+fn invalid_arguments_have_their_own_errors() {
+    let mut memory = [0.0; 8];
+    for (harmonics, samples, error) in [
+        (0, 16, Error::BadHarmonics),
+        (1 << 25, 1 << 26, Error::BadHarmonics),
+        (3, 6, Error::BadSamples),
+        (3, 1 << 25, Error::BadSamples),
+    ] {
+        assert_eq!(workspace_length(harmonics, samples), 0);
+        assert_eq!(workspace_init(harmonics, samples, &mut memory), Err(error));
+    }
+    assert_eq!(workspace_init(3, 7, &mut memory), Err(Error::WorkspaceTooShort));
+    assert_eq!(memory, [0.0; 8]);
+    let mut good = workspace(1, 8);
+    let header = good.first_chunk().unwrap();
+    assert_eq!((workspace_extent(header), workspace_size(header)), (Ok(good.len()), Ok((1, 8))));
+    assert!(crate::hbm::Workspace::new(&mut good).is_err());
+    assert!(Workspace::new(&mut []).is_err());
+    let mut short = good.clone();
+    short.pop();
+    assert!(matches!(Workspace::new(&mut short), Err(Error::BadWorkspace)));
+    let element = elements(NormalInput::Approach)[0];
+    for (displacement, length, squared, error) in [
+        (&[0.0; 5][..], 6, 36, Error::BadArraySize),
+        (&[0.0; 6], 5, 36, Error::BadArraySize),
+        (&[0.0; 6], 6, 35, Error::BadArraySize),
+        (&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], 6, 36, Error::BadDisplacement),
+        (&[0.0, 0.0, 0.0, 0.0, 0.0, 1.1e150], 6, 36, Error::BadDisplacement),
+    ] {
+        let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
+        let output =
+            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        assert_eq!(evaluate(&element, &mut good, displacement, output), Err(error));
+        assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_earlier_use_or_on_other_outputs() {
+    let mut random = Scattered(5);
+    let element = elements(NormalInput::Approach)[1];
+    let used = workspace_length(3, 32);
+    let mut memory = vec![-1.0; used + 2];
+    workspace_init(3, 32, &mut memory).unwrap();
+    let motions = [[0.4, 0.5, 0.3], [3.0, 0.2, 0.6]]
+        .map(|[size, mean, swing]| motion(&element, 3, size, mean, swing, &mut random));
+    let first = all(&element, &mut memory, &motions[0]);
+    let second = all(&element, &mut memory, &motions[1]);
+    assert_eq!(all(&element, &mut memory, &motions[0]), first);
+    assert_eq!(force_of(&element, &mut memory, &motions[1]), second.0);
+    let mut energy = 0.0;
+    let output = HarmonicOutput { force: None, jacobian: None, dissipated: Some(&mut energy) };
+    evaluate(&element, &mut memory, &motions[0], output).unwrap();
+    assert_eq!(energy, first.2);
+    let mut jacobian = vec![0.0; 14 * 14];
+    let output = HarmonicOutput { force: None, jacobian: Some(&mut jacobian), dissipated: None };
+    evaluate(&element, &mut memory, &motions[1], output).unwrap();
+    assert_eq!(jacobian, second.1);
+    assert_eq!(memory[used..], [-1.0, -1.0]);
 }

@@ -2,7 +2,8 @@
 
 use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force::samples::{Samples, at};
-use crate::varying_load::harmonic_force::walk::{Kind, Place, RUN, Run};
+use crate::varying_load::harmonic_force::walk::{Kind, Place, Run, Runs};
+use core::ops::Range;
 
 /// Arrays of the tangential forces.
 #[derive(Debug)]
@@ -20,76 +21,106 @@ pub(super) struct Tractions<'a> {
 }
 
 impl Tractions<'_> {
-    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones.
+    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones: whole blocks of four.
     #[inline(always)]
-    pub fn evaluate_cuts(&mut self, element: &Element, cut_shift: &[f64], _with_stiffness: bool) {
-        for ((shift, load), stiffness) in
-            cut_shift.iter().zip(self.cut_load.iter_mut()).zip(self.cut_stiffness.iter_mut())
-        {
-            (*load, *stiffness) = element.load_at_shift(shift.max(0.0));
+    fn evaluate_cuts<const SLOPES: bool>(&mut self, element: &Element, cut_shift: &[[f64; 4]]) {
+        let loads = self.cut_load.as_chunks_mut::<4>().0;
+        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+        for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
+            let (loads, stiffnesses) = element.four_loads::<SLOPES>(shift);
+            *load = loads;
+            if SLOPES {
+                *stiffness = stiffnesses;
+            }
         }
     }
 
     /// `[N, T]` at the end of a piece.
     #[inline(always)]
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
-        match place {
-            Place::Centre => [0.0; 2],
-            Place::End(sample) => [at(samples.load, sample), at(self.force, sample)],
-            Place::Cut(sample) => [at(self.last_cut_load, sample), at(self.last_cut_force, sample)],
+        if place == Place::CENTRE {
+            [0.0; 2]
+        } else if place.is_end() {
+            [at(samples.load, place.sample()), at(self.force, place.sample())]
+        } else {
+            [at(self.last_cut_load, place.sample()), at(self.last_cut_force, place.sample())]
         }
     }
 
-    /// Evaluates the forces of all runs, from the loads at the boundaries.
+    /// Evaluates the forces of all runs, from the shifts at the boundaries.
     #[inline(always)]
-    pub fn evaluate(&mut self, friction_coefficient: f64, samples: &Samples, runs: &[[f64; RUN]]) {
+    pub fn evaluate(
+        &mut self,
+        element: &Element,
+        samples: &Samples,
+        cut_shift: &[[f64; 4]],
+        runs: Runs,
+        with_stiffness: bool,
+    ) {
+        if with_stiffness {
+            self.evaluate_cuts::<true>(element, cut_shift);
+        } else {
+            self.evaluate_cuts::<false>(element, cut_shift);
+        }
+        let friction_coefficient = element.friction_coefficient;
         for run in runs {
-            let run = Run::from(*run);
             let range = run.first..run.first + run.count;
-            let [inner_load, inner_force] = self.at_place(samples, run.inner);
+            let inner = self.at_place(samples, run.inner);
             let loads = samples.load.get(range.clone()).unwrap_or(&[]);
+            let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
             let mu = run.sign * friction_coefficient;
             match run.kind {
-                Kind::Open => self.force.get_mut(range).unwrap_or(&mut []).fill(0.0),
-                Kind::GrossSlip => {
-                    for (force, load) in self.force.get_mut(range).unwrap_or(&mut []).iter_mut().zip(loads) {
-                        *force = mu * load;
-                    }
-                }
+                Kind::Open => forces.fill(0.0),
+                Kind::GrossSlip => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
                 Kind::Stuck => {
-                    let (mut load_before, mut force_before) = (inner_load, inner_force);
-                    let (mut xi_before, mut eta_before) = (run.xi, run.eta);
-                    let xi = samples.xi.get(range.clone()).unwrap_or(&[]);
-                    let eta = samples.eta.get(range.clone()).unwrap_or(&[]);
                     let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
-                    let forces = self.force.get_mut(range).unwrap_or(&mut []);
-                    for ((((force, slope), &load), &xi), &eta) in
-                        forces.iter_mut().zip(slopes).zip(loads).zip(xi).zip(eta)
-                    {
-                        let (falling, rising) = (xi_before - xi, eta - eta_before);
-                        *slope = mu * ((rising - falling) / (rising + falling));
-                        force_before += *slope * (load - load_before);
-                        *force = force_before;
-                        (xi_before, eta_before, load_before) = (xi, eta, load);
-                    }
+                    stick(samples, &run, range, mu, slopes, inner, forces);
                 }
                 Kind::Slip => {
-                    let slope = friction_coefficient * run.slope;
+                    let [inner_load, inner_force] = inner;
+                    let slope = friction_coefficient * run.parameter;
                     let cuts = self.cut_load.get(run.packed..run.packed + run.count).unwrap_or(&[]);
-                    let forces = self.force.get_mut(range).unwrap_or(&mut []);
                     for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
                         *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
                     }
                     let last = run.first + run.count - 1;
                     let cut_load = cuts.last().copied().unwrap_or(0.0);
-                    if let Some(place) = self.last_cut_load.get_mut(last) {
-                        *place = cut_load;
-                    }
-                    if let Some(place) = self.last_cut_force.get_mut(last) {
-                        *place = inner_force + slope * (cut_load - inner_load);
+                    if let (Some(force), Some(load)) =
+                        (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
+                    {
+                        (*force, *load) = (inner_force + slope * (cut_load - inner_load), cut_load);
                     }
                 }
             }
         }
+    }
+}
+
+/// Slopes and forces of samples that stick.
+#[inline(always)]
+fn stick(
+    samples: &Samples,
+    run: &Run,
+    range: Range<usize>,
+    mu: f64,
+    slopes: &mut [f64],
+    [mut load_before, mut force_before]: [f64; 2],
+    forces: &mut [f64],
+) {
+    let before = samples.before(run.first);
+    let [mut xi_before, mut eta_before] =
+        if run.inner == Place::CENTRE { [run.parameter; 2] } else { [at(samples.xi, before), at(samples.eta, before)] };
+    let xi = samples.xi.get(range.clone()).unwrap_or(&[]);
+    let eta = samples.eta.get(range.clone()).unwrap_or(&[]);
+    for ((slope, &xi), &eta) in slopes.iter_mut().zip(xi).zip(eta) {
+        let (falling, rising) = (xi_before - xi, eta - eta_before);
+        *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
+        (xi_before, eta_before) = (xi, eta);
+    }
+    let loads = samples.load.get(range).unwrap_or(&[]);
+    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(loads) {
+        force_before += slope * (load - load_before);
+        *force = force_before;
+        load_before = load;
     }
 }

@@ -3,11 +3,12 @@
 //! Only the characteristic coordinates of the samples are needed. The normal forces at the boundaries of the slip zones are evaluated
 //! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
+use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at, ranges};
 
 /// Doubles of a knot and of a run in the workspace.
-pub(super) const KNOT: usize = 6;
-pub(super) const RUN: usize = 10;
+pub(super) const KNOT: usize = 4;
+pub(super) const RUN: usize = 3;
 
 /// What the samples of a run do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,31 +21,34 @@ pub(super) enum Kind {
     GrossSlip,
 }
 
-/// End of a piece of the diagram: the centre of the contact, or a point that a sample made.
+/// End of a piece of the diagram, as the bits of a double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Centre,
-    /// The whole contact at a sample.
-    End(usize),
-    /// The boundary of the slip zone at a sample.
-    Cut(usize),
-}
+pub(super) struct Place(u64);
 
 impl Place {
-    fn to_number(self) -> f64 {
-        match self {
-            Place::Centre => -1.0,
-            Place::Cut(sample) => (2 * sample) as f64,
-            Place::End(sample) => (2 * sample + 1) as f64,
-        }
+    /// The centre of the contact.
+    pub const CENTRE: Place = Place(1 << 40);
+
+    /// The whole contact at a sample.
+    #[inline(always)]
+    fn end(sample: usize) -> Place {
+        Place((sample as u64) << 1 | 1)
     }
 
-    fn from_number(number: f64) -> Place {
-        if number < 0.0 {
-            return Place::Centre;
-        }
-        let number = number as usize;
-        if number % 2 == 0 { Place::Cut(number / 2) } else { Place::End(number / 2) }
+    /// The boundary of the slip zone at a sample.
+    #[inline(always)]
+    fn cut(sample: usize) -> Place {
+        Place((sample as u64) << 1)
+    }
+
+    #[inline(always)]
+    pub fn is_end(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    #[inline(always)]
+    pub fn sample(self) -> usize {
+        (self.0 >> 1) as usize
     }
 }
 
@@ -61,72 +65,83 @@ pub(super) struct Run {
     pub packed: usize,
     /// Slip: +1 or -1.
     pub sign: f64,
-    /// Slip: D/mu of the piece that is cut.
-    pub slope: f64,
-    /// Stuck: coordinates of the last knot that stays.
-    pub xi: f64,
-    pub eta: f64,
+    /// Slip: D/mu of the piece that is cut. Stuck from the centre: displacement of the centre.
+    pub parameter: f64,
 }
 
-impl From<Run> for [f64; RUN] {
-    fn from(run: Run) -> [f64; RUN] {
-        let kind = f64::from(run.kind as u8);
-        let (first, count, kept, packed) = (run.first as f64, run.count as f64, run.kept as f64, run.packed as f64);
-        [kind, first, count, kept, run.inner.to_number(), packed, run.sign, run.slope, run.xi, run.eta]
+impl Run {
+    /// In the workspace: kind, direction and counts in one word, the inner place, the parameter. First sample and packed index follow
+    /// from the runs before.
+    #[inline(always)]
+    fn encoded(&self) -> [f64; RUN] {
+        let backward = u64::from(self.sign < 0.0);
+        let word = self.kind as u64 | backward << 2 | (self.count as u64) << 3 | (self.kept as u64) << 32;
+        [f64::from_bits(word), f64::from_bits(self.inner.0), self.parameter]
     }
 }
 
-impl From<[f64; RUN]> for Run {
-    fn from([kind, first, count, kept, inner, packed, sign, slope, xi, eta]: [f64; RUN]) -> Run {
-        Run {
-            kind: match kind as u8 {
-                0 => Kind::Open,
-                1 => Kind::Stuck,
-                2 => Kind::Slip,
-                _ => Kind::GrossSlip,
-            },
-            first: first as usize,
-            count: count as usize,
-            kept: kept as usize,
-            inner: Place::from_number(inner),
-            packed: packed as usize,
-            sign,
-            slope,
-            xi,
-            eta,
+/// The runs of a walk.
+#[derive(Debug, Clone)]
+pub(super) struct Runs<'a> {
+    encoded: core::slice::Iter<'a, [f64; RUN]>,
+    first: usize,
+    packed: usize,
+    samples: usize,
+}
+
+impl Iterator for Runs<'_> {
+    type Item = Run;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Run> {
+        let &[word, inner, parameter] = self.encoded.next()?;
+        let word = word.to_bits();
+        let kind = match word & 3 {
+            0 => Kind::Open,
+            1 => Kind::Stuck,
+            2 => Kind::Slip,
+            _ => Kind::GrossSlip,
+        };
+        let count = ((word >> 3) & ((1 << 29) - 1)) as usize;
+        let run = Run {
+            kind,
+            first: self.first,
+            count,
+            kept: (word >> 32) as usize,
+            inner: Place(inner.to_bits()),
+            packed: self.packed,
+            sign: if word & 4 == 0 { 1.0 } else { -1.0 },
+            parameter,
+        };
+        self.first += count;
+        if self.first >= self.samples {
+            self.first = 0;
         }
+        self.packed += if kind == Kind::Slip { count } else { 0 };
+        Some(run)
     }
 }
 
-/// A knot of the diagram, and the direction of the piece that ends at it: decrease of ξ and increase of η.
+/// A knot of the diagram.
 #[derive(Debug, Clone, Copy)]
 struct Knot {
     xi: f64,
     eta: f64,
-    falling: f64,
-    rising: f64,
     place: Place,
-}
-
-impl From<Knot> for [f64; KNOT] {
-    fn from(knot: Knot) -> [f64; KNOT] {
-        [knot.xi, knot.eta, knot.falling, knot.rising, knot.place.to_number(), 0.0]
-    }
-}
-
-impl From<[f64; KNOT]> for Knot {
-    fn from([xi, eta, falling, rising, place, _]: [f64; KNOT]) -> Knot {
-        Knot { xi, eta, falling, rising, place: Place::from_number(place) }
-    }
 }
 
 impl Knot {
     const fn centre(displacement: f64) -> Knot {
-        Knot { xi: displacement, eta: displacement, falling: 0.0, rising: 0.0, place: Place::Centre }
+        Knot { xi: displacement, eta: displacement, place: Place::CENTRE }
     }
 
     /// The far end of the part with D = 0.
-    const CORE: Knot = Knot { xi: f64::MIN, eta: f64::MAX, falling: 1.0, rising: 1.0, place: Place::Centre };
+    const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
+
+    #[inline(always)]
+    fn encoded(&self) -> [f64; KNOT] {
+        [self.xi, self.eta, f64::from_bits(self.place.0), 0.0]
+    }
 }
 
 /// Memory of a walk.
@@ -154,13 +169,14 @@ struct Stack<'a> {
 impl Stack<'_> {
     #[inline(always)]
     fn knot(&self, index: usize) -> Knot {
-        self.knots.get(index).copied().unwrap_or([0.0; KNOT]).into()
+        let [xi, eta, place, _] = self.knots.get(index).copied().unwrap_or([0.0; KNOT]);
+        Knot { xi, eta, place: Place(place.to_bits()) }
     }
 
     #[inline(always)]
     fn push(&mut self, knot: Knot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
-            *place = knot.into();
+            *place = knot.encoded();
             self.depth += 1;
         }
     }
@@ -168,129 +184,165 @@ impl Stack<'_> {
     /// Removes the knots outside the quadrant ξ > x, η < y; returns whether there were any.
     #[inline(always)]
     fn pop(&mut self, x: f64, y: f64) -> bool {
-        let inside = |&[xi, eta, ..]: &[f64; KNOT]| xi > x && eta < y;
-        let kept =
-            self.knots.get(..self.depth).and_then(|knots| knots.iter().rposition(inside)).map_or(0, |last| last + 1);
-        let popped = kept < self.depth;
-        self.depth = kept;
-        popped
+        let before = self.depth;
+        while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
+            && !(xi > x && eta < y)
+        {
+            self.depth -= 1;
+        }
+        self.depth < before
     }
+}
+
+/// Samples that follow each other in memory.
+#[derive(Clone, Copy)]
+struct Span<'a> {
+    first: usize,
+    xi: &'a [f64],
+    eta: &'a [f64],
+    inputs: &'a [f64],
 }
 
 impl Walk<'_> {
     /// The memory of the knots, for a diagram with forces.
     pub fn diagram(&mut self) -> &mut [[f64; 4]] {
-        self.knots.as_flattened_mut().as_chunks_mut().0
+        self.knots
+    }
+
+    /// The packed boundaries in blocks of four.
+    pub fn cuts(&self, extent: Extent) -> &[[f64; 4]] {
+        self.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[])
+    }
+
+    /// The runs of a walk along a part of the period.
+    pub fn runs(&self, extent: Extent, part: &Part, samples: usize) -> Runs<'_> {
+        let encoded = self.runs.get(..extent.runs).unwrap_or(&[]).iter();
+        Runs { encoded, first: part.start, packed: 0, samples }
     }
 
     #[inline(always)]
-    pub fn evaluate(&mut self, friction_coefficient: f64, by_approach: bool, samples: &Samples, part: &Part) -> Extent {
+    pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> Extent {
         let mut stack = Stack { knots: self.knots, depth: 0 };
         stack.push(Knot::centre(0.0));
         if !part.opens {
             stack.push(Knot::CORE);
         }
         let mut runs = self.runs.iter_mut();
-        let (mut count, mut cuts) = (0, 0);
+        let mut extent = Extent { runs: 0, cuts: 0 };
         let mut was_open = part.opens;
-        let half_over_mu = 0.5 / friction_coefficient;
         for range in ranges(part, samples.count) {
             let mut next = range.start;
             while next < range.end {
-                let xi = samples.xi.get(next..range.end).unwrap_or(&[]);
-                let eta = samples.eta.get(next..range.end).unwrap_or(&[]);
-                let (Some(&x), Some(&y), Some(place)) = (xi.first(), eta.first(), runs.next()) else { break };
-                let mut run = Run {
-                    kind: Kind::Open,
+                let span = Span {
                     first: next,
-                    count: 1,
-                    kept: 0,
-                    inner: Place::Centre,
-                    packed: cuts,
-                    sign: 1.0,
-                    slope: 0.0,
-                    xi: 0.0,
-                    eta: 0.0,
+                    xi: samples.xi.get(next..range.end).unwrap_or(&[]),
+                    eta: samples.eta.get(next..range.end).unwrap_or(&[]),
+                    inputs: samples.input.get(next..range.end).unwrap_or(&[]),
                 };
-                if part.opens && samples.is_open(next) {
-                    let input = samples.input.get(next..range.end).unwrap_or(&[]);
-                    run.count = input.iter().position(|input| *input > 0.0).unwrap_or(input.len());
+                let (Some(&x), Some(&y), Some(place)) = (span.xi.first(), span.eta.first(), runs.next()) else { break };
+                let run = if part.opens && samples.is_open(next) {
                     was_open = true;
+                    let closes = span.inputs.iter().position(|input| *input > 0.0);
+                    Run { count: closes.unwrap_or(span.inputs.len()), ..EMPTY_RUN }
                 } else {
                     if was_open {
                         stack.depth = 0;
-                        stack.push(Knot::centre(closing(samples, by_approach, next).displacement));
+                        stack.push(Knot::centre(closing(samples, element.by_approach(), next).displacement));
                         was_open = false;
                     }
-                    if stack.pop(x, y) {
-                        if stack.depth == 0 {
-                            run.kind = Kind::GrossSlip;
-                            let centre = stack.knot(0).xi;
-                            let inputs = samples.input.get(next..range.end).unwrap_or(&[]);
-                            let (count, end) = if centre <= x {
-                                gross_slip::<true>(xi, eta, inputs)
-                            } else {
-                                run.sign = -1.0;
-                                gross_slip::<false>(xi, eta, inputs)
-                            };
-                            run.count = count;
-                            let origin = if run.sign > 0.0 { end.0 } else { end.1 };
-                            stack.push(Knot::centre(origin));
-                            stack.push(line_end(end, run.sign, next + count - 1));
-                        } else {
-                            run.kind = Kind::Slip;
-                            run.kept = stack.depth;
-                            let (inner, outer) = (stack.knot(run.kept - 1), stack.knot(run.kept));
-                            run.inner = inner.place;
-                            let sum = outer.falling + outer.rising;
-                            let (falling, rising) = (outer.falling / sum, outer.rising / sum);
-                            run.slope = rising - falling;
-                            let places = self.cut_shift.get_mut(cuts..).unwrap_or(&mut []);
-                            let (count, end, cut);
-                            if falling * (y - inner.eta) >= rising * (inner.xi - x) {
-                                let ratio = rising / falling;
-                                (count, end, cut) = slip::<true>(xi, eta, &inner, ratio, half_over_mu, places);
-                            } else {
-                                run.sign = -1.0;
-                                let ratio = falling / rising;
-                                (count, end, cut) = slip::<false>(xi, eta, &inner, ratio, half_over_mu, places);
-                            }
-                            run.count = count;
-                            cuts += count;
-                            let last = next + count - 1;
-                            let (cut_xi, cut_eta) = cut;
-                            stack.push(Knot { xi: cut_xi, eta: cut_eta, falling, rising, place: Place::Cut(last) });
-                            stack.push(line_end(end, run.sign, last));
-                        }
+                    if !stack.pop(x, y) {
+                        stick(&mut stack, span)
+                    } else if stack.depth == 0 {
+                        slip_grossly(&mut stack, span)
                     } else {
-                        run.kind = Kind::Stuck;
-                        run.kept = stack.depth;
-                        let mut inner = stack.knot(run.kept - 1);
-                        (run.inner, run.xi, run.eta) = (inner.place, inner.xi, inner.eta);
-                        let mut count = 0;
-                        for (&x, &y) in xi.iter().zip(eta) {
-                            if x >= inner.xi || y <= inner.eta {
-                                break;
-                            }
-                            inner = Knot {
-                                xi: x,
-                                eta: y,
-                                falling: inner.xi - x,
-                                rising: y - inner.eta,
-                                place: Place::End(next + count),
-                            };
-                            stack.push(inner);
-                            count += 1;
-                        }
-                        run.count = count;
+                        let places = self.cut_shift.get_mut(extent.cuts..).unwrap_or(&mut []);
+                        let run = slip(&mut stack, span, element.per_two_mu, places);
+                        extent.cuts += run.count;
+                        run
                     }
-                }
-                *place = run.into();
-                count += 1;
+                };
+                *place = run.encoded();
+                extent.runs += 1;
                 next += run.count;
             }
         }
-        Extent { runs: count, cuts }
+        // Fills the last block of four.
+        let last = extent.cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
+        self.cut_shift.iter_mut().skip(extent.cuts).take(3).for_each(|place| *place = last);
+        extent
+    }
+}
+
+const EMPTY_RUN: Run =
+    Run { kind: Kind::Open, first: 0, count: 1, kept: 0, inner: Place::CENTRE, packed: 0, sign: 1.0, parameter: 0.0 };
+
+/// Samples that stick.
+#[inline(always)]
+fn stick(stack: &mut Stack, span: Span) -> Run {
+    let kept = stack.depth;
+    let inner = stack.knot(kept.saturating_sub(1));
+    let (mut xi, mut eta, mut count) = (inner.xi, inner.eta, 0);
+    let places = stack.knots.get_mut(kept..).unwrap_or(&mut []);
+    for ((&x, &y), place) in span.xi.iter().zip(span.eta).zip(places) {
+        if x >= xi || y <= eta {
+            break;
+        }
+        *place = Knot { xi: x, eta: y, place: Place::end(span.first + count) }.encoded();
+        (xi, eta) = (x, y);
+        count += 1;
+    }
+    stack.depth += count;
+    Run { kind: Kind::Stuck, count, kept, inner: inner.place, parameter: inner.xi, ..EMPTY_RUN }
+}
+
+/// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
+#[inline(always)]
+fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
+    let is_forward = span.xi.first().is_some_and(|x| stack.knot(0).xi <= *x);
+    let (count, [xi, eta]) = if is_forward { count_gross_slip::<true>(span) } else { count_gross_slip::<false>(span) };
+    stack.push(Knot::centre(if is_forward { xi } else { eta }));
+    stack.push(Knot { xi, eta, place: Place::end(span.first + count - 1) });
+    Run { kind: Kind::GrossSlip, count, sign: if is_forward { 1.0 } else { -1.0 }, ..EMPTY_RUN }
+}
+
+/// Lower bound of divisors: compilers may divide before they compare.
+const SMALLEST: f64 = 1e-150;
+
+/// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
+#[inline(always)]
+fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> Run {
+    let kept = stack.depth;
+    let (inner, outer) = (stack.knot(kept - 1), stack.knot(kept));
+    let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
+    let (x, y) = (span.xi.first().copied().unwrap_or(0.0), span.eta.first().copied().unwrap_or(0.0));
+    // The piece leaves the quadrant through ξ = x unless it crosses η = y first.
+    let is_forward =
+        outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
+    // Changes of the other coordinate along the piece; 0 for a slip zone.
+    let ratio = |change: f64, by: f64| if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
+    let (count, [xi, eta], cut) = if is_forward {
+        count_slip::<true>(span, &inner, ratio(rising, falling), per_two_mu, places)
+    } else {
+        count_slip::<false>(span, &inner, ratio(falling, rising), per_two_mu, places)
+    };
+    let last = span.first + count - 1;
+    stack.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(last) });
+    stack.push(Knot { xi, eta, place: Place::end(last) });
+    let slope = if falling <= 0.0 {
+        1.0
+    } else if rising <= 0.0 {
+        -1.0
+    } else {
+        (rising - falling) / (rising + falling).max(f64::MIN_POSITIVE)
+    };
+    Run {
+        kind: Kind::Slip,
+        count,
+        kept,
+        inner: inner.place,
+        sign: if is_forward { 1.0 } else { -1.0 },
+        parameter: slope,
+        ..EMPTY_RUN
     }
 }
 
@@ -320,29 +372,23 @@ pub(super) fn closing(samples: &Samples, by_approach: bool, sample: usize) -> Cl
     }
 }
 
-/// The whole contact after slip: a piece parallel to an axis.
-fn line_end((xi, eta): (f64, f64), sign: f64, sample: usize) -> Knot {
-    let (falling, rising) = if sign > 0.0 { (0.0, 1.0) } else { (1.0, 0.0) };
-    Knot { xi, eta, falling, rising, place: Place::End(sample) }
-}
-
 /// Coordinates such that slip in either direction is forward slip.
 #[inline(always)]
-fn mirrored<const FORWARD: bool>(xi: f64, eta: f64) -> (f64, f64) {
-    if FORWARD { (xi, eta) } else { (-eta, -xi) }
+fn mirrored<const FORWARD: bool>(xi: f64, eta: f64) -> [f64; 2] {
+    if FORWARD { [xi, eta] } else { [-eta, -xi] }
 }
 
 /// Number of samples of a run of gross slip, and the coordinates of the last.
 #[inline(always)]
-fn gross_slip<const FORWARD: bool>(xi: &[f64], eta: &[f64], inputs: &[f64]) -> (usize, (f64, f64)) {
+fn count_gross_slip<const FORWARD: bool>(span: Span) -> (usize, [f64; 2]) {
     let mut count = 0;
-    let (mut end, mut last) = ((0.0, 0.0), f64::MIN);
-    for ((&xi, &eta), &input) in xi.iter().zip(eta).zip(inputs) {
-        let (x, _) = mirrored::<FORWARD>(xi, eta);
+    let (mut end, mut last) = ([0.0; 2], f64::MIN);
+    for ((&xi, &eta), &input) in span.xi.iter().zip(span.eta).zip(span.inputs) {
+        let [x, _] = mirrored::<FORWARD>(xi, eta);
         if count > 0 && (x < last || input <= 0.0) {
             break;
         }
-        (last, end) = (x, (xi, eta));
+        (last, end) = (x, [xi, eta]);
         count += 1;
     }
     (count, end)
@@ -350,25 +396,24 @@ fn gross_slip<const FORWARD: bool>(xi: &[f64], eta: &[f64], inputs: &[f64]) -> (
 
 /// Number of samples of a run of slip that cut one piece, the coordinates of the last, and its cut.
 #[inline(always)]
-fn slip<const FORWARD: bool>(
-    xi: &[f64],
-    eta: &[f64],
+fn count_slip<const FORWARD: bool>(
+    span: Span,
     inner: &Knot,
     ratio: f64,
-    half_over_mu: f64,
+    per_two_mu: f64,
     places: &mut [f64],
-) -> (usize, (f64, f64), (f64, f64)) {
-    let (inner_x, inner_y) = mirrored::<FORWARD>(inner.xi, inner.eta);
+) -> (usize, [f64; 2], [f64; 2]) {
+    let [inner_x, inner_y] = mirrored::<FORWARD>(inner.xi, inner.eta);
     let mut count = 0;
-    let (mut end, mut last, mut last_cut) = ((0.0, 0.0), f64::MIN, 0.0);
-    for ((&xi, &eta), place) in xi.iter().zip(eta).zip(places) {
-        let (x, y) = mirrored::<FORWARD>(xi, eta);
+    let (mut end, mut last, mut last_cut) = ([0.0; 2], f64::MIN, 0.0);
+    for ((&xi, &eta), place) in span.xi.iter().zip(span.eta).zip(places) {
+        let [x, y] = mirrored::<FORWARD>(xi, eta);
         let cut = inner_y + ratio * (inner_x - x);
-        if count > 0 && !(x >= last && x < inner_x && cut <= y) {
+        if count > 0 && (x < last || x >= inner_x || cut > y) {
             break;
         }
-        *place = (cut - x) * half_over_mu;
-        (last, last_cut, end) = (x, cut, (xi, eta));
+        *place = ((cut - x) * per_two_mu).max(0.0);
+        (last, last_cut, end) = (x, cut, [xi, eta]);
         count += 1;
     }
     (count, end, mirrored::<FORWARD>(last, last_cut))

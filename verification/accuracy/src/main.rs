@@ -1,12 +1,14 @@
 //! Measures the error of every output of the library against the multi-precision reference.
 //!
-//!     accuracy [--check] [--points N] [--seed N] [--regions FILE] [--document FILE]
+//!     accuracy [--check] [--points N] [--seed N] [--elements] [--regions FILE] [--document FILE]
 //!
-//! `--check` is short, with a new seed each time. Regions are written to a CSV, tables to a document.
+//! `--check` is short, with a new seed each time. Regions are written to a CSV, tables to a document. `--elements` leaves out the law
+//! of a constant load.
 
 mod bounds;
 mod call;
 mod curve;
+mod element;
 mod harmonic;
 mod history;
 mod report;
@@ -15,28 +17,35 @@ mod stiffness;
 mod tally;
 mod tractions;
 
-use sampler::{Case, KINDS, Sampler};
+use sampler::{Case, ElementCase, KINDS, Sampler};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tally::Tally;
 
-/// Compares some outputs at random arguments of one contact.
-type Measurement = fn(&Case, &mut Sampler, &mut Tally);
+/// Compares some outputs at random arguments of one contact or element.
+#[derive(Clone, Copy)]
+enum Measurement {
+    Contact(fn(&Case, &mut Sampler, &mut Tally)),
+    Element(fn(&ElementCase, &mut Sampler, &mut Tally)),
+}
+use Measurement::{Contact, Element};
 
 /// Measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(Measurement, f64, usize); 11] = [
-    (curve::fields, 1.0, 4000),
-    (curve::at_forces, 50.0, 200),
-    (curve::at_displacements, 50.0, 200),
-    (tractions::at_forces, 48.0, 80),
-    (history::along_a_path, 48.0, 80),
-    (history::closed_loop, 48.0, 120),
-    (harmonic::uniform_sampling, 200.0, 100),
-    (curve::neighbours, 2e4, 10),
-    (curve::sliders, 1e5, 10),
-    (stiffness::at_amplitudes, 500.0, 10),
-    (stiffness::event_driven, 200.0, 25),
+const MEASUREMENTS: [(Measurement, f64, usize); 13] = [
+    (Contact(curve::fields), 1.0, 4000),
+    (Contact(curve::at_forces), 50.0, 200),
+    (Contact(curve::at_displacements), 50.0, 200),
+    (Contact(tractions::at_forces), 48.0, 80),
+    (Contact(history::along_a_path), 48.0, 80),
+    (Contact(history::closed_loop), 48.0, 120),
+    (Contact(harmonic::uniform_sampling), 200.0, 100),
+    (Contact(curve::neighbours), 2e4, 10),
+    (Contact(curve::sliders), 1e5, 10),
+    (Contact(stiffness::at_amplitudes), 500.0, 10),
+    (Contact(stiffness::event_driven), 200.0, 25),
+    (Element(element::normal_law), 25.0, 200),
+    (Element(element::along_a_path), 32.0, 80),
 ];
 
 /// Measurements of one kind of contact.
@@ -47,9 +56,12 @@ struct Job {
 }
 
 /// Jobs for about the given number of points of every output.
-fn jobs(points: f64) -> Vec<Job> {
+fn jobs(points: f64, elements_only: bool) -> Vec<Job> {
     let mut jobs = Vec::new();
     for (measurement, weight, piece) in MEASUREMENTS {
+        if elements_only && matches!(measurement, Contact(_)) {
+            continue;
+        }
         let pieces = (points / weight / piece as f64).ceil().max(KINDS.len() as f64) as usize;
         let count = (points / weight / pieces as f64).ceil() as usize;
         jobs.extend((0..pieces).map(|i| Job { measurement, kind: KINDS[i % KINDS.len()], count }));
@@ -60,20 +72,21 @@ fn jobs(points: f64) -> Vec<Job> {
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let now = std::time::UNIX_EPOCH.elapsed().map_or(0, |now| now.as_secs());
-    let (mut points, mut seed, mut regions, mut document) = (1e7, 1u64, None, None);
+    let (mut points, mut seed, mut regions, mut document, mut elements_only) = (1e7, 1u64, None, None, false);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
             "--check" => (points, seed) = (1e4, now),
             "--points" => points = value().parse().expect("a number of points"),
             "--seed" => seed = value().parse().expect("a seed"),
+            "--elements" => elements_only = true,
             "--regions" => regions = Some(PathBuf::from(value())),
             "--document" => document = Some(PathBuf::from(value())),
             other => panic!("unknown argument {other}"),
         }
     }
     println!("seed {seed}");
-    let (jobs, next, all) = (jobs(points), AtomicUsize::new(0), Mutex::new(Tally::default()));
+    let (jobs, next, all) = (jobs(points, elements_only), AtomicUsize::new(0), Mutex::new(Tally::default()));
     let work = || {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
@@ -84,7 +97,10 @@ fn main() {
             let mut tally = Tally::default();
             let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
             for _ in 0..*count {
-                measurement(&sampler.case(kind), &mut sampler, &mut tally);
+                match measurement {
+                    Contact(measure) => measure(&sampler.case(kind), &mut sampler, &mut tally),
+                    Element(measure) => measure(&sampler.element(kind), &mut sampler, &mut tally),
+                }
             }
             all.lock().unwrap().add(tally);
         }

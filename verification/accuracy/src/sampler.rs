@@ -1,6 +1,6 @@
 //! Random contacts and arguments, dense near the limits of the law and at every switch of formula.
 
-use crate::call;
+use crate::{call, element};
 use microslip::ffi::mslip_contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Material, Parameters};
@@ -15,6 +15,14 @@ pub struct Case {
     pub contact: mslip_contact,
     pub reference: Reference,
     pub kind: &'static str,
+}
+
+/// An element of the library, and the same in multi-precision.
+pub struct ElementCase {
+    pub element: microslip::varying_load::element::Element,
+    pub reference: reference::element::Element,
+    pub kind: &'static str,
+    pub input: Input,
 }
 
 pub const KINDS: [&str; 8] = [
@@ -154,6 +162,16 @@ impl Sampler {
             let input = self.parameters(kind);
             if let Some(contact) = call::prepare(&input) {
                 return Case { contact, reference: Reference::new(input), kind };
+            }
+        }
+    }
+
+    /// An element of a kind that the library accepts.
+    pub fn element(&mut self, kind: &'static str) -> ElementCase {
+        loop {
+            let input = self.parameters(kind);
+            if let Some((element, reference)) = element::prepare(&input, self.chance(0.5)) {
+                return ElementCase { element, reference, kind, input };
             }
         }
     }

@@ -1,4 +1,6 @@
-//! Inputs shared by both targets: numbers relative to a scale, displacement paths, and contacts.
+//! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; and checked calls.
+
+pub mod calls;
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};

@@ -3,6 +3,7 @@
 //! In these units the results do not depend on the size, modulus and friction chosen here.
 
 use microslip::constant_load::{masing, state};
+use microslip::varying_load::element::{Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};
@@ -101,6 +102,15 @@ impl Case {
         let length = 2.0 * semi_axis_y;
         let input = Input::Ellipse(parameters);
         Case { contact, input, flat: 0.0, edge_radius: f64::NAN, length, normal_force, friction: FRICTION }
+    }
+
+    /// The same contact under a normal force that varies.
+    pub fn element(&self, input: NormalInput) -> Element {
+        match &self.input {
+            Input::Flat(parameters) => Element::rounded_flat(parameters, input),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, input),
+        }
+        .expect("an element of the paper")
     }
 
     /// a/b of the contact.

@@ -2,6 +2,7 @@
 
 use crate::cases::Case;
 use crate::equations::{Tractions, printed_load, printed_pressure, printed_relieved_traction};
+use crate::swing;
 use crate::table::Table;
 use std::f64::consts::PI;
 
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Table> {
     tables.extend(complex_stiffness());
     tables.extend([energy(), energy_logarithmic(), oscillating_tractions(), load_as_printed()]);
     tables.extend([tractions_as_printed(), slip_as_printed()]);
+    tables.extend(swing::tables());
     tables
 }
 

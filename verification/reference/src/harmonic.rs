@@ -6,7 +6,7 @@ use crate::{Law, Real, Reference};
 use std::rc::Rc;
 
 /// 1, cos t, sin t, cos 2t, ...
-fn basis(harmonics: usize, t: &Real) -> Vec<Real> {
+pub(crate) fn basis(harmonics: usize, t: &Real) -> Vec<Real> {
     let waves = (1..=harmonics).flat_map(|k| {
         let (sine, cosine) = (t * k as f64).sin_cos();
         [cosine, sine]
@@ -14,7 +14,7 @@ fn basis(harmonics: usize, t: &Real) -> Vec<Real> {
     [Real::new(t.bits(), 1.0)].into_iter().chain(waves).collect()
 }
 
-fn dot(one: &[Real], two: &[Real]) -> Real {
+pub(crate) fn dot(one: &[Real], two: &[Real]) -> Real {
     one.iter().zip(two).fold(Real::new(one[0].bits(), 0.0), |sum, (a, b)| sum + a * b)
 }
 

@@ -31,7 +31,7 @@ pub struct Reference {
 }
 
 /// Bits by which w is below a.
-fn flatness(a: &Real, w: &Real) -> i32 {
+pub(crate) fn flatness(a: &Real, w: &Real) -> i32 {
     if a.is_zero() { 0 } else { (a.exponent() - w.exponent()).max(0) }
 }
 
@@ -159,13 +159,13 @@ impl Point {
     }
 }
 
-fn compliance_of(bits: u32, body: &Material) -> Real {
+pub(crate) fn compliance_of(bits: u32, body: &Material) -> Real {
     let nu = Real::new(bits, body.poisson_ratio);
     (1.0 - nu.square()) / body.young_modulus
 }
 
 /// Mean over both bodies, weighted by their compliances.
-fn mean(bits: u32, material: &[Material; 2], function: impl Fn(&Real) -> Real) -> Real {
+pub(crate) fn mean(bits: u32, material: &[Material; 2], function: impl Fn(&Real) -> Real) -> Real {
     let [one, two] = material.each_ref().map(|body| compliance_of(bits, body));
     let [f, g] = material.each_ref().map(|body| function(&Real::new(bits, body.poisson_ratio)));
     (&one * f + &two * g) / (one + two)
@@ -478,25 +478,7 @@ impl Law {
             return if x >= &size { self.real(0.0) } else { square.sqrt() * 1.5 / Real::pi(self.bits) };
         };
         let (w, psi) = stick.map_or((&flat.w, &flat.psi), |point| (&point.w, &point.psi));
-        let a = &flat.a;
-        let c2 = a.square() + w.square();
-        let zeta2 = &c2 - x.square();
-        if !zeta2.is_positive() {
-            return self.real(0.0);
-        }
-        let zeta = zeta2.sqrt();
-        // Eq. 17 with sin φ = x/c, sin φ0 = a/c; the quotients of both logarithms meet in |x² - a²|.
-        let mut sum = psi * &zeta;
-        if !x.is_zero() {
-            sum = sum + x * ((x * w + a * &zeta).ln() - c2.ln() / 2.0);
-        }
-        if !a.is_zero() {
-            sum = sum - a * (w + &zeta).ln();
-        }
-        let beyond = a - x;
-        if !beyond.is_zero() {
-            sum = sum + &beyond * (&beyond * (a + x)).abs().ln() / 2.0;
-        }
+        let sum = punch_pressure(&flat.a, w, psi, x);
         4.0 / Real::pi(self.bits) * sum / &flat.g
     }
 
@@ -546,18 +528,40 @@ pub fn load_of_size(a: f64, w: f64) -> f64 {
     load(&a, &w, &w.atan2(&a)).f64()
 }
 
+/// The pressure of Eq. 17 at x, with sin φ = x/c, sin φ0 = a/c; the quotients of both logarithms meet in |x² - a²|.
+pub(crate) fn punch_pressure(a: &Real, w: &Real, psi: &Real, x: &Real) -> Real {
+    let c2 = a.square() + w.square();
+    let zeta2 = &c2 - x.square();
+    if !zeta2.is_positive() {
+        return 0.0 * zeta2;
+    }
+    let zeta = zeta2.sqrt();
+    let mut sum = psi * &zeta;
+    if !x.is_zero() {
+        sum = sum + x * ((x * w + a * &zeta).ln() - c2.ln() / 2.0);
+    }
+    if !a.is_zero() {
+        sum = sum - a * (w + &zeta).ln();
+    }
+    let beyond = a - x;
+    if !beyond.is_zero() {
+        sum = sum + &beyond * (&beyond * (a + x)).abs().ln() / 2.0;
+    }
+    sum
+}
+
 /// g = 2 (a² + w²) ψ - 2 a w.
-fn load(a: &Real, w: &Real, psi: &Real) -> Real {
+pub(crate) fn load(a: &Real, w: &Real, psi: &Real) -> Real {
     2.0 * (a.square() + w.square()) * psi - 2.0 * a * w
 }
 
 /// B = (w² + 3a²) ψ - 3 a w = ∫ g dc/c.
-fn b_sum(a: &Real, w: &Real, psi: &Real) -> Real {
+pub(crate) fn b_sum(a: &Real, w: &Real, psi: &Real) -> Real {
     (w.square() + 3.0 * a.square()) * psi - 3.0 * a * w
 }
 
 /// C = ∫ g² dc/c, with ln(a/c).
-fn c_sum(a: &Real, w: &Real, g: &Real, ln_a_over_c: &Real) -> Real {
+pub(crate) fn c_sum(a: &Real, w: &Real, g: &Real, ln_a_over_c: &Real) -> Real {
     let first = g.square() / 4.0;
     if a.is_zero() {
         return first;
@@ -584,7 +588,7 @@ fn psi_after(psi: &Real, a: &Real, w: &Real, c2: &Real, step: &Real) -> Real {
 }
 
 /// w of a load, in doubles.
-fn w_guess(a: f64, load: f64) -> f64 {
+pub(crate) fn w_guess(a: f64, load: f64) -> f64 {
     if a == 0.0 {
         return (load / PI).sqrt();
     }
@@ -609,7 +613,7 @@ fn w_guess(a: f64, load: f64) -> f64 {
 }
 
 /// w and ψ of the contact of a load: the root of g(w) by Halley's iteration. With a share, to that share of its difference to b.
-fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
+pub(crate) fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
     let bits = load.bits();
     if a.is_zero() {
         let pi = Real::pi(bits);
@@ -640,7 +644,7 @@ fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real, Real) {
 
 /// J = ∫ dθ/W and J_cos = ∫ cos²θ dθ/W, W² = l² cos²θ + b² sin²θ, θ from 0 to π/2, from K and E by the
 /// arithmetic-geometric mean.
-fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
+pub(crate) fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
     let bits = b.bits();
     let (small, large) = (b.clone().min(l), b.clone().max(l));
     let half_pi = Real::pi(bits) / 2.0;

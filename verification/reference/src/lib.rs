@@ -1,6 +1,8 @@
 //! The friction law in multi-precision: the closed forms of the paper's equations, with as many extra bits as they lose to
 //! cancellation. No series, expansion or interpolation, and no code of the library except its parameter structures.
 
+pub mod element;
+pub mod family;
 pub mod harmonic;
 pub mod history;
 pub mod law;

@@ -3,12 +3,15 @@
 #[path = "../../../tests/golden/table.rs"]
 mod table;
 
+use microslip::{EllipticParameters, Material, Parameters};
+use reference::element::{Element, harmonic_force};
+use reference::family::{Family, Given};
 use reference::history::History;
 use reference::law::Shape;
 use reference::quadrature::Quadrature;
 use reference::stiffness::{complex_stiffness, cycle_energy, real_part};
 use reference::{Input, Real, Reference, harmonic};
-use table::{Row, ellipse, flat, table};
+use table::{Row, ellipse, flat, geometry, table};
 
 fn contacts() -> Vec<Reference> {
     table("contacts").iter().map(|row| Reference::new(Input::Flat(flat(row)))).collect()
@@ -227,4 +230,105 @@ fn closed_forms_are_the_integrals() {
             }
         }
     }
+}
+
+/// The shape of a row of the tables of a varying load, whose functions do not depend on the load of the parameters.
+fn shape(row: &Row) -> Input {
+    let body = |e, nu| Material { young_modulus: row[e], poisson_ratio: row[nu] };
+    let material = [body("E1", "nu1"), body("E2", "nu2")];
+    let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
+    if row["a"].is_nan() {
+        let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
+        Input::Ellipse(EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+    } else {
+        Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, ..geometry(row) })
+    }
+}
+
+#[test]
+fn normal_law() {
+    for row in table("normal_law").iter().filter(|row| row["N"] > 0.0) {
+        let family = Family::new(&shape(row));
+        let (given, value) = if row.text("given") == "N" { (Given::Load, "N") } else { (Given::Approach, "u_n") };
+        let size = family.find(given, &family.real(row[value]));
+        let other = if given == Given::Load { ("u_n", &size.approach) } else { ("N", &size.load) };
+        let found = [
+            other,
+            ("size", &size.half_width),
+            ("tangential_approach", &size.shift),
+            ("dN_dun", &(1.0 / &size.normal_compliance)),
+            ("dS_dun", &(&size.tangential_compliance / &size.normal_compliance)),
+        ];
+        agree(2e-24, row, &found, None);
+        for (given, value) in [(Given::Approach, &size.approach), (Given::Shift, &size.shift)] {
+            let back = family.find(given, value);
+            let off = ((&back.load - &size.load) / &size.load).abs().f64();
+            assert!(off < 1e-60, "{given:?} of a load: {off:e}");
+        }
+    }
+}
+
+/// Histories under a varying load; tangents except at corners, where the table has none.
+#[test]
+fn varying_load() {
+    let rows = table("varying_load");
+    for history in rows.chunk_by(|one, other| one["history"] == other["history"]) {
+        let largest = |name: &str| history.iter().map(|row| row[name].abs()).fold(0.0, f64::max);
+        let heaviest = history.iter().max_by(|one, other| one["N"].total_cmp(&other["N"])).unwrap();
+        let by_force = history[0].text("control") == "N";
+        let element = Element::new(&shape(heaviest), by_force);
+        let mut state = element.open();
+        let slip_force = &element.family.friction * largest("N");
+        let energy = &slip_force * largest("delta");
+        for row in history {
+            let input = element.real(row[if by_force { "N" } else { "u_n" }]);
+            let step = element.step(&mut state, &element.real(row["delta"]), &input);
+            if !by_force {
+                agree(1e-24, row, &[("N", &step.load)], Some(&element.real(largest("N"))));
+            }
+            agree(1e-24, row, &[("T", &step.force)], Some(&slip_force));
+            agree(1e-23, row, &[("dissipated", &step.dissipated), ("stored", &element.stored(&state))], Some(&energy));
+            let by_approach = if by_force { &step.tangent[1] * row["dN_dun"] } else { step.tangent[1].clone() };
+            let stiffness = element.real(row["dN_dun"].max(row["dT_ddelta"]));
+            let scale = (!stiffness.is_zero()).then_some(&stiffness);
+            agree(1e-15, row, &[("dT_dun", &by_approach)], scale); // dN_dun as a double
+            agree(2e-21, row, &[("dT_ddelta", &step.tangent[0])], scale);
+        }
+    }
+}
+
+/// At a constant load the harmonic force of an element is that of the contact, in microslip and in gross slip; a load that opens the
+/// contact for half of the period leaves it closed and stuck, or open, for the other.
+#[test]
+fn harmonic_force_of_an_element() {
+    let input = &contacts()[3].input;
+    let Input::Flat(parameters) = input else { panic!() };
+    let (contact, element) = (Reference::new(*input), Element::new(input, true));
+    let law = contact.law(0);
+    let (slip, samples) = ((&law.displacement_unit * &law.x_slip).f64(), 48);
+    for amplitude in [0.7 * slip, 1.6 * slip] {
+        let u = [0.1 * slip, amplitude, 0.3 * slip];
+        let coefficients = [u[0], u[1], u[2], parameters.normal_force, 0.0, 0.0].map(|value| element.real(value));
+        let (force, dissipated) = harmonic_force(&element, &coefficients, samples);
+        let u: Vec<Real> = u.iter().map(|u| law.x(*u)).collect();
+        let expected = harmonic::sampled(&law, &u, samples, |_| ());
+        for (force, expected) in force.iter().zip(&expected.force) {
+            let off = (force / &law.slip_force - expected).abs().f64();
+            assert!(off < 1e-24, "{off:e}");
+        }
+        let off = (dissipated / law.energy_unit() / &expected.dissipated.energy - 1.0).abs().f64();
+        assert!(off < 1e-22, "energy: {off:e}");
+    }
+    // N = N0 cos t (0 in the mean: open for half of the period) and no motion: T = 0 and the mean of max(N, 0).
+    let element = Element::new(input, false);
+    let approach = element.family.find(Given::Load, &element.real(parameters.normal_force)).approach.f64();
+    let coefficients = [0.0, 0.0, 0.0, 0.0, approach, 0.0].map(|value| element.real(value));
+    let (force, dissipated) = harmonic_force(&element, &coefficients, samples);
+    assert!(force[..3].iter().all(Real::is_zero) && dissipated.is_zero());
+    let mean = (0..samples).fold(element.real(0.0), |sum, i| {
+        let w = approach * (2.0 * Real::pi(element.family.bits) * (i as f64) / samples as f64).sin_cos().1;
+        if w.is_positive() { sum + element.size_of_input(&w).load / samples as f64 } else { sum }
+    });
+    // The samples at w = 0 are rounded.
+    assert!(((&force[3] - &mean) / mean).abs().f64() < 1e-60);
 }

@@ -10,21 +10,45 @@ use std::ptr::null_mut;
 /// doubled, and sums round by a unit.
 pub const BRANCH_ROUNDING: f64 = 4e-15;
 
-/// A call with traps for invalid operations, divisions by zero and overflows, which end the program; `Ok` if its status is 0.
+/// A call with traps for invalid operations, divisions by zero and overflows, which end the program.
 #[inline]
-fn accepted(call: impl FnOnce() -> i32) -> Outcome {
+pub fn trapped<T>(call: impl FnOnce() -> T) -> T {
     /// Control words of SSE: all exceptions masked, or all but those of subnormal, underflowing and inexact numbers.
     const MASKED: u32 = 0x1f80;
     const TRAPPED: u32 = 0x1f80 & !(0x080 | 0x200 | 0x400);
     set_control(TRAPPED);
-    let status = call();
+    let result = call();
     set_control(MASKED);
+    result
+}
+
+/// `Ok` if the status of a call with traps is 0.
+#[inline]
+fn accepted(call: impl FnOnce() -> i32) -> Outcome {
+    let status = trapped(call);
     if status == ffi::MSLIP_OK { Ok(()) } else { Err(format!("rejected with status {status}")) }
+}
+
+/// A call under each of the four rounding directions: to nearest, down, up, to zero.
+#[cfg(target_arch = "x86_64")]
+pub fn in_all_rounding_directions<T>(mut call: impl FnMut() -> T) -> [T; 4] {
+    [0x0000, 0x2000, 0x4000, 0x6000].map(|direction| {
+        set_control(0x1f80 | direction);
+        let result = call();
+        set_control(0x1f80);
+        result
+    })
+}
+
+/// Elsewhere to nearest.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn in_all_rounding_directions<T>(mut call: impl FnMut() -> T) -> [T; 4] {
+    [(); 4].map(|()| call())
 }
 
 #[cfg(target_arch = "x86_64")]
 fn set_control(word: u32) {
-    // SAFETY: a valid word, which changes the trapped exceptions only.
+    // SAFETY: a valid word, which changes the trapped exceptions and the rounding direction only.
     unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack)) }
 }
 

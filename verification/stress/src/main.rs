@@ -7,14 +7,17 @@
 mod bank;
 mod checked;
 mod contacts;
+mod element;
 mod histories;
 mod library;
 mod memory;
 
 use checked::CheckedHistory;
+use element::Element;
 use library::Contact;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
+use reference::Input;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -70,6 +73,71 @@ fn checked_history(contact: &Contact, kind: usize, steps: u64, rng: &mut SmallRn
     Ok(())
 }
 
+/// A named case.
+struct Case<'a> {
+    name: String,
+    run: Box<dyn Fn(&mut SmallRng) -> Outcome + Sync + 'a>,
+}
+
+impl<'a> Case<'a> {
+    fn new(name: String, input: Input, run: impl Fn(&mut SmallRng) -> Outcome + Sync + 'a) -> Case<'a> {
+        Case { name, run: Box::new(move |rng| run(rng).map_err(|failure| format!("{failure}\n  {input:?}"))) }
+    }
+}
+
+/// The law of a constant load: each contact in each kind of history, and against a bank.
+fn constant_load<'a>(contacts: &'a [Contact], steps: &'a (dyn Fn(f64) -> u64 + Sync)) -> Vec<Case<'a>> {
+    let mut cases = Vec::new();
+    for (number, contact) in contacts.iter().enumerate() {
+        let Contact { name, input, .. } = contact;
+        let run = |rng: &mut SmallRng| bank::compare(contact, steps(1e6), rng);
+        cases.push(Case::new(format!("bank: {name}"), *input, run));
+        for (kind, (history, _)) in histories::all(1.0).into_iter().enumerate() {
+            // In full length with one contact, a twentieth of it with the others.
+            let full = if kind == number { 1e7 } else { 5e5 };
+            let run = move |rng: &mut SmallRng| checked_history(contact, kind, steps(full), rng);
+            cases.push(Case::new(format!("history: {name}: {history}"), *input, run));
+        }
+    }
+    cases
+}
+
+/// Elements of each contact that is not too wide for its length, with both normal inputs.
+fn elements(contacts: &[Contact]) -> Vec<(String, Element)> {
+    let element = |contact: &Contact, by_force: bool| {
+        let name = format!("{}, {}", contact.name, if by_force { "force" } else { "approach" });
+        Some((name, Element::new(&contact.input, by_force)?))
+    };
+    contacts.iter().flat_map(|contact| [false, true].map(|by_force| element(contact, by_force))).flatten().collect()
+}
+
+/// The law of a varying load.
+fn varying_load<'a>(elements: &'a [(String, Element)], steps: &'a (dyn Fn(f64) -> u64 + Sync)) -> Vec<Case<'a>> {
+    let mut cases = Vec::new();
+    for (number, (name, element)) in elements.iter().enumerate() {
+        for (place, kind) in element::KINDS.into_iter().enumerate() {
+            let full = if place == number % element::KINDS.len() { 1e7 } else { 1e6 };
+            let run = move |rng: &mut SmallRng| element::checked_history(element, kind, steps(0.2 * full), rng);
+            cases.push(Case::new(format!("element: {name}: {kind}"), element.input, run));
+        }
+        let full = if number == 0 { 1e8 } else { 1e6 };
+        let cycles = move |rng: &mut SmallRng| element::cycles(element, steps(full), rng);
+        cases.push(Case::new(format!("element, cycles: {name}"), element.input, cycles));
+        // Units of 2^7 m and 2^-11 N.
+        let other = |rng: &mut SmallRng| element::scaled_and_rounded(element, [128.0, 1.0 / 2048.0], steps(1e6), rng);
+        cases.push(Case::new(format!("element, units and rounding: {name}"), element.input, other));
+        if element.by_force() {
+            let springs = |rng: &mut SmallRng| element::springs::compare(element, steps(1e5), rng);
+            cases.push(Case::new(format!("element, springs: {name}"), element.input, springs));
+        }
+    }
+    cases.push(Case {
+        name: "element: Mindlin and Deresiewicz".to_owned(),
+        run: Box::new(|_| element::mindlin::compare()),
+    });
+    cases
+}
+
 fn main() -> ExitCode {
     let Some(Arguments { scale, seed, only }) = arguments() else {
         eprintln!("usage: stress [--scale X] [--seed N] [--only TEXT]");
@@ -77,32 +145,25 @@ fn main() -> ExitCode {
     };
     println!("seed {seed}, scale {scale}");
     let steps = |full: f64| (full * scale).max(100.0) as u64;
+    let steps: &(dyn Fn(f64) -> u64 + Sync) = &steps;
     let contacts = contacts::all();
-    let mut cases: Vec<(String, &Contact, Option<usize>)> = Vec::new();
-    for contact in &contacts {
-        cases.push((format!("bank: {}", contact.name), contact, None));
-        let kinds = histories::all(1.0).into_iter().enumerate();
-        cases
-            .extend(kinds.map(|(kind, (name, _))| (format!("history: {}: {name}", contact.name), contact, Some(kind))));
-    }
-    cases.retain(|(name, ..)| name.contains(&only));
+    let elements = elements(&contacts);
+    let mut cases: Vec<Case> = constant_load(&contacts, steps);
+    cases.extend(varying_load(&elements, steps));
+    cases.retain(|case| case.name.contains(&only));
     let (next, failures) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = || {
-        while let Some((name, contact, kind)) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(Case { name, run }) = cases.get(number) else { break };
+            if scale >= 0.1 {
+                eprintln!("{} of {}: {name}", number + 1, cases.len());
+            }
             // Independent of other cases: the seed is a hash (Fowler, Noll, Vo) of the name.
             let hash = name.bytes().fold(seed, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-            let mut rng = SmallRng::seed_from_u64(hash);
-            let outcome = match *kind {
-                Some(kind) => {
-                    // In full length with one contact, a twentieth of it with the others.
-                    let full = contacts.get(kind).is_some_and(|full| std::ptr::eq(full, *contact));
-                    checked_history(contact, kind, steps(if full { 1e7 } else { 5e5 }), &mut rng)
-                }
-                None => bank::compare(contact, steps(1e6), &mut rng),
-            };
-            if let Err(failure) = outcome {
+            if let Err(failure) = run(&mut SmallRng::seed_from_u64(hash)) {
                 failures.fetch_add(1, Ordering::Relaxed);
-                println!("FAILED: {name}\n  {failure}\n  {:?}", contact.input);
+                println!("FAILED: {name}\n  {failure}");
                 println!("  again: make stress ARGUMENTS=\"--seed {seed} --scale {scale} --only '{name}'\"");
             }
         }

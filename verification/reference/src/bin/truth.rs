@@ -12,11 +12,16 @@
 //! | `stiffness` | amplitude | K', K'', dK', dK'' |
 //! | `harmonic` | samples, u0, c1, s1, ... | force coefficients f0, c1, s1, ...; exact integrals with 0 samples, else by their rule |
 //! | `masing` | displacements | force after each of them, from the unloaded state |
+//! | `element` | input, u, w, u, w, ... | T and N after each step of an element, from the open contact |
+//! | `element_harmonic` | input, samples, u0, c1, s1, ..., w0, c1, s1, ... | coefficients of T, then of N, and the dissipated energy, by the rule of uniform samples |
+//!
+//! The input of an element is 0 if w is the normal approach, 1 if it is the normal force.
 //!
 //! Before rounding, results have 33 digits, K' 20, its derivative 19 on the scale of K'/amplitude, exact harmonic forces 19 on that
 //! of mu N.
 
 use microslip::{Material, Parameters};
+use reference::element::{Element, harmonic_force};
 use reference::history::History;
 use reference::{Input, Real, Reference, harmonic, stiffness};
 use std::io::{Read, stdin};
@@ -66,6 +71,22 @@ fn row(line: &str) -> String {
                 &law.slip_force * &history.force()[0]
             };
             displacements.iter().map(force).collect()
+        }
+        ("element", [kind, steps @ ..]) => {
+            let element = Element::new(&contact.input, *kind == 1.0);
+            let mut state = element.open();
+            let forces = steps.as_chunks().0.iter().flat_map(|&[u, w]| {
+                let step = element.step(&mut state, &element.real(u), &element.real(w));
+                [step.force, step.load]
+            });
+            forces.collect()
+        }
+        ("element_harmonic", [kind, samples, coefficients @ ..]) if coefficients.len() % 4 == 2 => {
+            let element = Element::new(&contact.input, *kind == 1.0);
+            let coefficients: Vec<Real> = coefficients.iter().map(|value| element.real(*value)).collect();
+            let (mut values, dissipated) = harmonic_force(&element, &coefficients, *samples as usize);
+            values.push(dissipated);
+            values
         }
         _ => panic!("{line}: no such task, or wrong arguments"),
     };

@@ -1,0 +1,237 @@
+//! Commands under a normal force that varies, with separation.
+
+use crate::args::{History, Loop, Normal};
+use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, grid, pairs, panel, parts_of_step, scaled};
+use crate::contact_spec::ContactSpec;
+use crate::error::{CliError, Result};
+use crate::number::{Amount, format_list, format_number};
+use crate::plot::{Axis, Line, Panel, rounded};
+use crate::table::{InputTable, Table};
+use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
+use microslip::Error;
+use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::state::{advance, state_init, state_length};
+
+const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
+
+pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
+    let element = spec.element(NormalInput::Approach)?;
+    let at_approach = |option: &str, approach: f64| {
+        element.check_approach(approach).map_err(|error| CliError::in_option(option, approach, error))?;
+        let point = element.normal_force_at(approach);
+        Ok(vec![approach, point.value, point.slope, element.half_width_under(point.value)])
+    };
+    let at_force = |&force: &f64| {
+        element.check_normal_force(force).map_err(|error| CliError::in_option("--force", force, error))?;
+        let point = element.approach_under(force);
+        // An open contact has no stiffness.
+        let stiffness = if force > 0.0 { 1.0 / point.slope } else { 0.0 };
+        Ok(vec![point.value, force, stiffness, element.half_width_under(force)])
+    };
+    let forces = scaled(&options.force, options.relative, element.normal_force);
+    let mut approaches = scaled(&options.approach, options.relative, element.approach);
+    let repeat = if !forces.is_empty() {
+        format!(" --force {}", format_list(&forces))
+    } else if !approaches.is_empty() {
+        format!(" --approach {}", format_list(&approaches))
+    } else {
+        let factor = if options.relative { element.approach } else { 1.0 };
+        let end = options.to.map_or(element.approach, |to| to * factor);
+        at_approach("--to", end)?;
+        approaches = grid(end, options.points);
+        format!(" --to {} --points {}", format_number(end), options.points)
+    };
+    let approaches = approaches.into_iter().map(|approach| at_approach("--approach", approach));
+    let rows = forces.iter().map(at_force).chain(approaches).collect::<Result<Vec<_>>>()?;
+    let columns = [("approach", Length), ("normal_force", Force), ("stiffness", Stiffness), ("half_width", Length)];
+    let approach = Axis::linear("approach", Length);
+    let panels = vec![
+        panel(approach, NORMAL_FORCE, pairs(&rows, 0, 1)),
+        panel(approach, STIFFNESS, pairs(&rows, 0, 2)),
+        panel(approach, Axis::linear("half-width", Length), pairs(&rows, 0, 3)),
+    ];
+    Ok(Report::new("normal", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
+}
+
+/// The state of an open contact at displacement 0.
+fn new_state(pieces: usize) -> Result<Vec<f64>> {
+    let mut state = vec![0.0; state_length(pieces)];
+    state_init(&mut state).map_err(|error| CliError::Input(error.to_string()))?;
+    Ok(state)
+}
+
+/// Pieces of the state from which a picture is drawn; what merging changes is invisible.
+const PIECES_OF_PICTURE: usize = 256;
+
+pub fn history(
+    options: &History,
+    spec: &ContactSpec,
+    input: NormalInput,
+    table: &InputTable,
+    repeat: &str,
+) -> Result<Report> {
+    let (element, path, count) = (spec.element(input)?, &options.displacements, table.rows.len());
+    let by_approach = input == NormalInput::Approach;
+    let of_normal = if by_approach { element.approach } else { element.normal_force };
+    let factors = if options.relative { [spec.contact.slip_displacement, of_normal] } else { [1.0; 2] };
+    // A step adds at most one piece: none is merged, and the results are exact.
+    let (mut state, mut drawn) = (new_state(count)?, new_state(PIECES_OF_PICTURE)?);
+    let parts = parts_of_step(count);
+    let (mut rows, mut points, mut from) = (Vec::new(), vec![[0.0; 3]], [0.0; 2]);
+    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    for row in &table.rows {
+        let to = [row.values[0] * factors[0], row.values[1] * factors[1]];
+        let step = advance(&element, &mut state, to, true).map_err(|error| {
+            let index = usize::from(error != Error::BadDisplacement || to[0].abs() <= 1e150);
+            let (place, value) = (table.place(row, index), format_number(to[index]));
+            CliError::in_file(path, format!("{place}: {value}: {error}"))
+        })?;
+        for part in 1..=parts {
+            let at = if part < parts { between(&element, from, to, f64::from(part) / f64::from(parts)) } else { to };
+            let step = advance(&element, &mut drawn, at, false).map_err(|error| CliError::in_file(path, error))?;
+            points.push([at[0], step.force[1], step.force[0]]);
+        }
+        let [tangential, normal] = step.force;
+        (least, largest) = (least.min(normal), largest.max(normal));
+        let given = [to[1]].into_iter().filter(|_| by_approach);
+        rows.push(
+            [to[0]].into_iter().chain(given).chain([normal, tangential, step.tangent[0], step.dissipated]).collect(),
+        );
+        from = to;
+    }
+    let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
+    let others = [("normal_force", Force), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
+    let columns: Vec<_> = [("displacement", Length)].into_iter().chain(approach).chain(others).collect();
+    let line = |name: &str, x: usize, y: usize| Line {
+        name: name.to_owned(),
+        points: points.iter().map(|point| (point[x], point[y])).collect(),
+    };
+    let limit = element.friction_coefficient * largest;
+    let cone = Line { name: "±μN".to_owned(), points: vec![(largest, limit), (0.0, 0.0), (largest, -limit)] };
+    let panels = vec![
+        Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line("", 0, 2)] },
+        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: vec![line("", 0, 1)] },
+        Panel { x: NORMAL_FORCE, y: FORCE, lines: vec![line("force", 1, 2), cone] },
+    ];
+    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let range = format!("{} to {}", rounded(least, Force, spec.units), rounded(largest, Force, spec.units));
+    Ok(report.under(spec, &range).with_remark("stiffness: by the displacement; dissipated: energy of each step"))
+}
+
+/// The point at a fraction of the displacement of a step, which is straight in the tangential shift; while open, in the approach.
+fn between(element: &Element, from: [f64; 2], to: [f64; 2], fraction: f64) -> [f64; 2] {
+    let displacement = from[0] + (to[0] - from[0]) * fraction;
+    let by_approach = element.normal_input == NormalInput::Approach as i32;
+    let load = |input: f64| if by_approach { element.normal_force_at(input).value } else { input };
+    // The closed part of the path, between two fractions.
+    let crossing = if by_approach { from[1] / (from[1] - to[1]) } else { f64::from(u8::from(from[1] > 0.0)) };
+    let (start, end) = match (from[1] > 0.0, to[1] > 0.0) {
+        (true, true) => (0.0, 1.0),
+        (true, false) => (0.0, crossing),
+        (false, true) => (crossing, 1.0),
+        (false, false) => (1.0, 1.0),
+    };
+    if fraction < start || fraction > end || start >= end {
+        return [displacement, if by_approach { from[1] + (to[1] - from[1]) * fraction } else { 0.0 }];
+    }
+    let [first, last] = [from[1], to[1]].map(|input| element.shift_under(load(input.max(0.0))));
+    let shift = first + (last - first) * (fraction - start) / (end - start);
+    let normal_force = element.load_under(shift.max(0.0));
+    let input = if by_approach { element.approach_under(normal_force).value } else { normal_force };
+    [displacement, input]
+}
+
+/// Steps of a period, at least, from which a loop and its energy are computed.
+const STEPS_OF_PERIOD: usize = 4096;
+
+/// Loops under `N (1 + a cos(ωt + φ))`, or 0 where that is negative, for `u = û cos ωt`.
+pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], repeat: &str) -> Result<Report> {
+    let (element, units) = (spec.element(NormalInput::Force)?, spec.units);
+    let (mean, n) = (element.normal_force, options.points as usize);
+    let given = match options.normal_amplitude {
+        Some(Amount::Fraction(fraction)) => fraction * mean,
+        Some(Amount::Absolute(multiple)) if options.relative => multiple * mean,
+        Some(Amount::Absolute(force)) => force,
+        None => 0.0,
+    };
+    if !(given >= 0.0 && given.is_finite()) {
+        return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
+    }
+    if let Some(phase) = options.phase.iter().find(|phase| !phase.is_finite()) {
+        return Err(CliError::Input(format!("--phase {}: a phase must be finite", format_number(*phase))));
+    }
+    let steps = n * STEPS_OF_PERIOD.div_ceil(n);
+    let (mut rows, mut forces, mut loads) = (Vec::new(), Vec::new(), Vec::new());
+    let name = |amplitude: f64| match amplitudes {
+        [_] => String::new(),
+        _ => format!("±{}, ", rounded(amplitude, Length, units)),
+    };
+    for &amplitude in amplitudes {
+        let error = |error| CliError::in_option("--amplitude", amplitude, error);
+        let hysteresis = spec.contact.hysteresis_loop(amplitude).map_err(error)?;
+        let constant = spec.contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
+        for &phase in &options.phase {
+            let at = |i: usize| {
+                let angle = |degrees: f64| (degrees + 360.0 * (i % steps) as f64 / steps as f64).to_radians();
+                [amplitude * angle(0.0).cos(), (mean + given * angle(phase % 360.0).cos()).max(0.0)]
+            };
+            let (period, dissipated) = steady_period(&element, &(0..=steps).map(at).collect::<Vec<_>>())?;
+            let row = |[displacement, normal_force, force]: &[f64; 3]| {
+                vec![amplitude, phase, *displacement, *normal_force, *force, dissipated, constant]
+            };
+            let of_loop: Vec<_> = period.iter().step_by(steps / n).map(row).collect();
+            let size = format!("{}{}°", name(amplitude), format_number(phase));
+            let points = |x: usize, y: usize| period.iter().map(|point| (point[x], point[y])).collect();
+            forces.push(Line { name: format!("{size}: {}", rounded(dissipated, Energy, units)), points: points(0, 2) });
+            loads.push(Line { name: size, points: points(0, 1) });
+            rows.extend(of_loop);
+        }
+        let points = (0..=n).map(|i| (hysteresis.displacement(i, n), hysteresis.force(i, n))).collect();
+        let size = format!("{}constant load: {}", name(amplitude), rounded(constant, Energy, units));
+        forces.push(Line { name: size, points });
+    }
+    let columns = [
+        ("amplitude", Length),
+        ("phase", Angle),
+        ("displacement", Length),
+        ("normal_force", Force),
+        ("force", Force),
+        ("dissipated", Energy),
+        ("dissipated_constant", Energy),
+    ];
+    let panels = vec![
+        Panel { x: DISPLACEMENT, y: FORCE, lines: forces },
+        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: loads },
+    ];
+    let phases = format_list(&options.phase);
+    let repeat = format!("{repeat} --normal-amplitude {} --phase {phases}", format_number(given));
+    let report = Report::new("loop", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels);
+    let load = [mean, given].map(|force| rounded(force, Force, units)).join(" ± ");
+    let remark = "dissipated: energy per cycle; dissipated_constant: under the constant normal force";
+    Ok(report.under(spec, &load).with_remark(remark))
+}
+
+/// The second of two periods, `[displacement, normal force, force]` from the first point to its repetition, and its dissipated
+/// energy. They start at the largest normal force, under which the contact was displaced.
+fn steady_period(element: &Element, path: &[[f64; 2]]) -> Result<(Vec<[f64; 3]>, f64)> {
+    let steps = path.len() - 1;
+    let mut state = new_state(2 * steps)?;
+    let first = (0..steps).fold(0, |best, i| if path[i][1] > path[best][1] { i } else { best });
+    let mut go = |to: [f64; 2]| {
+        let step = advance(element, &mut state, to, true).map_err(|error| CliError::Input(error.to_string()))?;
+        Ok::<_, CliError>(([to[0], to[1], step.force[0]], step.dissipated))
+    };
+    go([0.0, path[first][1]])?;
+    for i in 0..=steps {
+        go(path[(first + i) % steps])?;
+    }
+    let (mut period, mut dissipated) = (vec![[0.0; 3]; steps + 1], 0.0);
+    for i in 1..=steps {
+        let index = (first + i) % steps;
+        let (point, energy) = go(path[index])?;
+        period[index] = point;
+        dissipated += energy;
+    }
+    period[steps] = period[0];
+    Ok((period, dissipated))
+}

@@ -1,0 +1,332 @@
+//! The element under a varying normal force: its normal law, and steps and tractions along histories.
+
+use crate::curve::moved;
+use crate::sampler::{ElementCase, Sampler, text};
+use crate::tally::Tally;
+use microslip::varying_load::state;
+use microslip::varying_load::tractions::tractions;
+use reference::element::{Element as Exact, Kind, State, Step};
+use reference::family::{Given, Size};
+use reference::{Input, Real};
+
+/// Rounding errors of neighbouring inputs, in ε.
+const UNITS: f64 = 8.0;
+
+/// A share of the largest load of the tables, and its range.
+fn share_of_load(sampler: &mut Sampler) -> (f64, &'static str) {
+    match sampler.below(8) {
+        0 if sampler.chance(0.1) => (sampler.power(-40.0, -9.0), "below the tables"),
+        0 => (sampler.power(-9.0, -5.0), "below the tables"),
+        1 => (sampler.power(0.0, 6.0), "beyond the tables"),
+        2 | 3 => (sampler.power(-6.0, -1.0), "small"),
+        4 => (2f64.powi(-(sampler.below(22) as i32)), "powers of 2"),
+        _ => (sampler.between(0.1, 1.0), "between"),
+    }
+}
+
+/// The normal law at random loads and approaches.
+pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) {
+    let ElementCase { element, reference, kind, input, .. } = case;
+    for _ in 0..25 {
+        let (share, range) = share_of_load(sampler);
+        let load = share * element.normal_force;
+        if element.check_normal_force(load).is_err() {
+            continue;
+        }
+        let at_load = element.approach_under(load);
+        let place = || format!("{} N {load:e}", text(input));
+        let family = &reference.family;
+        let exact = family.find(Given::Load, &reference.real(load));
+        let [normal, tangential] = family.log_compliances(&exact);
+        // S is tabulated, and U less than S by the difference of both K times N.
+        let condition = ((normal - tangential).abs() + 1.0) / normal;
+        tally.check(("normal_approach", kind, range), at_load.value, &exact.approach, condition, place);
+        tally.check(("normal_compliance", kind, range), at_load.slope, &exact.normal_compliance, condition, place);
+        let half_width = element.half_width_under(load);
+        tally.check(("normal_half_width", kind, range), half_width, &exact.half_width, 0.0, place);
+        // The same size by its approach.
+        let approach = at_load.value;
+        if element.check_approach(approach).is_err() {
+            continue;
+        }
+        let at_approach = element.normal_force_at(approach);
+        let place = || format!("{} w {approach:e}", text(input));
+        let exact = family.find(Given::Approach, &reference.real(approach));
+        let condition = 1.0 / normal;
+        tally.check(("normal_force", kind, range), at_approach.value, &exact.load, condition, place);
+        let stiffness = 1.0 / &exact.normal_compliance;
+        tally.check(("normal_stiffness", kind, range), at_approach.slope, &stiffness, condition, place);
+        let half_width = element.half_width_under(at_approach.value);
+        let key = ("normal_half_width_inverse", *kind, range);
+        tally.check(key, half_width, &exact.half_width, condition, place);
+    }
+}
+
+/// Displacements and normal inputs of a history.
+fn history(case: &ElementCase, sampler: &mut Sampler, steps: usize) -> (Vec<[f64; 2]>, &'static str) {
+    let ElementCase { element, .. } = case;
+    let by_force = element.normal_input == 1;
+    let mu = element.friction_coefficient;
+    let (pattern, range) = match sampler.below(7) {
+        0 => (0, "constant load"),
+        1 | 2 => (1, "load varies"),
+        3 => (2, "loads from 1e-6"),
+        4 => (3, "separation"),
+        5 => (4, "near-ties"),
+        _ => (5, "beyond the tables"),
+    };
+    let input_of = |load: f64| {
+        let within = element.check_normal_force(load).is_ok();
+        within.then(|| if by_force { load } else { element.approach_under(load).value })
+    };
+    let top = sampler.power(-1.5, 0.5);
+    let constant = sampler.between(0.05, 1.0);
+    let far = if sampler.chance(0.1) { sampler.power(0.0, 4.0) } else { 0.0 };
+    let mut path: Vec<[f64; 2]> = Vec::with_capacity(steps);
+    let (mut load_before, mut before) = (0.0, [0.0; 2]);
+    for i in 0..steps {
+        let share = match pattern {
+            0 => constant,
+            2 => sampler.power(-6.0, 0.1),
+            5 => sampler.power(-1.0, 3.0),
+            _ if sampler.chance(0.2) => load_before / element.normal_force,
+            _ => sampler.between(0.05, 1.2),
+        };
+        let mut load = share * element.normal_force;
+        let input = match input_of(load) {
+            _ if pattern == 3 && sampler.chance(0.3) => {
+                load = 0.0;
+                if by_force { 0.0 } else { -(sampler.below(3) as f64) * element.approach * sampler.unit() }
+            }
+            _ if pattern == 4 && sampler.chance(0.3) && before[1] > 0.0 => {
+                load = load_before;
+                if sampler.chance(0.2) {
+                    1e-25 * input_of(element.normal_force).expect("the load of the parameters")
+                } else {
+                    sampler.near(before[1], 2)
+                }
+            }
+            Some(input) => input,
+            None => {
+                load = element.normal_force;
+                input_of(load).expect("the load of the parameters")
+            }
+        };
+        let reach = |load: f64| if load > 0.0 { mu * element.shift_under(load) } else { 0.0 };
+        let (now, last) = (reach(load), reach(load_before));
+        let unit = reach(element.normal_force);
+        let displacement = match sampler.below(8) {
+            0 => before[0],
+            1 => before[0] + (now - last) * sampler.between(-1.5, 1.5),
+            2 => before[0] + now.max(last) * sampler.power(-16.0, -1.0),
+            3 if pattern == 4 => before[0] + (now - last).copysign(sampler.between(-1.0, 1.0)),
+            3 if i > 0 => path[sampler.below(i)][0],
+            4 if pattern == 4 && before[0] != 0.0 => sampler.near(before[0], 2),
+            5 => before[0] - now.max(last) * sampler.power(-3.0, 0.3),
+            _ => unit * (far + top * sampler.between(-1.0, 1.0)),
+        };
+        (load_before, before) = (load, [displacement, input]);
+        path.push(before);
+    }
+    (path, range)
+}
+
+/// Steps along a history, and tractions at its end.
+pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) {
+    let ElementCase { element, reference, kind, input } = case;
+    let mut library = vec![0.0; state::state_length(64)];
+    state::state_init(&mut library).expect("long enough");
+    let mut exact = reference.open();
+    let (path, range) = history(case, sampler, 32);
+    // Largest displacement and size so far.
+    let (mut farthest, mut largest): (f64, Option<Size>) = (0.0, None);
+    for (i, &[u, w]) in path.iter().enumerate() {
+        let got = state::advance(element, &mut library, [u, w], true)
+            .unwrap_or_else(|error| panic!("{error:?}: {} path {:?}", text(input), &path[..=i]));
+        let before = exact.clone();
+        let [displacement, normal] = [u, w].map(|value| reference.real(value));
+        let step = reference.step(&mut exact, &displacement, &normal);
+        farthest = farthest.max(u.abs());
+        if let Some(size) = &exact.size
+            && largest.as_ref().is_none_or(|largest| size.load > largest.load)
+        {
+            largest = Some(size.clone());
+        }
+        let place = || format!("{} path {:?}", text(input), &path[..=i]);
+        let check = Check { case, kind, range, farthest, before, displacement, normal };
+        check.energy(got.dissipated, &step, &exact, tally, place);
+        if let (Some(size), Some(largest)) = (&exact.size, &largest) {
+            check.forces(got.force, &step, size, largest, tally, place);
+            check.tangent(got.tangent, &step, size, tally, place);
+        } else {
+            assert!(got.force == [0.0; 2] && got.tangent == [0.0; 4], "{}: open, but {got:?}", place());
+        }
+    }
+    if exact.size.is_some() {
+        tractions_at(case, &library, &exact, farthest, sampler, tally, || format!("{} path {path:?}", text(input)));
+    }
+}
+
+/// A step of a history, for comparisons.
+struct Check<'a> {
+    case: &'a ElementCase,
+    kind: &'static str,
+    range: &'static str,
+    farthest: f64,
+    before: State,
+    displacement: Real,
+    normal: Real,
+}
+
+impl Check<'_> {
+    /// Displacements and shifts, which have rounding errors relative to this.
+    fn reach(&self, shift: &Real) -> Real {
+        self.farthest + &self.case.reference.family.friction * shift
+    }
+
+    /// Results of the steps to neighbouring displacements and normal inputs: at a corner the tangent jumps, and so does the slip zone.
+    fn around(&self, size: &Size, result: impl Fn(&Step) -> Real) -> Vec<Real> {
+        let units = [-UNITS, 0.0, UNITS].map(|units| units * f64::EPSILON);
+        let shifts = units.iter().flat_map(|du| units.iter().map(move |dw| [*du, *dw]));
+        let step_to = |[du, dw]: [f64; 2]| {
+            let displacement = &self.displacement + du * self.reach(&size.shift);
+            let normal = &self.normal * (1.0 + dw);
+            result(&self.case.reference.step(&mut self.before.clone(), &displacement, &normal))
+        };
+        shifts.map(step_to).collect()
+    }
+
+    /// κ of the force: displacements and the logarithm of the compliance are rounded.
+    fn condition(&self, size: &Size) -> f64 {
+        let family = &self.case.reference.family;
+        let [normal, tangential] = family.log_compliances(size);
+        let displacements = self.farthest / (&family.friction * &size.load * &size.tangential_compliance);
+        displacements.f64() + 1.0 / normal.min(tangential)
+    }
+
+    fn forces(
+        &self,
+        [force, load]: [f64; 2],
+        step: &Step,
+        size: &Size,
+        largest: &Size,
+        tally: &mut Tally,
+        place: impl Fn() -> String,
+    ) {
+        let friction = &self.case.reference.family.friction;
+        let key = |name| (name, self.kind, self.range);
+        let [normal, _] = self.case.reference.family.log_compliances(size);
+        tally.check(key("element_normal_force"), load, &step.load, 1.0 / normal, &place);
+        for (name, size) in [("element_force", largest), ("element_force_present", size)] {
+            let scale = friction * &size.load;
+            tally.check_scaled(key(name), force, &step.force, &scale, self.condition(size), &place);
+        }
+    }
+
+    fn tangent(&self, got: [f64; 4], step: &Step, size: &Size, tally: &mut Tally, place: impl Fn() -> String) {
+        let [by_displacement, normal_by_displacement, by_input, load_slope] = got;
+        assert!(normal_by_displacement == 0.0);
+        let reference = &self.case.reference;
+        let family = &reference.family;
+        let [normal, tangential] = family.log_compliances(size);
+        let key = |name| (name, self.kind, self.range);
+        let soft = ((normal - tangential).abs() + 1.0) / normal.min(tangential);
+        tally.check(key("element_normal_stiffness"), load_slope, &step.load_slope, soft, &place);
+        // The edge of the slip zone, and the rise of the load, are known to the rounding of displacements and shifts.
+        let reach = self.reach(&size.shift);
+        let rise = self.before.size.as_ref().map_or(size.shift.clone(), |before| &size.shift - &before.shift);
+        let at_edge =
+            |edge: &Size, rate: &Real| (family.curvature(edge) * &edge.tangential_compliance * &reach / rate).f64();
+        let motion = (&self.displacement - &self.before.displacement).abs();
+        // Of a rising load, unless all of it slips for sure.
+        let secant = rise.is_positive() && motion < &family.friction * &rise + &reach * (64.0 * f64::EPSILON);
+        let condition = soft
+            + if secant { (&reach / &family.friction / rise).f64() } else { 0.0 }
+            + match &step.edge {
+                Some((edge, rate)) => at_edge(edge, rate),
+                None if step.kind == Kind::GrossSlip || secant => 0.0,
+                None => at_edge(size, &family.friction),
+            };
+        let [exact, exact_by_input] = &step.tangent;
+        let stiffness = 1.0 / &size.tangential_compliance;
+        let name = key("element_stiffness");
+        tally.check_between(name, by_displacement, exact, &stiffness, condition, &place, || {
+            Some(self.around(size, |step| step.tangent[0].clone()))
+        });
+        let name = key("element_force_by_input");
+        let scale = &family.friction * &step.load_slope;
+        tally.check_between(name, by_input, exact_by_input, &scale, condition, &place, || {
+            Some(self.around(size, |step| step.tangent[1].clone()))
+        });
+    }
+
+    fn energy(&self, got: f64, step: &Step, exact: &State, tally: &mut Tally, place: impl Fn() -> String) {
+        let family = &self.case.reference.family;
+        assert!(got >= 0.0, "{}: dissipated {got:e}", place());
+        // The larger one of both sizes, whose slip zone slips by a difference of displacements and shifts.
+        let sizes = [&self.before.size, &exact.size];
+        let Some(size) =
+            sizes.into_iter().flatten().max_by(|one, two| one.load.partial_cmp(&two.load).expect("numbers"))
+        else {
+            return;
+        };
+        let zone = &family.friction * (&size.load - &step.stick_load);
+        let rounding = zone * self.reach(&size.shift);
+        let [normal, tangential] = family.log_compliances(size);
+        let scale = &step.dissipated + &rounding;
+        let condition = 3.0 / normal.min(tangential);
+        let key = ("element_dissipated", self.kind, self.range);
+        let around = || Some(self.around(size, |step| step.dissipated.clone()));
+        tally.check_between(key, got, &step.dissipated, &scale, condition, place, around);
+    }
+}
+
+fn tractions_at(
+    case: &ElementCase,
+    library: &[f64],
+    exact: &State,
+    farthest: f64,
+    sampler: &mut Sampler,
+    tally: &mut Tally,
+    place: impl Fn() -> String,
+) {
+    let ElementCase { element, reference, kind, .. } = case;
+    let family = &reference.family;
+    let size = exact.size.as_ref().expect("closed");
+    let half_width = size.half_width.f64();
+    let x: Vec<f64> = (0..8).map(|_| half_width * sampler.between(-1.0, 1.0)).collect();
+    let (mut pressure, mut shear) = (vec![f64::NAN; x.len()], vec![f64::NAN; x.len()]);
+    tractions(element, library, &x, Some(&mut pressure), Some(&mut shear)).expect("a state");
+    let peak = &family.friction * family.pressure(size, &reference.real(0.0));
+    for ((&x, pressure), shear) in x.iter().zip(pressure).zip(shear) {
+        let place = || format!("{} x {x:e}", place());
+        let spot = reference.real(x).abs();
+        let [exact_pressure, exact_shear] = reference.tractions(exact, &spot);
+        let gap = |edge: &Real| (edge / (&spot - edge)).abs().f64();
+        let [normal, tangential] = family.log_compliances(size);
+        let soft = 1.0 / normal.min(tangential);
+        let at_edge = gap(&size.half_width) * (1.0 + soft);
+        let corners = || Some([-UNITS, UNITS].map(|units| family.pressure(size, &(&spot * moved(1.0, units)))).into());
+        let key = ("element_pressure", *kind, "any history");
+        tally.check_between(key, pressure, &exact_pressure, &exact_pressure, at_edge, place, corners);
+        // Each knot is known to the rounding of displacements and shifts, over the change of D.
+        let reach = farthest / &family.friction + &size.shift;
+        let mut condition = at_edge + soft + (&reach / &size.shift).f64();
+        for pair in exact.pieces.windows(2) {
+            let edge = &pair[0].end;
+            condition += gap(&edge.half_width) * (1.0 + (&reach / (&edge.load * &edge.tangential_compliance)).f64());
+        }
+        tally.check_scaled(("element_shear", *kind, "any history"), shear, &exact_shear, &peak, condition, place);
+    }
+}
+
+/// The library's element and the same in multi-precision, if the library accepts it.
+pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::varying_load::element::Element, Exact)> {
+    use microslip::varying_load::element::{Element, NormalInput};
+    let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
+    let element = match input {
+        Input::Flat(parameters) => Element::rounded_flat(parameters, normal),
+        Input::Ellipse(parameters) => Element::elliptic(parameters, normal),
+    };
+    element.ok().map(|element| (element, Exact::new(input, by_force)))
+}

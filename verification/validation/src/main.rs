@@ -1,0 +1,205 @@
+//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row.
+//!
+//! - `validation` writes `docs/figures/data/contact_code_*.csv` and the table of `docs/validation.md`;
+//! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
+
+mod drive;
+mod histories;
+#[path = "../../paper/src/table.rs"]
+mod table;
+
+use drive::{Point, SUBSTEPS};
+use histories::{History, Shape};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use table::Table;
+
+/// A history with the law along it.
+struct Comparison {
+    history: History,
+    /// At each substep; the first one belongs to the first row.
+    law: Vec<Point>,
+    /// Largest difference of displacements, over the largest displacement.
+    difference: f64,
+    /// The same for the law of a constant normal force, unless it slips grossly where the contact does not.
+    constant: Option<f64>,
+    /// Energy dissipated according to CONTACT over that of the law.
+    dissipated: f64,
+    /// Largest difference of the approach of a line contact, relative.
+    approach: f64,
+}
+
+/// Largest difference of displacements, relative: the error of CONTACT.
+///
+/// - Always that of its mesh (the sphere is cut into squares, 31 along the diameter), and of the four printed digits of each increment.
+/// - Under a changing load also that of its steps: what comes into contact within a step is free of traction at its end, an error of
+///   first order in the change of the width. The flat hardly changes its width; in phase and in antiphase nothing slips.
+fn bound(history: &History) -> f64 {
+    match (history.shape, history.name.split_once('_').map_or("", |(_, path)| path)) {
+        (Shape::Cylinder, "phase90") => 1.2e-3,
+        (Shape::Cylinder, _) => 2.5e-4,
+        (Shape::RoundedFlat, "constN") => 5e-4,
+        (Shape::RoundedFlat, _) => 3e-4,
+        (Shape::Sphere, "phase90") => 4e-3,
+        (Shape::Sphere, _) => 2.5e-3,
+    }
+}
+
+/// Its losses are those of 24 steps in a cycle; under a constant load they are those of the law, except that a flat slips in one or two
+/// of its elements only.
+fn bounds_of_dissipation(history: &History) -> [f64; 2] {
+    match (history.shape, history.name.ends_with("constN")) {
+        (Shape::RoundedFlat, true) => [0.6, 1.4],
+        (_, true) => [0.98, 1.01],
+        (_, false) => [0.85, 1.02],
+    }
+}
+
+/// Four printed digits.
+const APPROACH: f64 = 6e-4;
+
+fn compare(history: History) -> Comparison {
+    let largest = history.rows.iter().map(|row| row.normal_force).fold(0.0, f64::max);
+    let element = history.shape.element(largest).expect("an element");
+    let law = drive::varying(&element, &history);
+    let scale = history.rows.iter().map(|row| row.displacement.abs()).fold(0.0, f64::max);
+    let difference = |points: &[Point]| {
+        let pairs = history.rows.iter().zip(points);
+        pairs.map(|(row, point)| (row.displacement - point.displacement).abs() / scale).fold(0.0, f64::max)
+    };
+    let at_rows: Vec<Point> = law.iter().copied().step_by(SUBSTEPS as usize).collect();
+    let approach = |row: &histories::Row| {
+        let computed = element.approach_under(row.normal_force).value;
+        (row.approach / computed - 1.0).abs()
+    };
+    let last = at_rows[at_rows.len() - 1].dissipated;
+    Comparison {
+        difference: difference(&at_rows),
+        constant: (!history.name.ends_with("steps")).then(|| difference(&drive::constant(&history))),
+        dissipated: history.rows[history.rows.len() - 1].dissipated / last,
+        approach: history.rows.iter().map(approach).fold(0.0, f64::max),
+        law,
+        history,
+    }
+}
+
+impl Comparison {
+    /// The checks of a history, a message for each that fails.
+    fn results(&self) -> Vec<Result<(), String>> {
+        let name = self.history.name;
+        let holds = |holds: bool, message: String| if holds { Ok(()) } else { Err(format!("{name}: {message}")) };
+        let (bound, [low, high]) = (bound(&self.history), bounds_of_dissipation(&self.history));
+        let mut results = vec![
+            holds(self.difference <= bound, format!("displacements differ by {:.1e}", self.difference)),
+            holds((low..=high).contains(&self.dissipated), format!("{:.2} of the dissipation", self.dissipated)),
+        ];
+        if self.history.shape != Shape::Sphere {
+            results.push(holds(self.approach <= APPROACH, format!("approaches differ by {:.1e}", self.approach)));
+        }
+        match self.constant {
+            Some(constant) if name.ends_with("constN") => {
+                results.push(holds(constant <= bound, format!("the law of a constant load differs by {constant:.1e}")));
+            }
+            // Otherwise the comparison could not tell the two laws apart.
+            Some(constant) => results.push(holds(constant > 5.0 * bound, format!("without the load {constant:.1e}"))),
+            None => {}
+        }
+        results
+    }
+
+    fn row(&self) -> String {
+        let Comparison { history, difference, constant, dissipated, .. } = self;
+        let (shape, path) = history.name.split_once('_').expect("shape and path");
+        let shape = if shape == "roundedflat" { "flat with rounded edges" } else { shape };
+        let path = match path {
+            "constN" => "constant load".to_owned(),
+            "steps" => "seven straight paths".to_owned(),
+            _ => path.replace("phase", "load swings, ") + "°",
+        };
+        let constant = constant.map_or("-".to_owned(), |constant| format!("{constant:.1e}"));
+        let rows = history.rows.len();
+        format!("| {shape} | {path} | {rows} | {difference:.1e} | {constant} | {dissipated:.2} |\n")
+    }
+}
+
+/// The data of the figure: the cylinder, forces over mu N, and displacements less those of the stuck contact over that of gross slip, all at
+/// the mean load.
+fn drawings(comparisons: &[Comparison]) -> Vec<Table> {
+    let find = |name: &str| {
+        comparisons.iter().find(|comparison| comparison.history.name == format!("cylinder_{name}")).expect("a history")
+    };
+    let contact = Shape::Cylinder.contact(Shape::Cylinder.normal_force()).expect("a contact");
+    let curve = |table: Table, name: &str, points: Vec<[f64; 2]>| {
+        let force = points.iter().map(|[force, _]| force / contact.slip_force).collect();
+        let beyond = points.iter().map(|[force, displacement]| displacement - force / contact.initial_stiffness);
+        table.curve(name, force, beyond.map(|beyond| beyond / contact.slip_displacement).collect())
+    };
+    let law = |table: Table, name: &str, path: &str| {
+        let points = find(path).law.iter().map(|point| [point.tangential_force, point.displacement]);
+        curve(table, name, points.collect())
+    };
+    let elements = |table: Table, name: &str, path: &str| {
+        let points = find(path).history.rows.iter().map(|row| [row.tangential_force, row.displacement]);
+        curve(table, name, points.collect())
+    };
+    let phases = [("constant load", "constN"), ("in phase", "phase0"), ("90°", "phase90"), ("180°", "phase180")];
+    let all = |name: &'static str, curve: &dyn Fn(Table, &str, &str) -> Table| {
+        phases.iter().fold(Table::new(name), |table, (name, path)| curve(table, name, path))
+    };
+    vec![
+        law(Table::new("contact_code_steps_law"), "law", "steps"),
+        elements(Table::new("contact_code_steps"), "boundary elements", "steps"),
+        all("contact_code_phases_law", &law),
+        all("contact_code_phases", &elements),
+    ]
+}
+
+/// The page with a new table between its markers.
+fn with_table(page: &str, comparisons: &[Comparison]) -> Result<String, String> {
+    let (begin, end) = ("<!-- comparison: begin -->\n", "<!-- comparison: end -->");
+    let marked = page.split_once(begin).and_then(|(before, rest)| Some((before, rest.split_once(end)?.1)));
+    let (before, after) = marked.ok_or("docs/validation.md: no markers")?;
+    let mut table = String::from(
+        "| contact | path | rows | displacement | without the change of the load | dissipation |\n|---|---|---:|---:|---:|---:|\n",
+    );
+    comparisons.iter().for_each(|comparison| table.write_str(&comparison.row()).expect("a string"));
+    Ok(format!("{before}{begin}{table}{end}{after}"))
+}
+
+fn main() -> ExitCode {
+    let check = match std::env::args().skip(1).collect::<Vec<_>>()[..] {
+        [] => false,
+        [ref option] if option == "--check" => true,
+        _ => {
+            eprintln!("usage: validation [--check]");
+            return ExitCode::from(2);
+        }
+    };
+    let comparisons: Vec<Comparison> = histories::all().into_iter().map(compare).collect();
+    let mut results: Vec<Result<(), String>> = comparisons.iter().flat_map(Comparison::results).collect();
+    let docs = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs"));
+    for table in drawings(&comparisons) {
+        let path = docs.join("figures/data").join(table.name).with_extension("csv");
+        results.push(if check { read(&path).and_then(|file| table.check(&file)) } else { write(&path, &table.csv()) });
+    }
+    let page = docs.join("validation.md");
+    results.push(read(&page).and_then(|old| match with_table(&old, &comparisons)? {
+        new if !check => write(&page, &new),
+        new if new == old => Ok(()),
+        _ => Err("docs/validation.md is stale: run `make figures`".to_owned()),
+    }));
+    let failures: Vec<&String> = results.iter().filter_map(|result| result.as_ref().err()).collect();
+    failures.iter().for_each(|message| println!("{message}"));
+    println!("{} passed, {} failed", results.len() - failures.len(), failures.len());
+    if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
