@@ -13,7 +13,7 @@ sweep() { # RANKS: the table is that of one rank
 
 peaks() { # the contacts that were sent give the peaks of the program without ranks
     build/forced_response cases/cylinder.nml "$work" &&
-        awk -F, 'NR == FNR { peak[FNR] = $4; next } FNR > 1 && $1 == "cylinder" && $4 != peak[FNR] { print; wrong = 1 }
+        awk -F, 'NR == FNR { peak[FNR] = $5; next } FNR > 1 && $1 == "cylinder" && $4 != peak[FNR] { print; wrong = 1 }
                  END { exit wrong || FNR != 27 }' "$work/cylinder_peaks.csv" "$work/1.csv"
 }
 
