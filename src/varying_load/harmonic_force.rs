@@ -184,7 +184,8 @@ impl<'a> Workspace<'a> {
         };
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
         let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
-        let (stored, touched_rows) = (blocks(2 * layout.pieces_length())?, blocks(3 * layout.rows_length())?);
+        let stored = blocks(2 * layout.pieces_length())?;
+        let (derivatives, touched_rows) = (blocks(2 * layout.rows_length())?, blocks(layout.rows_length())?);
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity {
             row_blocks: row_blocks(harmonics),
@@ -194,6 +195,7 @@ impl<'a> Workspace<'a> {
             stored,
             places,
             touched: 0,
+            derivatives,
             touched_rows,
             own,
         };

@@ -69,17 +69,20 @@ pub(super) fn fill_rows(rows: &mut [f64], antiderivatives: &mut [f64], harmonics
     });
 }
 
+/// How a piece was made, in 3 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Made {
+struct Made(u64);
+
+impl Made {
     /// The part with D = 0.
-    Never,
+    const NEVER: Made = Made(0);
     /// By slip, forwards or backwards.
-    Forwards,
-    Backwards,
+    const FORWARDS: Made = Made(1);
+    const BACKWARDS: Made = Made(2);
     /// By sticking, between two samples.
-    BySticking,
+    const BY_STICKING: Made = Made(3);
     /// By sticking, since the contact closed after the sample before.
-    SinceClosing,
+    const SINCE_CLOSING: Made = Made(4);
 }
 
 /// A piece of the diagram, and its weights for the later samples.
@@ -91,8 +94,8 @@ struct Piece {
     /// Weights of the constant part and of the linear part for samples from `since` on, counted along the walk.
     weights: [f64; 2],
     since: usize,
-    /// f at the inner end of a slip zone.
-    inner_stiffness: f64,
+    /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
+    parameter: f64,
     /// A run of slip that cut it, not yet added to its sums.
     cut: Cut,
     /// Whether sums were stored.
@@ -113,52 +116,45 @@ impl Piece {
     #[inline(always)]
     fn encoded(&self) -> [f64; PIECE] {
         let word =
-            self.made as u64 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
+            self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
         let Cut { step, count, packed } = self.cut;
         let cut = [(step as u64) | (count as u64) << 32, packed as u64].map(f64::from_bits);
-        [f64::from_bits(word), self.weights[0], self.weights[1], self.inner_stiffness, cut[0], cut[1]]
+        [f64::from_bits(word), self.weights[0], self.weights[1], self.parameter, cut[0], cut[1]]
     }
 
     #[inline(always)]
-    fn decoded([word, constant, linear, inner_stiffness, cut, packed]: [f64; PIECE]) -> Piece {
+    fn decoded([word, constant, linear, parameter, cut, packed]: [f64; PIECE]) -> Piece {
         let (word, cut) = (word.to_bits(), cut.to_bits());
         Piece {
-            made: match word & 7 {
-                0 => Made::Never,
-                1 => Made::Forwards,
-                2 => Made::Backwards,
-                3 => Made::BySticking,
-                _ => Made::SinceClosing,
-            },
+            made: Made(word & 7),
             sample: ((word >> 4) & ((1 << 30) - 1)) as usize,
             weights: [constant, linear],
             since: (word >> 34) as usize,
-            inner_stiffness,
+            parameter,
             cut: Cut { step: cut as u32 as usize, count: (cut >> 32) as usize, packed: packed.to_bits() as usize },
             stored: word & 8 != 0,
         }
     }
 
     fn is_stuck(&self) -> bool {
-        matches!(self.made, Made::BySticking | Made::SinceClosing)
+        self.made.0 >= Made::BY_STICKING.0
     }
 }
 
-/// Ends of a stuck piece: S, N and f of the inner end, and 1/(S_j - S_i).
+/// Inner end of a stuck piece.
 #[derive(Debug, Clone, Copy)]
-struct Ends {
+struct InnerEnd {
     shift: f64,
     load: f64,
     stiffness: f64,
-    inverse_width: f64,
 }
 
-impl Ends {
+impl InnerEnd {
     /// Weights of the constant and of the linear part if the outer end has the given S, N and f.
     #[inline(always)]
-    fn weights_to(&self, shift: f64, load: f64, stiffness: f64) -> [f64; 2] {
+    fn weights_to(&self, inverse_width: f64, [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
         let linear = (shift - self.shift) * stiffness - (load - self.load);
-        [stiffness - self.stiffness, linear * self.inverse_width]
+        [stiffness - self.stiffness, linear * inverse_width]
     }
 }
 
@@ -175,6 +171,7 @@ pub(super) struct Sensitivity<'a> {
     /// Place of each sample among those touched, or -1; for each of these the rows Y by u and by the input, and φ.
     pub places: &'a mut [f64],
     pub touched: usize,
+    pub derivatives: &'a mut Blocks,
     pub touched_rows: &'a mut Blocks,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
     pub own: [&'a mut [f64]; 2],
@@ -219,17 +216,16 @@ impl Context<'_> {
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
-    /// The ends of the stuck piece that a sample made.
+    /// The inner end of the stuck piece that a sample made.
     #[inline(always)]
-    fn ends(&self, made: Made, sample: usize) -> Ends {
+    fn inner_end(&self, made: Made, sample: usize) -> InnerEnd {
         let samples = self.samples;
         let before = samples.before(sample);
-        let [shift, load, stiffness] = if made == Made::SinceClosing {
-            [0.0; 3]
-        } else {
-            [at(samples.shift, before), at(samples.load, before), at(samples.stiffness, before)]
-        };
-        Ends { shift, load, stiffness, inverse_width: inverse(at(samples.shift, sample) - shift) }
+        if made == Made::SINCE_CLOSING {
+            return InnerEnd { shift: 0.0, load: 0.0, stiffness: 0.0 };
+        }
+        let (shift, load) = (at(samples.shift, before), at(samples.load, before));
+        InnerEnd { shift, load, stiffness: at(samples.stiffness, before) }
     }
 }
 
@@ -250,10 +246,14 @@ impl Sensitivity<'_> {
         let samples = context.samples.count.max(1);
         let rows = self.rows.as_chunks::<N>().0.chunks_exact(samples);
         let antiderivatives = self.antiderivatives.as_chunks::<N>().0.chunks_exact(samples);
-        let touched = self.touched_rows.as_chunks_mut::<N>().0.as_chunks_mut().0.chunks_exact_mut(samples);
-        for (strip, ((rows, antiderivatives), touched_rows)) in rows.zip(antiderivatives).zip(touched).enumerate() {
+        let derivatives = self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.chunks_exact_mut(samples);
+        let touched_rows = self.touched_rows.as_chunks_mut::<N>().0.chunks_exact_mut(samples);
+        let tables = rows.zip(antiderivatives).enumerate();
+        for (((strip, (rows, antiderivatives)), derivatives), touched_rows) in
+            tables.zip(derivatives).zip(touched_rows)
+        {
             self.places.fill(-1.0);
-            let [by_u, by_input] = &mut self.own;
+            let [own_by_u, own_by_input] = &mut self.own;
             let mut gathering = Gathering {
                 context,
                 cuts,
@@ -265,9 +265,10 @@ impl Sensitivity<'_> {
                 stored: self.stored.as_chunks_mut::<N>().0.as_chunks_mut().0,
                 places: self.places,
                 touched: 0,
+                derivatives,
                 touched_rows,
             };
-            gathering.gather(runs.clone(), by_u, by_input);
+            gathering.gather(runs.clone(), own_by_u, own_by_input);
             self.touched = gathering.touched;
         }
     }
@@ -285,19 +286,19 @@ impl Sensitivity<'_> {
 
     #[inline(always)]
     fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
-        let touched_rows = self.touched_rows.as_chunks::<N>().0.as_chunks::<3>().0;
+        let derivatives = self.derivatives.as_chunks::<N>().0.as_chunks::<2>().0;
+        let touched_rows = self.touched_rows.as_chunks::<N>().0;
         let strips = (self.row_blocks / N).max(1);
-        let touched = |strip: usize| {
-            let first = strip * (touched_rows.len() / strips);
-            touched_rows.get(first..first + self.touched).unwrap_or(&[])
-        };
-        let columns = products.as_chunks_mut::<N>().0;
-        for (strip, columns) in columns.chunks_mut(4 * N * strips).enumerate() {
-            for pair in 0..2 * N {
-                for row_strip in 0..strips {
+        let samples = derivatives.len() / strips;
+        let touched = |strip: usize| strip * samples..strip * samples + self.touched;
+        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut(4 * N * strips).enumerate() {
+            let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
+            for row_strip in 0..strips {
+                let derivatives = derivatives.get(touched(row_strip)).unwrap_or(&[]);
+                for pair in 0..2 * N {
                     let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-                    for (rows, [.., phi]) in touched(row_strip).iter().zip(touched(strip)) {
-                        let row = if index == 0 { &rows[0] } else { &rows[1] };
+                    for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
+                        let row = if index == 0 { by_displacement } else { by_input };
                         let phi = phi.as_flattened();
                         add_scaled(&mut one, phi[2 * pair], row);
                         add_scaled(&mut two, phi[2 * pair + 1], row);
@@ -337,7 +338,8 @@ struct Gathering<'c, const N: usize> {
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
     touched: usize,
-    touched_rows: &'c mut [[Strip<N>; 3]],
+    derivatives: &'c mut [[Strip<N>; 2]],
+    touched_rows: &'c mut [Strip<N>],
 }
 
 impl<const N: usize> Gathering<'_, N> {
@@ -357,13 +359,13 @@ impl<const N: usize> Gathering<'_, N> {
             let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
             let by_input = by_input.get_mut(range.clone()).unwrap_or(&mut []);
             let mu = run.sign * element.friction_coefficient;
-            let made = if run.sign > 0.0 { Made::Forwards } else { Made::Backwards };
+            let made = if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS };
             let line = Piece {
                 made,
                 sample: last,
                 weights: [at(samples.stiffness, last), 0.0],
                 since: now + run.count,
-                inner_stiffness: 0.0,
+                parameter: 0.0,
                 cut: NO_CUT,
                 stored: false,
             };
@@ -395,11 +397,11 @@ impl<const N: usize> Gathering<'_, N> {
                         *by_input = mu * slope * (stiffness - cut);
                     }
                     if self.depth < run.kept {
-                        self.push(&Piece { made: Made::Never, ..line });
+                        self.push(&Piece { made: Made::NEVER, ..line });
                     }
                     self.cut(self.depth.saturating_sub(1), Cut { step: now, count: run.count, packed: run.packed });
                     let cut = cuts.last().copied().unwrap_or(0.0);
-                    self.push(&Piece { weights: [line.weights[0] - cut, 0.0], inner_stiffness: cut, ..line });
+                    self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
             now += run.count;
@@ -425,18 +427,17 @@ impl<const N: usize> Gathering<'_, N> {
     fn stick(&mut self, run: &Run, now: usize) {
         let Context { samples, part, .. } = *self.context;
         let closes = part.opens && samples.is_open(samples.before(run.first));
-        let mut made = if closes { Made::SinceClosing } else { Made::BySticking };
-        let mut inner = self.context.ends(made, run.first);
+        let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
+        let mut inner = self.context.inner_end(made, run.first);
         for step in 0..run.count {
             let sample = run.first + step;
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
-            inner.inverse_width = inverse(shift - inner.shift);
-            let weights = inner.weights_to(shift, load, stiffness);
-            let since = now + step;
-            self.push(&Piece { made, sample, weights, since, inner_stiffness: 0.0, cut: NO_CUT, stored: false });
-            inner = Ends { shift, load, stiffness, inverse_width: 0.0 };
-            made = Made::BySticking;
+            let parameter = inverse(shift - inner.shift);
+            let weights = inner.weights_to(parameter, [shift, load, stiffness]);
+            self.push(&Piece { made, sample, weights, since: now + step, parameter, cut: NO_CUT, stored: false });
+            inner = InnerEnd { shift, load, stiffness };
+            made = Made::BY_STICKING;
         }
     }
 
@@ -477,17 +478,17 @@ impl<const N: usize> Gathering<'_, N> {
         let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
-            let ends = self.context.ends(piece.made, piece.sample);
+            let inner = self.context.inner_end(piece.made, piece.sample);
             let (shifts, loads) =
                 (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
-                piece.weights = ends.weights_to(shift, load, stiffness);
+                piece.weights = inner.weights_to(piece.parameter, [shift, load, stiffness]);
                 add_scaled(constant, piece.weights[0], row);
                 add_scaled(linear, piece.weights[1], row);
             }
         } else {
             for (row, &stiffness) in rows.iter().zip(stiffnesses) {
-                piece.weights[0] = stiffness - piece.inner_stiffness;
+                piece.weights[0] = stiffness - piece.parameter;
                 add_scaled(constant, piece.weights[0], row);
             }
         }
@@ -499,7 +500,7 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn cut(&mut self, index: usize, cut: Cut) {
         let Some(mut piece) = self.piece(index) else { return };
-        if piece.made == Made::Never {
+        if piece.made == Made::NEVER {
             return;
         }
         if piece.cut.count > 0 {
@@ -528,14 +529,14 @@ impl<const N: usize> Gathering<'_, N> {
     fn remove(&mut self, index: usize, now: usize) {
         let Context { element, samples, .. } = *self.context;
         let Some(mut piece) = self.piece(index) else { return };
-        if piece.made == Made::Never || (!piece.stored && piece.cut.count == 0 && now <= piece.since) {
+        if piece.made == Made::NEVER || (!piece.stored && piece.cut.count == 0 && now <= piece.since) {
             return;
         }
         let [constant, linear] = self.sums(index, &mut piece, now);
         let (made, sample) = (piece.made, piece.sample);
         let shift_slope = at(samples.shift_slope, sample);
         if !piece.is_stuck() {
-            let mu = element.friction_coefficient * if made == Made::Forwards { 1.0 } else { -1.0 };
+            let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };
             self.add(sample, &constant, [-1.0, mu * shift_slope]);
             return;
         }
@@ -544,7 +545,7 @@ impl<const N: usize> Gathering<'_, N> {
         let mut difference = linear;
         add_scaled(&mut difference, -1.0, &constant);
         let before = samples.before(sample);
-        if made == Made::BySticking {
+        if made == Made::BY_STICKING {
             self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
         } else {
             let closing = closing(samples, element.by_approach(), sample);
@@ -557,20 +558,20 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
         let Some(place) = self.places.get_mut(sample) else { return };
-        if *place < 0.0 {
+        let is_new = *place < 0.0;
+        if is_new {
             *place = self.touched as f64;
-            if let (Some([u_row, input_row, phi]), Some(own)) =
-                (self.touched_rows.get_mut(self.touched), self.rows.get(sample))
-            {
-                *phi = *own;
-                (*u_row, *input_row) = (scaled(by_u, row), scaled(by_input, row));
-                self.touched += 1;
-            }
-        } else if let Some([u_row, input_row, _]) = self.touched_rows.get_mut(*place as usize) {
-            let (mut u, mut input) = (*u_row, *input_row);
-            add_scaled(&mut u, by_u, row);
-            add_scaled(&mut input, by_input, row);
-            (*u_row, *input_row) = (u, input);
+        }
+        let index = *place as usize;
+        let Some(derivatives) = self.derivatives.get_mut(index) else { return };
+        if !is_new {
+            let [mut u_row, mut input_row] = *derivatives;
+            add_scaled(&mut u_row, by_u, row);
+            add_scaled(&mut input_row, by_input, row);
+            *derivatives = [u_row, input_row];
+        } else if let (Some(phi), Some(own)) = (self.touched_rows.get_mut(index), self.rows.get(sample)) {
+            (*derivatives, *phi) = ([scaled(by_u, row), scaled(by_input, row)], *own);
+            self.touched += 1;
         }
     }
 }
