@@ -292,20 +292,23 @@ impl Sensitivity<'_> {
         let samples = derivatives.len() / strips;
         let touched = |strip: usize| strip * samples..strip * samples + self.touched;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut(4 * N * strips).enumerate() {
+            columns.fill([[0.0; 4]; N]);
             let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
             for row_strip in 0..strips {
                 let derivatives = derivatives.get(touched(row_strip)).unwrap_or(&[]);
-                for pair in 0..2 * N {
-                    let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-                    for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
-                        let row = if index == 0 { by_displacement } else { by_input };
-                        let phi = phi.as_flattened();
-                        add_scaled(&mut one, phi[2 * pair], row);
-                        add_scaled(&mut two, phi[2 * pair + 1], row);
-                    }
-                    for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
-                        if let Some(place) = columns.get_mut(column * strips + row_strip) {
-                            *place = sums;
+                for (derivatives, phi) in derivatives.chunks(IN_CACHE).zip(phi.chunks(IN_CACHE)) {
+                    for pair in 0..2 * N {
+                        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+                        for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
+                            let row = if index == 0 { by_displacement } else { by_input };
+                            let phi = phi.as_flattened();
+                            add_scaled(&mut one, phi[2 * pair], row);
+                            add_scaled(&mut two, phi[2 * pair + 1], row);
+                        }
+                        for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
+                            if let Some(place) = columns.get_mut(column * strips + row_strip) {
+                                add_scaled(place, 1.0, &sums);
+                            }
                         }
                     }
                 }
@@ -313,6 +316,9 @@ impl Sensitivity<'_> {
         }
     }
 }
+
+/// Touched samples whose rows stay in the first cache.
+const IN_CACHE: usize = 32;
 
 /// Boundaries of the slip zones, packed: S, N and f.
 #[derive(Debug, Clone, Copy)]
