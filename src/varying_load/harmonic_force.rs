@@ -30,7 +30,7 @@ use crate::tag::Kind;
 use crate::varying_load::element::Element;
 use jacobian::Assembly;
 use samples::{Part, Samples, continue_half_wave};
-use sensitivity::{Context, PIECE, Sensitivity, row_blocks};
+use sensitivity::{Context, Cuts, PIECE, Sensitivity, row_blocks};
 use tractions::Tractions;
 use walk::{KNOT, RUN, Walk};
 
@@ -76,11 +76,6 @@ impl Layout {
         4 * row_blocks(self.0.harmonics) * self.0.samples
     }
 
-    /// Doubles of the pairs of functions of all samples.
-    fn pairs_length(&self) -> usize {
-        4 * row_blocks(self.0.harmonics) * sample_length(self.0.samples)
-    }
-
     /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
     fn capacity(&self) -> usize {
         self.0.samples + 4
@@ -119,9 +114,7 @@ impl WorkspaceLayout for Layout {
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
-            + 2 * self.rows_length()
-            + self.pairs_length()
-            + 4 * row_blocks(harmonics)
+            + 3 * self.rows_length()
             + jacobian::memory_length(harmonics)
     }
 
@@ -191,23 +184,19 @@ impl<'a> Workspace<'a> {
         };
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
         let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
-        let gathered = [blocks(layout.pieces_length())?, blocks(layout.pieces_length())?];
-        let (by_displacement, by_input) = (blocks(layout.rows_length())?, blocks(layout.rows_length())?);
-        let covered = blocks(4 * row_blocks(harmonics))?;
-        let touched_pairs = parts.take(layout.pairs_length())?.as_chunks_mut().0;
+        let stored = blocks(2 * layout.pieces_length())?;
+        let (derivatives, touched_rows) = (blocks(2 * layout.rows_length())?, blocks(layout.rows_length())?);
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity {
             row_blocks: row_blocks(harmonics),
             rows,
             antiderivatives,
             pieces,
-            gathered,
+            stored,
             places,
             touched: 0,
-            touched_pairs,
-            covered,
-            by_displacement,
-            by_input,
+            derivatives,
+            touched_rows,
             own,
         };
         Ok(Workspace { size, fourier, samples, walk, tractions, sensitivity, assembly })
@@ -276,7 +265,13 @@ pub fn harmonic_force(
             tractions.evaluate(element, samples, walk.cuts(extent), runs.clone(), jacobian.is_some());
             if jacobian.is_some() {
                 let context = Context { element, samples, part };
-                sensitivity.gather(&context, tractions, walk.cut_shift, runs);
+                let cuts = Cuts {
+                    shifts: walk.cut_shift,
+                    loads: tractions.cut_load,
+                    stiffnesses: tractions.cut_stiffness,
+                    slopes: tractions.slope,
+                };
+                sensitivity.gather(&context, &cuts, &runs);
             }
         }
     }

@@ -20,53 +20,69 @@ use crate::hbm::fourier::angle;
 use crate::hbm::workspace::Blocks;
 use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at};
-use crate::varying_load::harmonic_force::tractions::Tractions;
 use crate::varying_load::harmonic_force::walk::{Kind, Run, Runs, closing};
 use core::f64::consts::PI;
 
 /// Doubles of a piece in the workspace.
-pub(super) const PIECE: usize = 4;
+pub(super) const PIECE: usize = 6;
 
-/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...: 1, 3, 5, for which the loops are compiled separately, or more.
+/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
 pub(super) fn row_blocks(harmonics: usize) -> usize {
     let blocks = (2 * harmonics + 1).div_ceil(4);
-    if blocks <= 5 { blocks | 1 } else { blocks }
+    if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(4) }
 }
+
+/// Blocks of a row that are gathered together, and kept in registers: all up to 5.
+fn strip_blocks(row_blocks: usize) -> usize {
+    if row_blocks <= 5 { row_blocks } else { 4 }
+}
+
+/// A strip of a row.
+type Strip<const N: usize> = [[f64; 4]; N];
 
 /// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
-/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`.
+/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
 pub(super) fn fill_rows(rows: &mut [f64], antiderivatives: &mut [f64], harmonics: usize, samples: usize) {
-    let stride = (4 * row_blocks(harmonics)).max(4);
-    for (n, row) in rows.chunks_exact_mut(stride).enumerate() {
-        row.fill(0.0);
-        for (c, value) in row.iter_mut().take(2 * harmonics + 1).enumerate() {
-            let angle = angle(c.div_ceil(2), n, samples);
-            *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
+    let width = 4 * strip_blocks(row_blocks(harmonics)).max(1);
+    let fill = |values: &mut [f64], function: &dyn Fn(usize, usize) -> f64| {
+        for (index, strip) in values.chunks_exact_mut(width).enumerate() {
+            let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
+            for (c, value) in (first..).zip(strip) {
+                *value = if c <= 2 * harmonics { function(c, n) } else { 0.0 };
+            }
         }
-    }
-    for (n, row) in antiderivatives.chunks_exact_mut(stride).enumerate() {
-        row.fill(0.0);
-        for (c, value) in row.iter_mut().take(2 * harmonics + 1).enumerate().skip(1) {
-            let order = c.div_ceil(2);
-            // Sums of a geometric series: the angle half a step before the sample.
-            let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
-            let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
-            *value = scale * if c % 2 == 0 { -angle.cos() } else { angle.sin() };
+    };
+    let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
+    fill(rows, &|c, n| {
+        let angle = angle(c.div_ceil(2), n, samples);
+        if is_sine(c) { angle.sin() } else { angle.cos() }
+    });
+    fill(antiderivatives, &|c, n| {
+        let order = c.div_ceil(2);
+        if order == 0 {
+            return 0.0;
         }
-    }
+        // Sums of a geometric series: the angle half a step before the sample.
+        let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
+        let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
+        scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
+    });
 }
 
+/// How a piece was made, in 3 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Made {
+struct Made(u64);
+
+impl Made {
     /// The part with D = 0.
-    Never,
+    const NEVER: Made = Made(0);
     /// By slip, forwards or backwards.
-    Forwards,
-    Backwards,
+    const FORWARDS: Made = Made(1);
+    const BACKWARDS: Made = Made(2);
     /// By sticking, between two samples.
-    BySticking,
+    const BY_STICKING: Made = Made(3);
     /// By sticking, since the contact closed after the sample before.
-    SinceClosing,
+    const SINCE_CLOSING: Made = Made(4);
 }
 
 /// A piece of the diagram, and its weights for the later samples.
@@ -78,63 +94,71 @@ struct Piece {
     /// Weights of the constant part and of the linear part for samples from `since` on, counted along the walk.
     weights: [f64; 2],
     since: usize,
-    /// f at the inner end of a slip zone.
-    inner_stiffness: f64,
+    /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
+    parameter: f64,
+    /// A run of slip that cut it, not yet added to its sums.
+    cut: Cut,
     /// Whether sums were stored.
     stored: bool,
 }
+
+/// A run that cuts a piece: its samples, counted along the walk, and the first of its packed boundaries.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    step: usize,
+    count: usize,
+    packed: usize,
+}
+
+const NO_CUT: Cut = Cut { step: 0, count: 0, packed: 0 };
 
 impl Piece {
     #[inline(always)]
     fn encoded(&self) -> [f64; PIECE] {
         let word =
-            self.made as u64 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
-        [f64::from_bits(word), self.weights[0], self.weights[1], self.inner_stiffness]
+            self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
+        let Cut { step, count, packed } = self.cut;
+        let cut = [(step as u64) | (count as u64) << 32, packed as u64].map(f64::from_bits);
+        [f64::from_bits(word), self.weights[0], self.weights[1], self.parameter, cut[0], cut[1]]
     }
 
     #[inline(always)]
-    fn decoded([word, constant, linear, inner_stiffness]: [f64; PIECE]) -> Piece {
-        let word = word.to_bits();
+    fn decoded([word, constant, linear, parameter, cut, packed]: [f64; PIECE]) -> Piece {
+        let (word, cut) = (word.to_bits(), cut.to_bits());
         Piece {
-            made: match word & 7 {
-                0 => Made::Never,
-                1 => Made::Forwards,
-                2 => Made::Backwards,
-                3 => Made::BySticking,
-                _ => Made::SinceClosing,
-            },
+            made: Made(word & 7),
             sample: ((word >> 4) & ((1 << 30) - 1)) as usize,
             weights: [constant, linear],
             since: (word >> 34) as usize,
-            inner_stiffness,
+            parameter,
+            cut: Cut { step: cut as u32 as usize, count: (cut >> 32) as usize, packed: packed.to_bits() as usize },
             stored: word & 8 != 0,
         }
     }
 
     fn is_stuck(&self) -> bool {
-        matches!(self.made, Made::BySticking | Made::SinceClosing)
+        self.made.0 >= Made::BY_STICKING.0
     }
 }
 
-/// Ends of a stuck piece: S, N and f of the inner end, and 1/(S_j - S_i).
+/// Inner end of a stuck piece.
 #[derive(Debug, Clone, Copy)]
-struct Ends {
+struct InnerEnd {
     shift: f64,
     load: f64,
     stiffness: f64,
-    inverse_width: f64,
 }
 
-impl Ends {
+impl InnerEnd {
     /// Weights of the constant and of the linear part if the outer end has the given S, N and f.
     #[inline(always)]
-    fn weights_to(&self, shift: f64, load: f64, stiffness: f64) -> [f64; 2] {
+    fn weights_to(&self, inverse_width: f64, [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
         let linear = (shift - self.shift) * stiffness - (load - self.load);
-        [stiffness - self.stiffness, linear * self.inverse_width]
+        [stiffness - self.stiffness, linear * inverse_width]
     }
 }
 
-/// Tables and memory.
+/// Tables and memory. Of rows, the first strips of all come first.
 #[derive(Debug)]
 pub(super) struct Sensitivity<'a> {
     pub row_blocks: usize,
@@ -142,38 +166,15 @@ pub(super) struct Sensitivity<'a> {
     pub rows: &'a Blocks,
     pub antiderivatives: &'a Blocks,
     pub pieces: &'a mut [[f64; PIECE]],
-    /// Sums of φ times both weights of each piece, and a row for the sums of a piece that was never cut.
-    pub gathered: [&'a mut Blocks; 2],
-    pub covered: &'a mut Blocks,
-    /// Place of each sample in the following, or -1; φ of these samples, for each pair of functions; rows Y by u and by the input.
+    /// Sums of φ times both weights of pieces that were cut repeatedly.
+    pub stored: &'a mut Blocks,
+    /// Place of each sample among those touched, or -1; for each of these the rows Y by u and by the input, and φ.
     pub places: &'a mut [f64],
     pub touched: usize,
-    pub touched_pairs: &'a mut [[f64; 2]],
-    pub by_displacement: &'a mut Blocks,
-    pub by_input: &'a mut Blocks,
+    pub derivatives: &'a mut Blocks,
+    pub touched_rows: &'a mut Blocks,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
     pub own: [&'a mut [f64]; 2],
-}
-
-/// A row of an array of rows; N is their length if it is known to the compiler, otherwise 0.
-#[inline(always)]
-fn row_of<const N: usize>(blocks: &Blocks, index: usize, length: usize) -> Option<&Blocks> {
-    if N > 0 {
-        let row: &[[f64; 4]; N] = blocks.get(index * N..)?.first_chunk()?;
-        Some(row)
-    } else {
-        blocks.get(index * length..)?.get(..length)
-    }
-}
-
-#[inline(always)]
-fn row_of_mut<const N: usize>(blocks: &mut Blocks, index: usize, length: usize) -> Option<&mut Blocks> {
-    if N > 0 {
-        let row: &mut [[f64; 4]; N] = blocks.get_mut(index * N..)?.first_chunk_mut()?;
-        Some(row)
-    } else {
-        blocks.get_mut(index * length..)?.get_mut(..length)
-    }
 }
 
 /// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
@@ -185,26 +186,12 @@ pub(super) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
 }
 
 #[inline(always)]
-fn add_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
-    for (target, row) in target.iter_mut().zip(row) {
-        *target = plus(*target, scale, *row);
+fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
+    for block in 0..N {
+        for k in 0..4 {
+            target[block][k] += scale * row[block][k];
+        }
     }
-}
-
-#[inline(always)]
-fn set_scaled(target: &mut Blocks, scale: f64, row: &Blocks) {
-    for (target, row) in target.iter_mut().zip(row) {
-        let [a, b, c, d] = *row;
-        *target = [scale * a, scale * b, scale * c, scale * d];
-    }
-}
-
-/// A part of the derivative of a piece: a sample, factors of the sums of both parts, and derivatives by u and by the input.
-#[derive(Debug, Clone, Copy)]
-struct Term {
-    sample: usize,
-    factors: [f64; 2],
-    derivatives: [f64; 2],
 }
 
 /// 1/width of a stuck piece: S rises, or rounding made two values equal.
@@ -229,39 +216,142 @@ impl Context<'_> {
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
-    /// The ends of the stuck piece that a sample made.
+    /// The inner end of the stuck piece that a sample made.
     #[inline(always)]
-    fn ends(&self, made: Made, sample: usize) -> Ends {
+    fn inner_end(&self, made: Made, sample: usize) -> InnerEnd {
         let samples = self.samples;
         let before = samples.before(sample);
-        let [shift, load, stiffness] = if made == Made::SinceClosing {
-            [0.0; 3]
-        } else {
-            [at(samples.shift, before), at(samples.load, before), at(samples.stiffness, before)]
-        };
-        Ends { shift, load, stiffness, inverse_width: inverse(at(samples.shift, sample) - shift) }
+        if made == Made::SINCE_CLOSING {
+            return InnerEnd { shift: 0.0, load: 0.0, stiffness: 0.0 };
+        }
+        let (shift, load) = (at(samples.shift, before), at(samples.load, before));
+        InnerEnd { shift, load, stiffness: at(samples.stiffness, before) }
     }
 }
 
 impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(always)]
-    pub fn gather(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: Runs) {
+    pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
         match self.row_blocks {
-            1 => self.gather_rows::<1>(context, tractions, cut_shift, runs),
-            3 => self.gather_rows::<3>(context, tractions, cut_shift, runs),
-            5 => self.gather_rows::<5>(context, tractions, cut_shift, runs),
-            _ => self.gather_rows::<0>(context, tractions, cut_shift, runs),
+            1 => self.gather_strips::<1>(context, cuts, runs),
+            3 => self.gather_strips::<3>(context, cuts, runs),
+            5 => self.gather_strips::<5>(context, cuts, runs),
+            _ => self.gather_strips::<4>(context, cuts, runs),
         }
     }
 
     #[inline(always)]
-    fn gather_rows<const N: usize>(&mut self, context: &Context, tractions: &Tractions, cut_shift: &[f64], runs: Runs) {
-        let Context { element, samples, .. } = *context;
-        self.places.fill(-1.0);
-        self.touched = 0;
-        // Pieces are counted from the centre: piece k ends at knot k.
-        let mut depth = 0;
+    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+        let samples = context.samples.count.max(1);
+        let rows = self.rows.as_chunks::<N>().0.chunks_exact(samples);
+        let antiderivatives = self.antiderivatives.as_chunks::<N>().0.chunks_exact(samples);
+        let derivatives = self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.chunks_exact_mut(samples);
+        let touched_rows = self.touched_rows.as_chunks_mut::<N>().0.chunks_exact_mut(samples);
+        let tables = rows.zip(antiderivatives).enumerate();
+        for (((strip, (rows, antiderivatives)), derivatives), touched_rows) in
+            tables.zip(derivatives).zip(touched_rows)
+        {
+            self.places.fill(-1.0);
+            let [own_by_u, own_by_input] = &mut self.own;
+            let mut gathering = Gathering {
+                context,
+                cuts,
+                is_first: strip == 0,
+                rows,
+                antiderivatives,
+                pieces: self.pieces,
+                depth: 0,
+                stored: self.stored.as_chunks_mut::<N>().0.as_chunks_mut().0,
+                places: self.places,
+                touched: 0,
+                derivatives,
+                touched_rows,
+            };
+            gathering.gather(runs.clone(), own_by_u, own_by_input);
+            self.touched = gathering.touched;
+        }
+    }
+
+    /// `Σ Y_j ⊗ φ_j`, columns for the derivatives by u (0) or by the input (1).
+    #[inline(always)]
+    pub fn products(&self, index: usize, products: &mut Blocks) {
+        match self.row_blocks {
+            1 => self.products_of::<1>(index, products),
+            3 => self.products_of::<3>(index, products),
+            5 => self.products_of::<5>(index, products),
+            _ => self.products_of::<4>(index, products),
+        }
+    }
+
+    #[inline(always)]
+    fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
+        let derivatives = self.derivatives.as_chunks::<N>().0.as_chunks::<2>().0;
+        let touched_rows = self.touched_rows.as_chunks::<N>().0;
+        let strips = (self.row_blocks / N).max(1);
+        let samples = derivatives.len() / strips;
+        let touched = |strip: usize| strip * samples..strip * samples + self.touched;
+        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut(4 * N * strips).enumerate() {
+            columns.fill([[0.0; 4]; N]);
+            let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
+            for row_strip in 0..strips {
+                let derivatives = derivatives.get(touched(row_strip)).unwrap_or(&[]);
+                for (derivatives, phi) in derivatives.chunks(IN_CACHE).zip(phi.chunks(IN_CACHE)) {
+                    for pair in 0..2 * N {
+                        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+                        for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
+                            let row = if index == 0 { by_displacement } else { by_input };
+                            let phi = phi.as_flattened();
+                            add_scaled(&mut one, phi[2 * pair], row);
+                            add_scaled(&mut two, phi[2 * pair + 1], row);
+                        }
+                        for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
+                            if let Some(place) = columns.get_mut(column * strips + row_strip) {
+                                add_scaled(place, 1.0, &sums);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Touched samples whose rows stay in the first cache.
+const IN_CACHE: usize = 32;
+
+/// Boundaries of the slip zones, packed: S, N and f.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cuts<'c> {
+    pub shifts: &'c [f64],
+    pub loads: &'c [f64],
+    pub stiffnesses: &'c [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slopes: &'c [f64],
+}
+
+/// The derivatives in strips of N blocks.
+struct Gathering<'c, const N: usize> {
+    context: &'c Context<'c>,
+    cuts: &'c Cuts<'c>,
+    /// Whether the strips hold the constant.
+    is_first: bool,
+    rows: &'c [Strip<N>],
+    antiderivatives: &'c [Strip<N>],
+    /// Piece k ends at knot k: pieces are counted from the centre.
+    pieces: &'c mut [[f64; PIECE]],
+    depth: usize,
+    stored: &'c mut [[Strip<N>; 2]],
+    places: &'c mut [f64],
+    touched: usize,
+    derivatives: &'c mut [[Strip<N>; 2]],
+    touched_rows: &'c mut [Strip<N>],
+}
+
+impl<const N: usize> Gathering<'_, N> {
+    #[inline(always)]
+    fn gather(&mut self, runs: Runs, by_u: &mut [f64], by_input: &mut [f64]) {
+        let Context { element, samples, .. } = *self.context;
         let mut now = 0;
         for run in runs {
             let range = run.first..run.first + run.count;
@@ -271,21 +361,18 @@ impl Sensitivity<'_> {
                 Kind::Stuck => run.kept.saturating_sub(1),
                 Kind::Open | Kind::GrossSlip => 0,
             };
-            while depth > kept {
-                depth -= 1;
-                self.remove::<N>(context, tractions, depth, now);
-            }
-            let [by_u, by_input] = &mut self.own;
+            self.remove_beyond(kept, now);
             let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
             let by_input = by_input.get_mut(range.clone()).unwrap_or(&mut []);
             let mu = run.sign * element.friction_coefficient;
-            let made = if run.sign > 0.0 { Made::Forwards } else { Made::Backwards };
+            let made = if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS };
             let line = Piece {
                 made,
                 sample: last,
                 weights: [at(samples.stiffness, last), 0.0],
                 since: now + run.count,
-                inner_stiffness: 0.0,
+                parameter: 0.0,
+                cut: NO_CUT,
                 stored: false,
             };
             match run.kind {
@@ -297,295 +384,207 @@ impl Sensitivity<'_> {
                     by_u.fill(0.0);
                     let slopes = samples.load_slope.get(range).unwrap_or(&[]);
                     by_input.iter_mut().zip(slopes).for_each(|(weight, slope)| *weight = mu * slope);
-                    self.push(&mut depth, &line);
+                    self.push(&line);
                 }
                 Kind::Stuck => {
                     by_input.fill(0.0);
                     let stiffnesses = samples.stiffness.get(range).unwrap_or(&[]);
                     by_u.iter_mut().zip(stiffnesses).for_each(|(weight, stiffness)| *weight = *stiffness);
-                    self.stick(context, &run, now, &mut depth);
+                    self.stick(&run, now);
                 }
                 Kind::Slip => {
-                    let packed = run.packed..run.packed + run.count;
-                    let cuts = Cuts {
-                        shifts: cut_shift.get(packed.clone()).unwrap_or(&[]),
-                        loads: tractions.cut_load.get(packed.clone()).unwrap_or(&[]),
-                        stiffnesses: tractions.cut_stiffness.get(packed).unwrap_or(&[]),
-                    };
+                    let cuts = self.cuts.stiffnesses.get(run.packed..run.packed + run.count).unwrap_or(&[]);
                     let stiffnesses = samples.stiffness.get(range.clone()).unwrap_or(&[]);
                     let slopes = samples.shift_slope.get(range).unwrap_or(&[]);
                     for ((((by_u, by_input), cut), stiffness), slope) in
-                        by_u.iter_mut().zip(by_input).zip(cuts.stiffnesses).zip(stiffnesses).zip(slopes)
+                        by_u.iter_mut().zip(by_input).zip(cuts).zip(stiffnesses).zip(slopes)
                     {
                         *by_u = *cut;
                         *by_input = mu * slope * (stiffness - cut);
                     }
-                    if depth < run.kept {
-                        self.push(&mut depth, &Piece { made: Made::Never, ..line });
+                    if self.depth < run.kept {
+                        self.push(&Piece { made: Made::NEVER, ..line });
                     }
-                    self.cut::<N>(context, depth.saturating_sub(1), now, &run, &cuts);
-                    let cut = cuts.stiffnesses.last().copied().unwrap_or(0.0);
-                    self.push(
-                        &mut depth,
-                        &Piece { weights: [line.weights[0] - cut, 0.0], inner_stiffness: cut, ..line },
-                    );
+                    self.cut(self.depth.saturating_sub(1), Cut { step: now, count: run.count, packed: run.packed });
+                    let cut = cuts.last().copied().unwrap_or(0.0);
+                    self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
             now += run.count;
         }
-        while depth > 0 {
-            depth -= 1;
-            self.remove::<N>(context, tractions, depth, now);
-        }
+        self.remove_beyond(0, now);
     }
 
     #[inline(always)]
-    fn push(&mut self, depth: &mut usize, piece: &Piece) {
-        if let Some(place) = self.pieces.get_mut(*depth) {
+    fn piece(&self, index: usize) -> Option<Piece> {
+        self.pieces.get(index).copied().map(Piece::decoded)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, piece: &Piece) {
+        if let Some(place) = self.pieces.get_mut(self.depth) {
             *place = piece.encoded();
-            *depth += 1;
+            self.depth += 1;
         }
     }
 
     /// Pushes a piece for each sample of a run that sticks.
     #[inline(always)]
-    fn stick(&mut self, context: &Context, run: &Run, now: usize, depth: &mut usize) {
-        let Context { samples, part, .. } = *context;
+    fn stick(&mut self, run: &Run, now: usize) {
+        let Context { samples, part, .. } = *self.context;
         let closes = part.opens && samples.is_open(samples.before(run.first));
-        let mut made = if closes { Made::SinceClosing } else { Made::BySticking };
-        let mut inner = context.ends(made, run.first);
+        let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
+        let mut inner = self.context.inner_end(made, run.first);
         for step in 0..run.count {
             let sample = run.first + step;
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
-            inner.inverse_width = inverse(shift - inner.shift);
-            let weights = inner.weights_to(shift, load, stiffness);
-            let piece = Piece { made, sample, weights, since: now + step, inner_stiffness: 0.0, stored: false };
-            self.push(depth, &piece);
-            inner = Ends { shift, load, stiffness, inverse_width: 0.0 };
-            made = Made::BySticking;
+            let parameter = inverse(shift - inner.shift);
+            let weights = inner.weights_to(parameter, [shift, load, stiffness]);
+            self.push(&Piece { made, sample, weights, since: now + step, parameter, cut: NO_CUT, stored: false });
+            inner = InnerEnd { shift, load, stiffness };
+            made = Made::BY_STICKING;
         }
     }
 
-    /// The sum of φ over the samples from `since` up to `now`, in `covered`.
+    /// Adds the sum of φ over steps with constant weights.
     #[inline(always)]
-    fn sum_covered<const N: usize>(&mut self, context: &Context, since: usize, now: usize) {
-        let length = self.row_blocks;
-        let to = row_of::<N>(self.antiderivatives, context.sample_at(now), length);
-        let from = row_of::<N>(self.antiderivatives, context.sample_at(since), length);
-        let covered = row_of_mut::<N>(self.covered, 0, length);
-        let (Some(to), Some(from), Some(covered)) = (to, from, covered) else { return };
-        for ((covered, to), from) in covered.iter_mut().zip(to).zip(from) {
-            let ([a, b, c, d], [e, f, g, h]) = (*to, *from);
-            *covered = [a - e, b - f, c - g, d - h];
-        }
-        if let Some([constant, ..]) = covered.first_mut() {
-            *constant = (now - since) as f64;
-        }
-    }
-
-    /// Adds the sums from `since` up to `now` with constant weights to those of a piece that is cut.
-    #[inline(always)]
-    fn gather_covered<const N: usize>(&mut self, context: &Context, index: usize, piece: &mut Piece, now: usize) {
-        if piece.stored && now <= piece.since {
+    fn add_covered(&self, sums: &mut [Strip<N>; 2], weights: [f64; 2], since: usize, now: usize) {
+        if now <= since {
             return;
         }
-        self.sum_covered::<N>(context, piece.since, now);
-        let length = self.row_blocks;
-        for (gathered, weight) in self.gathered.iter_mut().zip(piece.weights) {
-            let (covered, gathered) = (row_of::<N>(self.covered, 0, length), row_of_mut::<N>(gathered, index, length));
-            let (Some(covered), Some(gathered)) = (covered, gathered) else { return };
-            if piece.stored {
-                add_scaled(gathered, weight, covered);
-            } else {
-                set_scaled(gathered, weight, covered);
+        let row = |step| self.antiderivatives.get(self.context.sample_at(step));
+        let (Some(to), Some(from)) = (row(now), row(since)) else { return };
+        let mut covered = *to;
+        add_scaled(&mut covered, -1.0, from);
+        if let (true, Some([constant, ..])) = (self.is_first, covered.first_mut()) {
+            *constant = (now - since) as f64;
+        }
+        let [constant, linear] = sums;
+        add_scaled(constant, weights[0], &covered);
+        add_scaled(linear, weights[1], &covered);
+    }
+
+    /// The sums of a piece before a step; updates its weights to those at its last cut.
+    #[inline(always)]
+    fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
+        let mut sums = [[[0.0; 4]; N]; 2];
+        if let (true, Some(stored)) = (piece.stored, self.stored.get(index)) {
+            sums = *stored;
+        }
+        let Cut { step, count, packed } = piece.cut;
+        if count == 0 {
+            self.add_covered(&mut sums, piece.weights, piece.since, now);
+            return sums;
+        }
+        self.add_covered(&mut sums, piece.weights, piece.since, step);
+        let first = self.context.sample_at(step);
+        let rows = self.rows.get(first..first + count).unwrap_or(&[]);
+        let packed = packed..packed + count;
+        let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
+        let [constant, linear] = &mut sums;
+        if piece.is_stuck() {
+            let inner = self.context.inner_end(piece.made, piece.sample);
+            let (shifts, loads) =
+                (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
+            for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
+                piece.weights = inner.weights_to(piece.parameter, [shift, load, stiffness]);
+                add_scaled(constant, piece.weights[0], row);
+                add_scaled(linear, piece.weights[1], row);
+            }
+        } else {
+            for (row, &stiffness) in rows.iter().zip(stiffnesses) {
+                piece.weights[0] = stiffness - piece.parameter;
+                add_scaled(constant, piece.weights[0], row);
             }
         }
-        piece.stored = true;
-        piece.since = now;
+        self.add_covered(&mut sums, piece.weights, step + count, now);
+        sums
     }
 
     /// Cuts a piece by a run of slip.
     #[inline(always)]
-    fn cut<const N: usize>(&mut self, context: &Context, index: usize, now: usize, run: &Run, cuts: &Cuts) {
-        let Some(mut piece) = self.pieces.get(index).copied().map(Piece::decoded) else { return };
-        if piece.made == Made::Never {
+    fn cut(&mut self, index: usize, cut: Cut) {
+        let Some(mut piece) = self.piece(index) else { return };
+        if piece.made == Made::NEVER {
             return;
         }
-        self.gather_covered::<N>(context, index, &mut piece, now);
-        let length = self.row_blocks;
-        let [constant, linear] = &mut self.gathered;
-        let (constant, linear) = (row_of_mut::<N>(constant, index, length), row_of_mut::<N>(linear, index, length));
-        let (Some(constant), Some(linear)) = (constant, linear) else { return };
-        if piece.is_stuck() {
-            let ends = context.ends(piece.made, piece.sample);
-            let boundaries = cuts.shifts.iter().zip(cuts.loads).zip(cuts.stiffnesses);
-            for (sample, ((&shift, &load), &stiffness)) in (run.first..).zip(boundaries) {
-                piece.weights = ends.weights_to(shift, load, stiffness);
-                if let Some(row) = row_of::<N>(self.rows, sample, length) {
-                    add_scaled(constant, piece.weights[0], row);
-                    add_scaled(linear, piece.weights[1], row);
-                }
+        if piece.cut.count > 0 {
+            let sums = self.sums(index, &mut piece, cut.step);
+            if let Some(place) = self.stored.get_mut(index) {
+                *place = sums;
             }
-        } else {
-            for (sample, &stiffness) in (run.first..).zip(cuts.stiffnesses) {
-                piece.weights[0] = stiffness - piece.inner_stiffness;
-                if let Some(row) = row_of::<N>(self.rows, sample, length) {
-                    add_scaled(constant, piece.weights[0], row);
-                }
-            }
+            (piece.stored, piece.since) = (true, cut.step);
         }
-        piece.since = now + run.count;
+        piece.cut = cut;
         if let Some(place) = self.pieces.get_mut(index) {
             *place = piece.encoded();
         }
     }
 
-    /// Adds the sums of a piece that is removed to those of the samples that made it.
     #[inline(always)]
-    fn remove<const N: usize>(&mut self, context: &Context, tractions: &Tractions, index: usize, now: usize) {
-        let Context { element, samples, .. } = *context;
-        let Some(mut piece) = self.pieces.get(index).copied().map(Piece::decoded) else { return };
-        if piece.made == Made::Never || (!piece.stored && now <= piece.since) {
+    fn remove_beyond(&mut self, kept: usize, now: usize) {
+        while self.depth > kept {
+            self.depth -= 1;
+            self.remove(self.depth, now);
+        }
+    }
+
+    /// Adds the sums of a piece that is removed to those of the samples that made it: `dT = -V_1 e_i - V_2 (e_j - e_i)`.
+    #[inline(always)]
+    fn remove(&mut self, index: usize, now: usize) {
+        let Context { element, samples, .. } = *self.context;
+        let Some(mut piece) = self.piece(index) else { return };
+        if piece.made == Made::NEVER || (!piece.stored && piece.cut.count == 0 && now <= piece.since) {
             return;
         }
-        if piece.stored {
-            self.gather_covered::<N>(context, index, &mut piece, now);
-        } else {
-            self.sum_covered::<N>(context, piece.since, now);
+        let [constant, linear] = self.sums(index, &mut piece, now);
+        let (made, sample) = (piece.made, piece.sample);
+        let shift_slope = at(samples.shift_slope, sample);
+        if !piece.is_stuck() {
+            let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };
+            self.add(sample, &constant, [-1.0, mu * shift_slope]);
+            return;
         }
-        let sample = piece.sample;
+        let slope = at(self.cuts.slopes, sample);
+        self.add(sample, &linear, [-1.0, slope * shift_slope]);
+        let mut difference = linear;
+        add_scaled(&mut difference, -1.0, &constant);
         let before = samples.before(sample);
-        let shift_slope = |sample| at(samples.shift_slope, sample);
-        // dT = -V_1 e_i - V_2 (e_j - e_i): samples, factors of both V, and derivatives by u and by the input.
-        let mut terms = [Term { sample, factors: [0.0, 1.0], derivatives: [-1.0, 0.0] }; 3];
-        let [at_sample, at_before, closes] = &mut terms;
-        let mut count = 2;
-        match piece.made {
-            Made::Never => {}
-            Made::Forwards | Made::Backwards => {
-                let mu = element.friction_coefficient * if piece.made == Made::Forwards { 1.0 } else { -1.0 };
-                (at_sample.factors, at_sample.derivatives[1]) = ([1.0, 0.0], mu * shift_slope(sample));
-                count = 1;
-            }
-            Made::BySticking => {
-                let slope = at(tractions.slope, sample);
-                at_sample.derivatives[1] = slope * shift_slope(sample);
-                let derivatives = [1.0, -slope * shift_slope(before)];
-                *at_before = Term { sample: before, factors: [-1.0, 1.0], derivatives };
-            }
-            Made::SinceClosing => {
-                let closing = closing(samples, element.by_approach(), sample);
-                at_sample.derivatives[1] = at(tractions.slope, sample) * shift_slope(sample);
-                *at_before = Term { sample: before, factors: [-1.0, 1.0], derivatives: closing.before };
-                *closes = Term { sample, factors: [-1.0, 1.0], derivatives: closing.after };
-                count = 3;
-            }
-        }
-        for term in terms.iter().take(count) {
-            self.distribute::<N>(index, &piece, term);
-        }
-    }
-
-    /// Adds a term to the rows of its sample. Unless the sums of the piece were stored, they are multiples of the row `covered`.
-    #[inline(always)]
-    fn distribute<const N: usize>(&mut self, index: usize, piece: &Piece, term: &Term) {
-        let length = self.row_blocks;
-        let place = self.touch::<N>(term.sample);
-        let u_row = row_of_mut::<N>(self.by_displacement, place, length);
-        let input_row = row_of_mut::<N>(self.by_input, place, length);
-        let (Some(u_row), Some(input_row)) = (u_row, input_row) else { return };
-        let [by_u, by_input] = term.derivatives;
-        let [constant, linear] = term.factors;
-        if piece.stored {
-            let [one, two] = &self.gathered;
-            let rows = (row_of::<N>(one, index, length), row_of::<N>(two, index, length));
-            let (Some(one), Some(two)) = rows else { return };
-            for (((u_row, input_row), one), two) in u_row.iter_mut().zip(input_row).zip(one).zip(two) {
-                let ([a, b, c, d], two) = (*one, *two);
-                let v = plus([constant * a, constant * b, constant * c, constant * d], linear, two);
-                let (u, input) = (plus(*u_row, by_u, v), plus(*input_row, by_input, v));
-                (*u_row, *input_row) = (u, input);
-            }
+        if made == Made::BY_STICKING {
+            self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
         } else {
-            let factor = constant * piece.weights[0] + linear * piece.weights[1];
-            let Some(covered) = row_of::<N>(self.covered, 0, length) else { return };
-            add_scaled(u_row, factor * by_u, covered);
-            add_scaled(input_row, factor * by_input, covered);
+            let closing = closing(samples, element.by_approach(), sample);
+            self.add(before, &difference, closing.before);
+            self.add(sample, &difference, closing.after);
         }
     }
 
-    /// The place of a sample among those that have rows Y.
+    /// Adds a row times the derivatives by u and by the input to the rows Y of a sample.
     #[inline(always)]
-    fn touch<const N: usize>(&mut self, sample: usize) -> usize {
-        let Some(place) = self.places.get_mut(sample) else { return 0 };
-        if *place >= 0.0 {
-            return *place as usize;
+    fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
+        let Some(place) = self.places.get_mut(sample) else { return };
+        let is_new = *place < 0.0;
+        if is_new {
+            *place = self.touched as f64;
         }
-        let (length, index) = (self.row_blocks, self.touched);
-        *place = index as f64;
-        self.touched += 1;
-        for rows in [&mut *self.by_displacement, &mut *self.by_input] {
-            if let Some(row) = row_of_mut::<N>(rows, index, length) {
-                row.iter_mut().for_each(|block| *block = [0.0; 4]);
-            }
-        }
-        if let Some(row) = row_of::<N>(self.rows, sample, length) {
-            let columns = self.touched_pairs.chunks_exact_mut(self.places.len().max(1));
-            for (column, pair) in columns.zip(row.as_flattened().as_chunks::<2>().0) {
-                if let Some(place) = column.get_mut(index) {
-                    *place = *pair;
-                }
-            }
-        }
-        index
-    }
-
-    /// `Σ Y_j ⊗ φ_j`, pairs of columns, for the derivatives by u (0) or by the input (1).
-    #[inline(always)]
-    pub fn products(&self, index: usize, products: &mut Blocks) {
-        let length = self.row_blocks;
-        let rows = if index == 0 { &*self.by_displacement } else { &*self.by_input };
-        let rows = rows.get(..self.touched * length).unwrap_or(&[]);
-        let columns = self.touched_pairs.chunks_exact(self.places.len().max(1));
-        for (columns, phi) in products.chunks_exact_mut((2 * length).max(1)).zip(columns) {
-            match length {
-                1 => products_of::<1>(rows, phi, columns),
-                3 => products_of::<3>(rows, phi, columns),
-                5 => products_of::<5>(rows, phi, columns),
-                _ => {
-                    columns.fill([0.0; 4]);
-                    let (one, two) = columns.split_at_mut_checked(length).unwrap_or((&mut [], &mut []));
-                    for (row, &[a, b]) in rows.chunks_exact(length.max(1)).zip(phi) {
-                        add_scaled(one, a, row);
-                        add_scaled(two, b, row);
-                    }
-                }
-            }
+        let index = *place as usize;
+        let Some(derivatives) = self.derivatives.get_mut(index) else { return };
+        if !is_new {
+            let [mut u_row, mut input_row] = *derivatives;
+            add_scaled(&mut u_row, by_u, row);
+            add_scaled(&mut input_row, by_input, row);
+            *derivatives = [u_row, input_row];
+        } else if let (Some(phi), Some(own)) = (self.touched_rows.get_mut(index), self.rows.get(sample)) {
+            (*derivatives, *phi) = ([scaled(by_u, row), scaled(by_input, row)], *own);
+            self.touched += 1;
         }
     }
 }
 
-/// Boundaries of the slip zones of a run: S, N and f.
-struct Cuts<'c> {
-    shifts: &'c [f64],
-    loads: &'c [f64],
-    stiffnesses: &'c [f64],
-}
-
-/// A pair of columns of N blocks each.
 #[inline(always)]
-fn products_of<const N: usize>(rows: &Blocks, phi: &[[f64; 2]], columns: &mut Blocks) {
-    let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-    for (row, &[a, b]) in rows.as_chunks::<N>().0.iter().zip(phi) {
-        for block in 0..N {
-            for k in 0..4 {
-                one[block][k] += a * row[block][k];
-                two[block][k] += b * row[block][k];
-            }
-        }
-    }
-    for (column, sums) in columns.as_chunks_mut::<N>().0.iter_mut().zip([one, two]) {
-        *column = sums;
-    }
+fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
+    let mut scaled = *row;
+    scaled.as_flattened_mut().iter_mut().for_each(|value| *value *= scale);
+    scaled
 }
