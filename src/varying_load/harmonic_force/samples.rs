@@ -95,14 +95,16 @@ impl Samples<'_> {
             .zip(self.shift_slope.as_chunks_mut::<4>().0)
             .zip(self.stiffness.as_chunks_mut::<4>().0);
         for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
-            let states = element.four_normals::<SLOPES>(input);
-            (*load, *shift) = (states[0], states[1]);
+            let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
+            (*load, *shift) = (loads, shifts);
             if SLOPES {
-                (*load_slope, *shift_slope) = (states[2], states[3]);
+                (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
+                // 0 if open.
+                let mut quotients = [0.0; 4];
                 for k in 0..4 {
-                    // 0 if open.
-                    stiffness[k] = load_slope[k] / if input[k] > 0.0 { shift_slope[k] } else { 1.0 };
+                    quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
                 }
+                *stiffness = quotients;
             }
         }
         // The same bits: arguments outside the tables are evaluated differently in company.

@@ -43,7 +43,7 @@ type Strip<const N: usize> = [[f64; 4]; N];
 /// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
 /// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
 pub(super) fn fill_rows(rows: &mut [f64], antiderivatives: &mut [f64], harmonics: usize, samples: usize) {
-    let width = 4 * strip_blocks(row_blocks(harmonics)).max(1);
+    let width = (4 * strip_blocks(row_blocks(harmonics))).max(4);
     let fill = |values: &mut [f64], function: &dyn Fn(usize, usize) -> f64| {
         for (index, strip) in values.chunks_exact_mut(width).enumerate() {
             let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
@@ -115,8 +115,7 @@ const NO_CUT: Cut = Cut { step: 0, count: 0, packed: 0 };
 impl Piece {
     #[inline(always)]
     fn encoded(&self) -> [f64; PIECE] {
-        let word =
-            self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
+        let word = self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
         let Cut { step, count, packed } = self.cut;
         let cut = [(step as u64) | (count as u64) << 32, packed as u64].map(f64::from_bits);
         [f64::from_bits(word), self.weights[0], self.weights[1], self.parameter, cut[0], cut[1]]
@@ -249,8 +248,7 @@ impl Sensitivity<'_> {
         let derivatives = self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.chunks_exact_mut(samples);
         let touched_rows = self.touched_rows.as_chunks_mut::<N>().0.chunks_exact_mut(samples);
         let tables = rows.zip(antiderivatives).enumerate();
-        for (((strip, (rows, antiderivatives)), derivatives), touched_rows) in
-            tables.zip(derivatives).zip(touched_rows)
+        for (((strip, (rows, antiderivatives)), derivatives), touched_rows) in tables.zip(derivatives).zip(touched_rows)
         {
             self.places.fill(-1.0);
             let [own_by_u, own_by_input] = &mut self.own;
@@ -291,7 +289,7 @@ impl Sensitivity<'_> {
         let strips = (self.row_blocks / N).max(1);
         let samples = derivatives.len() / strips;
         let touched = |strip: usize| strip * samples..strip * samples + self.touched;
-        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut(4 * N * strips).enumerate() {
+        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
             columns.fill([[0.0; 4]; N]);
             let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
             for row_strip in 0..strips {
