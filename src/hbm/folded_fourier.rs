@@ -150,9 +150,8 @@ impl<'a> FoldedFourier<'a> {
         let count = sums.len().saturating_sub(1).div_ceil(4);
         for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
             let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
-            let quads = self.quads.get(quad..).unwrap_or(&[]).chunks(stride);
-            for (rows, folded) in quads.zip(folded) {
-                let [rows, ..] = rows else { break };
+            for (block, folded) in folded.iter().enumerate() {
+                let Some(rows) = self.quads.get(quad + block * stride) else { break };
                 for k in 0..4 {
                     a[k] += folded[0][k] * rows[0][k];
                     b[k] += folded[1][k] * rows[1][k];

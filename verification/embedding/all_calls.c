@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POINTS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 6, STEPS = 41, ITEMS = 2, SLIDERS = 7 };
-enum { PIECES = 5, COMPONENTS = 2, TANGENT = 4, ALL = COMPONENTS * COEFFICIENTS };
+enum {
+    POINTS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 6, STEPS = 41, ITEMS = 2, SLIDERS = 7,
+    PIECES = 5, COMPONENTS = 2, TANGENT = 4, ALL = COMPONENTS * COEFFICIENTS
+};
 
 static uint64_t hashed(uint64_t hash, const void *bytes, size_t n)
 {

@@ -107,7 +107,8 @@ impl<'a> Assembly<'a> {
         sensitivity.products(index, self.products);
         let weight = 1.0 / self.size.samples as f64;
         let length = row_blocks(self.size.harmonics).max(1);
-        for ((c, column), product) in columns.enumerate().zip(self.products.chunks_exact(length)) {
+        for (c, column) in columns.enumerate() {
+            let Some(product) = self.products.get(c * length..(c + 1) * length) else { return };
             // Rows 0, then pairs of equal order: even, odd, odd, even, and so on.
             let parity = if c.div_ceil(2).is_multiple_of(2) { 1.0 } else { -1.0 };
             let [even, odd] = match symmetry {

@@ -243,13 +243,16 @@ impl Sensitivity<'_> {
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
         let samples = context.samples.count.max(1);
-        let rows = self.rows.as_chunks::<N>().0.chunks_exact(samples);
-        let antiderivatives = self.antiderivatives.as_chunks::<N>().0.chunks_exact(samples);
-        let derivatives = self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.chunks_exact_mut(samples);
-        let touched_rows = self.touched_rows.as_chunks_mut::<N>().0.chunks_exact_mut(samples);
-        let tables = rows.zip(antiderivatives).enumerate();
-        for (((strip, (rows, antiderivatives)), derivatives), touched_rows) in tables.zip(derivatives).zip(touched_rows)
-        {
+        for strip in 0..(self.row_blocks / N).max(1) {
+            let range = strip * samples..(strip + 1) * samples;
+            let (Some(rows), Some(antiderivatives), Some(derivatives), Some(touched_rows)) = (
+                self.rows.as_chunks().0.get(range.clone()),
+                self.antiderivatives.as_chunks().0.get(range.clone()),
+                self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()),
+                self.touched_rows.as_chunks_mut().0.get_mut(range),
+            ) else {
+                return;
+            };
             self.places.fill(-1.0);
             let [own_by_u, own_by_input] = &mut self.own;
             let mut gathering = Gathering {
@@ -294,7 +297,8 @@ impl Sensitivity<'_> {
             let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
             for row_strip in 0..strips {
                 let derivatives = derivatives.get(touched(row_strip)).unwrap_or(&[]);
-                for (derivatives, phi) in derivatives.chunks(IN_CACHE).zip(phi.chunks(IN_CACHE)) {
+                for block in 0..derivatives.len().div_ceil(IN_CACHE) {
+                    let (derivatives, phi) = (in_cache(derivatives, block), in_cache(phi, block));
                     for pair in 0..2 * N {
                         let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
                         for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
@@ -317,6 +321,13 @@ impl Sensitivity<'_> {
 
 /// Touched samples whose rows stay in the first cache.
 const IN_CACHE: usize = 32;
+
+/// A block of [`IN_CACHE`] values, or what is left of them.
+#[inline(always)]
+fn in_cache<T>(values: &[T], block: usize) -> &[T] {
+    let rest = values.get(block * IN_CACHE..).unwrap_or(&[]);
+    rest.get(..IN_CACHE).unwrap_or(rest)
+}
 
 /// Boundaries of the slip zones, packed: S, N and f.
 #[derive(Debug, Clone, Copy)]
