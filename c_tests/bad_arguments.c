@@ -11,7 +11,7 @@ static const struct {
     { MSLIP_BAD_FLAT_HALF_WIDTH, 2, "flat_half_width must be finite and >= 0" },
     { MSLIP_BAD_EDGE_RADIUS, 3, "edge_radius must be finite and > 0" },
     { MSLIP_BAD_LENGTH, 4, "length must be finite and > 0" },
-    { MSLIP_BAD_NORMAL_FORCE, 5, "normal_force must be finite and >= 0" },
+    { MSLIP_BAD_NORMAL_FORCE, 5, "normal_force must be finite and >= 0, that of an element > 0" },
     { MSLIP_BAD_FRICTION_COEFFICIENT, 6, "friction_coefficient must be finite and >= 0" },
     { MSLIP_BAD_YOUNG_MODULUS, 7, "young_modulus must be finite and > 0" },
     { MSLIP_BAD_POISSON_RATIO, 8, "poisson_ratio must be between 0 and 0.5" },

@@ -76,7 +76,8 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_FLAT_HALF_WIDTH = 2  !! flat_half_width must be finite and >= 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3  !! edge_radius must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4  !! length must be finite and > 0
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5  !! normal_force must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5
+    !! normal_force must be finite and >= 0, that of an element > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6  !! friction_coefficient must be finite and >= 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! each young_modulus must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! each poisson_ratio must be between 0 and 0.5
@@ -85,7 +86,8 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10  !! semi_axis_x must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11  !! semi_axis_y must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12
-    !! length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness
+    !! length too small for the half-width b of the contact, or approach or force of an element too large: requires
+    !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
   integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
@@ -113,13 +115,13 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! the number of sliders must be between 1 and 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
   integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40
-    !! not available for this kind of contact, this number of directions, or this rule
+    !! not available for this kind of contact; elements have one direction and uniform sampling
   integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41
     !! an index must refer to one of the n_contacts contacts or n_elements elements
   integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42  !! directions must be 1 or 2
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43  !! normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
-    !! an array is too long to be addressed, or (in Fortran) array sizes do not agree
+    !! array sizes do not agree (in Fortran), or an array is too long to be addressed
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
     !! misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
   integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 3
@@ -1653,7 +1655,7 @@ contains
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
-    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default and the only one.
     integer(mslip_size) :: length  !! Length of the workspace.
 
     ! A C length beyond the largest integer of this kind arrives negative.
@@ -1671,7 +1673,7 @@ contains
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_BAD_RULE`, `MSLIP_NOT_AVAILABLE`, `MSLIP_BAD_HARMONICS`, `MSLIP_BAD_SAMPLES` or
       !! `MSLIP_WORKSPACE_TOO_SHORT`.
-    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default.
+    integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default and the only one.
 
     status = c_element_workspace_init(directions, harmonics, samples, rule_or_default(rule), &
       size(workspace, kind=mslip_size), address_of(workspace))

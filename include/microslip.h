@@ -43,7 +43,7 @@
 // length must be finite and > 0
 #define MSLIP_BAD_LENGTH 4
 
-// normal_force must be finite and >= 0
+// normal_force must be finite and >= 0, that of an element > 0
 #define MSLIP_BAD_NORMAL_FORCE 5
 
 // friction_coefficient must be finite and >= 0
@@ -64,7 +64,7 @@
 // semi_axis_y must be finite and > 0
 #define MSLIP_BAD_SEMI_AXIS_Y 11
 
-// length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness
+// length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness
 #define MSLIP_LENGTH_TOO_SHORT 12
 
 // parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
@@ -118,7 +118,7 @@
 // rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
 #define MSLIP_BAD_RULE 39
 
-// not available for this kind of contact, this number of directions, or this rule
+// not available for this kind of contact; elements have one direction and uniform sampling
 #define MSLIP_NOT_AVAILABLE 40
 
 // an index must refer to one of the n_contacts contacts or n_elements elements
@@ -130,7 +130,7 @@
 // normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
 #define MSLIP_BAD_NORMAL_INPUT 43
 
-// an array is too long to be addressed, or (in Fortran) array sizes do not agree
+// array sizes do not agree (in Fortran), or an array is too long to be addressed
 #define MSLIP_BAD_ARRAY_SIZE 90
 
 // misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment

@@ -50,7 +50,7 @@ status_codes! {
     BadFlatHalfWidth, MSLIP_BAD_FLAT_HALF_WIDTH = 2: "flat_half_width must be finite and >= 0";
     BadEdgeRadius, MSLIP_BAD_EDGE_RADIUS = 3: "edge_radius must be finite and > 0";
     BadLength, MSLIP_BAD_LENGTH = 4: "length must be finite and > 0";
-    BadNormalForce, MSLIP_BAD_NORMAL_FORCE = 5: "normal_force must be finite and >= 0";
+    BadNormalForce, MSLIP_BAD_NORMAL_FORCE = 5: "normal_force must be finite and >= 0, that of an element > 0";
     BadFrictionCoefficient, MSLIP_BAD_FRICTION_COEFFICIENT = 6: "friction_coefficient must be finite and >= 0";
     BadYoungModulus, MSLIP_BAD_YOUNG_MODULUS = 7: "each young_modulus must be finite and > 0";
     BadPoissonRatio, MSLIP_BAD_POISSON_RATIO = 8: "each poisson_ratio must be between 0 and 0.5";
@@ -59,7 +59,7 @@ status_codes! {
     BadSemiAxisX, MSLIP_BAD_SEMI_AXIS_X = 10: "semi_axis_x must be finite and > 0";
     BadSemiAxisY, MSLIP_BAD_SEMI_AXIS_Y = 11: "semi_axis_y must be finite and > 0";
     LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:
-        "length too small for the half-width b of the contact: requires 2*length > b and a positive initial stiffness";
+        "length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness";
     OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
     BadContact, MSLIP_BAD_CONTACT = 20:
         "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
@@ -85,12 +85,12 @@ status_codes! {
     BadCount, MSLIP_BAD_COUNT = 38: "the number of sliders must be between 1 and 65536";
     BadRule, MSLIP_BAD_RULE = 39: "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN";
     NotAvailable, MSLIP_NOT_AVAILABLE = 40:
-        "not available for this kind of contact, this number of directions, or this rule";
+        "not available for this kind of contact; elements have one direction and uniform sampling";
     BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2";
     BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
-        "an array is too long to be addressed, or (in Fortran) array sizes do not agree";
+        "array sizes do not agree (in Fortran), or an array is too long to be addressed";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";
 }
 
