@@ -25,10 +25,11 @@ typedef struct {
     varying_aft *aft;
     const varying_slider *slider;
     const mslip_element *element;
+    const mslip_parameters *parameters;
     double *workspace, *state;
     size_t state_length;
     int jacobian_requested;
-    double displacement[MOST], force[MOST], jacobian[MOST * MOST], path[2 * STEPS], tangent[4];
+    double displacement[MOST], force[MOST], jacobian[MOST * MOST], path[2 * STEPS], tangent[4], stiffness[STEPS];
 } job;
 
 static double run(void *context)
@@ -60,11 +61,36 @@ static double run_steps(void *context)
     return j->force[0] + j->tangent[0];
 }
 
+static double run_init(void *context)
+{
+    job *j = context;
+    static mslip_element element;
+    require(mslip_element_init(j->parameters, 1, MSLIP_APPROACH, &element));
+    return element.approach;
+}
+
+static double run_normal_force(void *context)
+{
+    job *j = context;
+    require(mslip_normal_force(j->element, STEPS, j->path, j->path + STEPS, j->stiffness, NULL));
+    return j->path[STEPS] + j->stiffness[0];
+}
+
+static double run_logarithm(void *context)
+{
+    job *j = context;
+    double sum = 0.0;
+    for (int i = 0; i < STEPS; ++i) {
+        sum += log(j->path[i]);
+    }
+    return sum;
+}
+
 static job *add(const char *task, const char *method, work *work, const job *prototype, int harmonics, int samples, int motion)
 {
     job *kept = allocate(sizeof *kept);
     *kept = *prototype;
-    entry *e = entry_add(task, method, work, kept, samples ? 1 : STEPS);
+    entry *e = entry_add(task, method, work, kept, samples || work == run_init ? 1 : STEPS);
     e->harmonics = harmonics;
     e->samples = samples;
     e->jacobian = prototype->jacobian_requested;
@@ -130,6 +156,15 @@ void task_element(const test_case *c, const extent *x)
     /* S of the largest load: the displacement of gross slip over mu. */
     const double shift = c->contact.slip_displacement / element.friction_coefficient;
     const varying_slider slider = { element.tangential_stiffness, element.normal_force / element.approach, element.friction_coefficient };
+    const size_t begin = entry_count, bottom = memory_mark();
+    job once = { .element = &element, .parameters = &c->parameters };
+    for (int i = 0; i < STEPS; ++i) {
+        once.path[i] = element.approach * (i + 1) / STEPS;
+    }
+    add("element initialisation", "microslip", run_init, &once, 0, 0, 0);
+    add("normal force", "microslip", run_normal_force, &once, 0, 0, 0);
+    add("normal force", "logarithm", run_logarithm, &once, 0, 0, 0);
+    measure(begin, c->shape, 0.0, bottom);
     for (int motion = 0; motion < MOTIONS; ++motion) {
         const size_t first = entry_count, mark = memory_mark();
         for (int o = 0; o < x->orders; ++o) {
