@@ -50,7 +50,7 @@ pub struct Element {
     largest_load: f64,
     largest_approach: f64,
     pub(crate) largest_shift: f64,
-    /// The contact counts as open up to this input, [`TOUCHING`] of that of the tables: there squares and products would underflow.
+    /// The contact counts as open up to this input, [`SMALLEST_LOAD`] of that of the tables.
     smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
@@ -65,14 +65,12 @@ pub struct Element {
     potential: [f64; PIECES],
 }
 
-/// Forces at less than this part of the largest input of the tables are beyond any rounding error.
-const TOUCHING: f64 = 1e-60;
-
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 
-/// Of the normal force of the parameters, 2^-150: sizes of smaller loads are not distinguished.
+/// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
+/// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
@@ -187,7 +185,7 @@ impl Element {
         }
         self.largest_load = shape.load(largest);
         (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
-        self.smallest_input = TOUCHING * if input == NormalInput::Force { normal_force } else { approach };
+        self.smallest_input = SMALLEST_LOAD * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;
@@ -274,7 +272,7 @@ impl Element {
     #[must_use]
     pub fn half_width_under(&self, normal_force: f64) -> f64 {
         let shape = self.shape();
-        let load = normal_force.max(TOUCHING * self.normal_force);
+        let load = normal_force.max(SMALLEST_LOAD * self.normal_force);
         if normal_force > 0.0 { shape.half_width(shape.at_load(load)) } else { 0.0 }
     }
 

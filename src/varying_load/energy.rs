@@ -24,7 +24,7 @@ pub(crate) struct Path {
     pub displacement: f64,
 }
 
-/// A stretch of a path: boundaries of the slip zone and of the contact at both of its ends.
+/// A segment of a path: boundaries of the slip zone and of the contact at both of its ends.
 #[derive(Debug, Clone, Copy)]
 struct Slip {
     inner: [f64; 2],
@@ -68,7 +68,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
                 // The edge of a slip zone is faster than the contact size, but for rounding.
                 let slips = excess != 0.0 && (slope == sign || contact_rate >= 0.0 || rate(sign) < contact_rate);
                 if !slips {
-                    // The contact recedes through the piece without slip, or rests; rounding may place a piece beyond its size.
+                    // The contact recedes through the piece without slip, or stays; rounding may place a piece beyond its size.
                     if end >= lowest || contact_rate == 0.0 {
                         return energy;
                     }
@@ -121,7 +121,7 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     let contact_rate = path.shift[1] - path.shift[0];
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * contact_rate) * sign.signum();
-    // Mean of N along the rest of the path.
+    // Mean of N along the remaining path.
     let (width, low, high) = (path.shift[1] - outer, outer.min(path.shift[1]), outer.max(path.shift[1]));
     let mean: f64 = match nodes_between(element, low, high) {
         Some(nodes) => nodes.map(|(node, part)| part * element.load_at_shift(outer + node * width).0).sum(),

@@ -50,14 +50,10 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
         return Err(Error::StateTooShort);
     }
     state.fill(0.0);
-    write_tag(state, 1);
-    Ok(())
-}
-
-fn write_tag(state: &mut [f64], knots: usize) {
     if let Some(tag) = state.first_mut() {
-        *tag = Kind::ElementState.tag(knots);
+        *tag = Kind::ElementState.tag(1);
     }
+    Ok(())
 }
 
 /// Checks the length, the tag and the number of knots of a state.
@@ -91,11 +87,11 @@ const ERROR: usize = 7;
 
 /// Values in the header of a state.
 #[derive(Debug, Clone, Copy)]
-struct Point {
-    displacement: f64,
-    input: f64,
-    normal: Normal,
-    error: f64,
+pub(crate) struct Point {
+    pub displacement: f64,
+    pub input: f64,
+    pub normal: Normal,
+    pub error: f64,
 }
 
 impl Point {
@@ -136,7 +132,7 @@ fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
 
 /// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
 #[inline(always)]
-fn step(
+pub(crate) fn step(
     element: &Element,
     from: &Point,
     diagram: &mut impl Diagram,
@@ -259,8 +255,8 @@ pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
     }
 }
 
-/// The diagram in a state.
-struct Polygon<'a> {
+/// The diagram in a state, or in other memory of the caller.
+pub(crate) struct Polygon<'a> {
     friction_coefficient: f64,
     knots: &'a mut [[f64; PER_KNOT]],
     used: usize,
@@ -294,7 +290,7 @@ impl Diagram for Polygon<'_> {
 
 impl Polygon<'_> {
     #[inline(always)]
-    fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
+    pub fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
         let knots = knots.as_chunks_mut().0;
         Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }
     }
@@ -428,13 +424,15 @@ pub struct PathOutput<'a> {
 /// Checks a path: two doubles per step.
 ///
 /// # Errors
-/// `BadDisplacement` or `BadNormalForce`.
+/// Those of [`check_step`].
 pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
     path.as_chunks().0.iter().try_for_each(|displacement| check_step(element, displacement))
 }
 
+/// Checks the displacement of a step.
+///
 /// # Errors
-/// `BadDisplacement` or `BadNormalForce`.
+/// `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 #[inline(always)]
 pub(crate) fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
     check_displacement(displacement)?;
