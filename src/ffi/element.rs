@@ -130,7 +130,7 @@ pub unsafe extern "C" fn mslip_normal_force(
             approach,
             [normal_force, stiffness, half_width],
             Element::check_approach,
-            Element::normal_force_at,
+            Element::four_normal_forces,
             |_, value| value,
         )
     }
@@ -161,13 +161,13 @@ pub unsafe extern "C" fn mslip_normal_approach(
             normal_force,
             [approach, compliance, half_width],
             Element::check_normal_force,
-            Element::approach_under,
+            |element, given| given.map(|force| element.approach_under(force)),
             |given, _| given,
         )
     }
 }
 
-/// One direction of the normal law; `normal_force` selects the normal force from the given quantity and the one that is computed.
+/// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the one that is computed.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for n doubles, the first one for an element; outputs must not alias any other argument.
@@ -178,7 +178,7 @@ unsafe fn normal_law(
     given: *const f64,
     results: [*mut f64; 3],
     check: impl Fn(&Element, f64) -> Result<(), Error>,
-    law: impl Fn(&Element, f64) -> NormalPoint,
+    law: impl Fn(&Element, &[f64; 4]) -> [NormalPoint; 4],
     normal_force: impl Fn(f64, f64) -> f64,
 ) -> i32 {
     let compute = || {
@@ -186,11 +186,15 @@ unsafe fn normal_law(
         let (element, given, [mut values, mut slopes, mut half_widths]) =
             unsafe { (pointers::element(element)?, input(given, n)?, outputs(results, n)?) };
         given.iter().try_for_each(|given| check(element, *given))?;
-        for (i, &given) in given.iter().enumerate() {
-            let NormalPoint { value, slope } = law(element, given);
-            set(&mut values, i, || value);
-            set(&mut slopes, i, || slope);
-            set(&mut half_widths, i, || element.half_width_under(normal_force(given, value)));
+        for (block, given) in given.chunks(4).enumerate() {
+            let mut four = [given.first().copied().unwrap_or(0.0); 4];
+            four.iter_mut().zip(given).for_each(|(place, given)| *place = *given);
+            for (i, (given, point)) in (4 * block..).zip(given.iter().zip(law(element, &four))) {
+                let NormalPoint { value, slope } = point;
+                set(&mut values, i, || value);
+                set(&mut slopes, i, || slope);
+                set(&mut half_widths, i, || element.half_width_under(normal_force(*given, value)));
+            }
         }
         Ok(())
     };

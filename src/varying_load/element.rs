@@ -9,6 +9,7 @@ use crate::range::in_range;
 use crate::shape::{HertzEllipse, Relation, RoundedFlat, Shape};
 use crate::tag::LAYOUT;
 use crate::varying_load::table::{PIECES, Table};
+use core::array::from_fn;
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -247,6 +248,15 @@ impl Element {
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
         NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
+    }
+
+    /// Values and slopes of [`Element::normal_force_at`] at four approaches, with the same bits.
+    #[inline(always)]
+    pub(crate) fn four_normal_forces(&self, approach: &[f64; 4]) -> [NormalPoint; 4] {
+        match if self.by_approach() { self.of_input.four::<true>(approach) } else { None } {
+            Some((value, slope)) => from_fn(|k| NormalPoint { value: value[k], slope: slope[k] }),
+            None => approach.map(|approach| self.normal_force_at(approach)),
+        }
     }
 
     /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are

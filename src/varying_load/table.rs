@@ -58,9 +58,8 @@ impl Table {
     pub fn position(&self, x: f64) -> Option<Position> {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
-        let mantissa = |bits: u64, kept: u32| f64::from_bits((bits & ((1 << kept) - 1)) | EXPONENT_OF_1);
-        let t = POSITION * mantissa(bits, SHIFT) - (POSITION + 1.0);
-        (index < PIECES).then_some(Position { index, t, scaled: POSITION * mantissa(bits, 52) })
+        let t = POSITION * mantissa(x, SHIFT) - (POSITION + 1.0);
+        (index < PIECES).then_some(Position { index, t, scaled: POSITION * mantissa(x, 52) })
     }
 
     #[inline(always)]
@@ -68,12 +67,17 @@ impl Table {
         self.quarters.get(at.index).unwrap_or(&[0.0; TERMS])
     }
 
-    /// y and dy/dx.
+    /// y and dy/dx: the operations of [`two`], with the same bits.
     #[inline(always)]
     pub fn value_and_slope(&self, x: f64, at: Position) -> (f64, f64) {
-        let c = self.coefficients(at);
-        let (q, dq) = (polynomial(c, at.t), derivative(c, at.t));
-        (x * q, q + at.scaled * dq)
+        let t = at.t;
+        let t2 = t * t;
+        let (low, high) = cubic::<true>(self.coefficients(at), t2 * t2);
+        let ([[c0, c1], [d0, d1]], [[c2, c3], [d2, d3]]) = (low.map(f64x2::to_array), high.map(f64x2::to_array));
+        let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
+        let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
+        let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
+        (x * q, q + at.scaled * (by_cubic + 4.0 * (t * t2) * by_blocks))
     }
 
     /// The smallest argument inside.
@@ -127,12 +131,17 @@ impl Position {
     }
 }
 
+/// The lower bits of the mantissa of an argument as a number from 1 to 2.
+#[inline(always)]
+fn mantissa(x: f64, bits: u32) -> f64 {
+    f64::from_bits((x.to_bits() & ((1 << bits) - 1)) | EXPONENT_OF_1)
+}
+
 /// Values and, if requested, slopes at two arguments from their rows.
 ///
 /// The blocks of four coefficients are combined for each argument; the cubics that remain are transposed and evaluated together.
 #[inline(always)]
 fn two<const SLOPES: bool>(x: [f64; 2], rows: [&[f64; TERMS]; 2]) -> ([f64; 2], [f64; 2]) {
-    let mantissa = |x: f64, kept: u32| f64::from_bits((x.to_bits() & ((1 << kept) - 1)) | EXPONENT_OF_1);
     let fractions = f64x2::new([mantissa(x[0], SHIFT), mantissa(x[1], SHIFT)]);
     let t = fractions * f64x2::splat(POSITION) - f64x2::splat(POSITION + 1.0);
     let t2 = t * t;
@@ -179,16 +188,7 @@ fn middle_and_half_length(number: u64) -> [f64; 2] {
     [lower + half_length, half_length]
 }
 
-#[inline(always)]
-fn polynomial(c: &[f64; TERMS], t: f64) -> f64 {
-    let &[c0, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
-    let (t2, t4) = (t * t, t * t * (t * t));
-    let low = (c0 + c1 * t) + t2 * (c2 + c3 * t);
-    let middle = (c4 + c5 * t) + t2 * (c6 + c7 * t);
-    let high = (c8 + c9 * t) + t2 * (c10 + c11 * t);
-    low + t4 * (middle + t4 * high)
-}
-
+/// dQ/dt.
 #[inline(always)]
 fn derivative(c: &[f64; TERMS], t: f64) -> f64 {
     let &[_, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
