@@ -22,7 +22,19 @@ fails() { # MESSAGE COMMAND...: the command ends with status 1 and the message
     status=0
     shift
     "$@" > "$work/output" 2>&1 || status=$?
-    [ "$status" -eq 1 ] && grep "$message" "$work/output"
+    cat "$work/output"
+    [ "$status" -eq 1 ] && grep -q "$message" "$work/output"
+}
+
+# Open MPI's launcher, told to abort, may fail itself while it ends.
+all_end() { # MESSAGE COMMAND...: the command fails within a minute, with the message
+    message=$1
+    status=0
+    shift
+    # shellcheck disable=SC2086
+    timeout 60 $MPIRUN "$@" > "$work/output" 2>&1 || status=$?
+    cat "$work/output"
+    [ "$status" -ne 0 ] && [ "$status" -ne 124 ] && grep -q "$message" "$work/output"
 }
 
 check 'threads: 1, 2 and 4 give bitwise equal results' build/contact_threads 2000 4
@@ -32,8 +44,7 @@ for ranks in 1 2 4; do
     check "ranks: $ranks" sweep "$ranks"
 done
 check 'ranks: the peaks are those of forced_response' peaks
-# shellcheck disable=SC2086
-check 'ranks: an error of one ends all' fails 'cannot be written' \
-    timeout 60 $MPIRUN --mca orte_abort_on_non_zero_status 0 -n 2 build/response_sweep "$work/none/table" cases/cylinder.nml
+check 'ranks: an error of one ends all' all_end 'cannot be written' \
+    --mca orte_abort_on_non_zero_status 0 -n 2 build/response_sweep "$work/none/table" cases/cylinder.nml
 
 counts
