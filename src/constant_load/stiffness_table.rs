@@ -43,6 +43,8 @@ use operators::{
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
 const PIECES: usize = 7;
+/// Terms of G on all pieces but the first.
+const OTHER_TERMS: usize = 16;
 /// Largest amplitude of the pieces beyond gross slip.
 const FAR_FROM: f64 = 1.0 + TOP;
 
@@ -66,8 +68,8 @@ pub(crate) struct StiffnessTable {
     /// K' ξ^(3/2) over 1.6/ξ.
     far: Polynomial,
     /// (8/π) G over z = 4 2ʲ u - 3.
-    below: Pieces<4>,
-    above: Pieces<4>,
+    below: Pieces<{ OTHER_TERMS / 4 }>,
+    above: Pieces<{ OTHER_TERMS / 4 }>,
     /// R/π.
     energy: Pieces<5>,
 }
@@ -75,23 +77,38 @@ pub(crate) struct StiffnessTable {
 /// Length of a table in doubles.
 pub(crate) const TABLE_LENGTH: usize = size_of::<StiffnessTable>() / size_of::<f64>();
 
+/// Rows of the first polynomial that are enough unless Λ is near 1.
+const FEW_ROWS: usize = 6;
+
 /// Polynomials on the dyadic intervals: the function is nearly constant on all but the first.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 struct Pieces<const R: usize> {
+    /// Rows of the first polynomial that are not 0.
+    rows_of_first: f64,
     first: Rows<{ FIRST / 4 }>,
     others: [Rows<R>; PIECES - 1],
 }
 
 impl<const R: usize> Pieces<R> {
-    const NONE: Pieces<R> = Pieces { first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; PIECES - 1] };
+    const NONE: Pieces<R> = Pieces { rows_of_first: 0.0, first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; PIECES - 1] };
 
     #[inline(always)]
     fn value_and_slope(&self, place: &Place) -> (f64, f64) {
         match self.others.get(place.piece.wrapping_sub(1)) {
             Some(rows) => value_and_slope(rows, place.z),
-            None => value_and_slope(&self.first, place.z),
+            None => match self.first.first_chunk::<FEW_ROWS>() {
+                Some(rows) if self.rows_of_first <= FEW_ROWS as f64 => value_and_slope(rows, place.z),
+                _ => value_and_slope(&self.first, place.z),
+            },
         }
+    }
+
+    #[inline(always)]
+    fn set_first(&mut self, factor: f64, series: &[f64; FIRST]) {
+        self.first = powers(&series.map(|term| factor * term));
+        let used = self.first.iter().rposition(|row| row.iter().any(|power| *power != 0.0));
+        self.rows_of_first = used.map_or(0.0, |last| (last + 1) as f64);
     }
 }
 
@@ -102,10 +119,9 @@ struct Place {
 }
 
 impl Place {
-    /// `None` at gross slip itself.
+    /// The place of `u = (|e|/0.6)^(1/8)`; `None` at gross slip itself.
     #[inline(always)]
-    fn of(distance: f64) -> Option<Place> {
-        let u = (distance * (1.0 / TOP)).sqrt().sqrt().sqrt();
+    fn of(u: f64) -> Option<Place> {
         let exponent = (u.to_bits() >> 52).min(1022);
         let piece = (1022 - exponent) as usize;
         let scale = f64::from_bits((2047 - 2 - exponent) << 52);
@@ -139,6 +155,7 @@ impl StiffnessTable {
     };
 
     /// The table of the shape of a contact.
+    #[inline(always)]
     pub fn of(contact: &Contact) -> StiffnessTable {
         let mut table = StiffnessTable { shape: shape_of(contact), ..StiffnessTable::EMPTY };
         if let Some(curve) = Curve::of(contact) {
@@ -165,12 +182,43 @@ impl StiffnessTable {
         Kind::StiffnessTable.count(self.tag) == Some(1)
     }
 
-    /// K' and K'' at an amplitude \[m\] of a contact with friction of this shape, each if it is requested.
+    /// K' and K'' at N amplitudes \[m\] of a contact with friction of this shape, each if it is requested.
     #[inline(always)]
-    pub fn at<const REAL: bool, const IMAGINARY: bool>(&self, contact: &Contact, amplitude: f64) -> [ValueAndSlope; 2] {
+    pub fn at<const REAL: bool, const IMAGINARY: bool, const N: usize>(
+        &self,
+        contact: &Contact,
+        amplitude: &[f64; N],
+    ) -> [[ValueAndSlope; 2]; N] {
         let (unit, per_slip) = (contact.initial_stiffness, contact.per_slip_displacement());
-        let (xi, e) = (amplitude * per_slip, (contact.slip_displacement - amplitude) * per_slip);
-        let values = if xi <= 1.0 - TOP {
+        let e = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
+        // Roots of several take the time of one.
+        let u = e.map(|e| (e.abs() * (1.0 / TOP)).sqrt().sqrt().sqrt());
+        from_fn(|i| {
+            let values = self.at_fraction::<REAL, IMAGINARY>(amplitude[i] * per_slip, e[i], u[i]);
+            values.map(|(value, slope)| (unit * value, unit * per_slip * slope))
+        })
+    }
+
+    /// The same, what is requested known at run time.
+    #[inline(always)]
+    pub fn parts<const N: usize>(
+        &self,
+        contact: &Contact,
+        amplitude: &[f64; N],
+        real: bool,
+        imaginary: bool,
+    ) -> [[ValueAndSlope; 2]; N] {
+        match (real, imaginary) {
+            (true, true) => self.at::<true, true, N>(contact, amplitude),
+            (true, false) => self.at::<true, false, N>(contact, amplitude),
+            _ => self.at::<false, true, N>(contact, amplitude),
+        }
+    }
+
+    /// At ξ = 1 - e, in units of the initial stiffness.
+    #[inline(always)]
+    fn at_fraction<const REAL: bool, const IMAGINARY: bool>(&self, xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
+        if xi <= 1.0 - TOP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
                 if !requested {
@@ -182,11 +230,10 @@ impl StiffnessTable {
             let [real, imaginary] = &self.inner;
             [part(REAL, real), part(IMAGINARY, imaginary)]
         } else {
-            let (per_xi, place) = (1.0 / xi, Place::of(e.abs()));
+            let (per_xi, place) = (1.0 / xi, Place::of(u));
             let real = if REAL { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
             [real, if IMAGINARY { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
-        };
-        values.map(|(value, slope)| (unit * value, unit * per_slip * slope))
+        }
     }
 
     /// K' beyond the first polynomial.
@@ -226,6 +273,7 @@ impl StiffnessTable {
 
 /// Powers of z of the first terms of a Chebyshev series, without those at its end that are rounding errors: their derivatives would
 /// be n² times as large.
+#[inline(always)]
 fn powers<const N: usize, const R: usize>(series: &[f64; N]) -> Rows<R> {
     let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
@@ -238,14 +286,16 @@ fn powers<const N: usize, const R: usize>(series: &[f64; N]) -> Rows<R> {
     result
 }
 
-/// Adds a constant series times a factor.
-fn add<const N: usize>(series: &mut [f64; N], factor: f64, term: &[f64; N]) {
+/// Adds the first terms of a constant series times a factor.
+#[inline(always)]
+fn add<const M: usize, const N: usize>(series: &mut [f64; M], factor: f64, term: &[f64; N]) {
     series.iter_mut().zip(term).for_each(|(sum, term)| *sum += factor * term);
 }
 
 /// Adds an operator applied to inputs, times a factor.
-fn apply<const M: usize, const N: usize>(
-    series: &mut [f64; N],
+#[inline(always)]
+fn apply<const K: usize, const M: usize, const N: usize>(
+    series: &mut [f64; K],
     factor: f64,
     operator: &[[f64; N]; M],
     inputs: &[f64; M],
@@ -253,6 +303,7 @@ fn apply<const M: usize, const N: usize>(
     operator.iter().zip(inputs).for_each(|(column, input)| add(series, factor * input, column));
 }
 
+#[inline(always)]
 fn dot<const N: usize>(weights: &[f64; N], values: &[f64; N]) -> f64 {
     let mut sums = [0.0; 4];
     for (weights, values) in weights.as_chunks::<4>().0.iter().zip(values.as_chunks::<4>().0) {
@@ -287,6 +338,7 @@ fn shape_of(contact: &Contact) -> [f64; 2] {
 
 impl Curve {
     /// `None` without friction, and for Λ near 0, where polynomials would not converge.
+    #[inline(never)]
     fn of(contact: &Contact) -> Option<Curve> {
         if contact.is_frictionless() {
             return None;
@@ -338,6 +390,7 @@ impl<const N: usize> Input<N> {
         input
     }
 
+    #[inline(always)]
     fn moments(&self, functionals: &Functionals<N>) -> Moments {
         let Input { scale, root, phi, decrease } = self;
         let (mut per_scale, mut power) = (*root, 1.0);
@@ -375,6 +428,7 @@ const DIFFERENCES: [f64; TAYLOR] = {
 };
 
 impl StiffnessTable {
+    #[inline(always)]
     fn fill(&mut self, contact: &Contact, curve: &Curve) {
         let Curve { secant, first, others } = curve;
         let n = from_fn::<f64, TERMS, _>(|n| n as f64);
@@ -418,12 +472,13 @@ impl StiffnessTable {
         self.far = rows(&Interpolant::of(far.map(|term| 8.0 / PI * term)).powers_from_end());
 
         let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
-        let [mut below, mut above, energy] = own_terms(first, second, &TO_FIRST, closer_than(0), decrease);
+        let ([mut below, mut above], energy) =
+            own_terms::<FIRST, FIRST>(first, second, &TO_FIRST, closer_than(0), decrease);
         apply(&mut below, 1.0, &OUTER_BELOW, &tangent);
         apply(&mut above, 1.0, &OUTER_ABOVE, &tangent);
-        self.below.first = powers(&below.map(|term| 8.0 / PI * term));
-        self.above.first = powers(&above.map(|term| 8.0 / PI * term));
-        self.energy.first = powers(&energy.map(|term| 4.0 / PI * term));
+        self.below.set_first(8.0 / PI, &below);
+        self.above.set_first(8.0 / PI, &above);
+        self.energy.set_first(4.0 / PI, &energy);
 
         // Coefficients of e^k of all beyond the next piece.
         let mut distant = outer;
@@ -435,7 +490,8 @@ impl StiffnessTable {
                 _ => None,
             })
         {
-            let [mut below, mut above, energy] = own_terms(own, before, &TO_OTHERS, closer_than(j), decrease);
+            let ([mut below, mut above], energy) =
+                own_terms::<POINTS, OTHER_TERMS>(own, before, &TO_OTHERS, closer_than(j), decrease);
             match next {
                 None => {
                     apply(&mut below, first.root, &OF_FIRST.below_next, &first.phi);
@@ -465,16 +521,17 @@ impl StiffnessTable {
 
 /// Series of G below and beyond gross slip and of R/4 on a piece: what the piece itself and all closer to gross slip give, and all of
 /// R/4.
-fn own_terms<const N: usize>(
+#[inline(always)]
+fn own_terms<const N: usize, const M: usize>(
     own: &Input<N>,
     before: &Input<POINTS>,
     operators: &Operators<N>,
     closer: &[Moments],
     total_decrease: f64,
-) -> [[f64; N]; 3] {
+) -> ([[f64; M]; 2], [f64; N]) {
     let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| closer.iter().skip(from).rev().map(of).sum::<f64>();
     let per_scale = 1.0 / own.scale;
-    let [mut below, mut above, mut energy] = [[0.0; N]; 3];
+    let ([mut below, mut above], mut energy) = ([[0.0; M]; 2], [0.0; N]);
     apply(&mut below, own.root, &operators.below, &own.phi);
     add(&mut below, per_scale * sum(0, &|of| of.root), &operators.inverse);
 
@@ -494,7 +551,7 @@ fn own_terms<const N: usize>(
     if let Some(constant) = energy.first_mut() {
         *constant += zeroth - total_decrease;
     }
-    [below, above, energy]
+    ([below, above], energy)
 }
 
 #[cfg(test)]
@@ -517,8 +574,8 @@ mod tests {
             let mut worst = [[0.0f64; 4]; 5];
             for fraction in fractions {
                 let amplitude = fraction * contact.slip_displacement;
-                let [(value_real, slope_real), (value_imaginary, slope_imaginary)] =
-                    table.at::<true, true>(&contact, amplitude);
+                let [[(value_real, slope_real), (value_imaginary, slope_imaginary)]] =
+                    table.at::<true, true, 1>(&contact, &[amplitude]);
                 let exact = contact.complex_stiffness(amplitude).unwrap();
                 let (real, d_real) = exact.real_with_derivative();
                 let (imaginary, d_imaginary) = exact.imaginary_with_derivative();

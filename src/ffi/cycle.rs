@@ -124,10 +124,14 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
         // SAFETY: by the function's contract.
         let (contact, table) =
             unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
-        table.write(StiffnessTable::of(contact));
+        table.write(stiffness_table(contact));
         Ok(())
     };
     status(init())
+}
+
+fn stiffness_table(contact: &Contact) -> StiffnessTable {
+    dispatch_simd!(StiffnessTable::of, contact: &Contact => StiffnessTable)
 }
 
 /// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
@@ -180,18 +184,25 @@ fn write_tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64],
 /// Complex stiffness from a table, the requested parts only.
 #[inline(always)]
 fn tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64], mut outputs: StiffnessOutputs) {
-    let [k_real, k_imag, dk_real, dk_imag] = &mut outputs;
-    let requested = [k_real.is_some() || dk_real.is_some(), k_imag.is_some() || dk_imag.is_some()];
-    for (i, &amplitude) in amplitude.iter().enumerate() {
-        let [(real, d_real), (imaginary, d_imaginary)] = match requested {
-            [true, true] => table.at::<true, true>(contact, amplitude),
-            [true, false] => table.at::<true, false>(contact, amplitude),
-            _ => table.at::<false, true>(contact, amplitude),
-        };
-        set(k_real, i, || real);
-        set(dk_real, i, || d_real);
-        set(k_imag, i, || imaginary);
-        set(dk_imag, i, || d_imaginary);
+    let real = outputs[0].is_some() || outputs[2].is_some();
+    let imaginary = outputs[1].is_some() || outputs[3].is_some();
+    let (fours, rest) = amplitude.as_chunks::<4>();
+    for (i, four) in fours.iter().enumerate() {
+        write_values(table.parts(contact, four, real, imaginary), 4 * i, &mut outputs);
+    }
+    for (i, one) in rest.as_chunks::<1>().0.iter().enumerate() {
+        write_values(table.parts(contact, one, real, imaginary), 4 * fours.len() + i, &mut outputs);
+    }
+}
+
+#[inline(always)]
+fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outputs: &mut StiffnessOutputs) {
+    let [k_real, k_imag, dk_real, dk_imag] = outputs;
+    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
+        set(k_real, first + i, || real);
+        set(dk_real, first + i, || d_real);
+        set(k_imag, first + i, || imaginary);
+        set(dk_imag, first + i, || d_imaginary);
     }
 }
 
