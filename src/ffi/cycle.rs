@@ -178,7 +178,7 @@ fn write_tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64],
     dispatch_simd!(
         tabulated,
         contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs => ()
-    )
+    );
 }
 
 /// Complex stiffness from a table, the requested parts only.
