@@ -43,8 +43,8 @@ use operators::{
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
 const PIECES: usize = 7;
-/// Terms of G on all pieces but the first.
-const OTHER_TERMS: usize = 16;
+/// Terms of G beyond gross slip on all pieces but the first.
+const FEWER_TERMS: usize = 16;
 /// Largest amplitude of the pieces beyond gross slip.
 const FAR_FROM: f64 = 1.0 + TOP;
 
@@ -68,10 +68,10 @@ pub(crate) struct StiffnessTable {
     /// K' ξ^(3/2) over 1.6/ξ.
     far: Polynomial,
     /// (8/π) G over z = 4 2ʲ u - 3.
-    below: Pieces<{ OTHER_TERMS / 4 }>,
-    above: Pieces<{ OTHER_TERMS / 4 }>,
+    below: Pieces<{ POINTS / 4 }>,
+    above: Pieces<{ FEWER_TERMS / 4 }>,
     /// R/π.
-    energy: Pieces<5>,
+    energy: Pieces<{ POINTS / 4 }>,
 }
 
 /// Length of a table in doubles.
@@ -472,7 +472,7 @@ impl StiffnessTable {
         self.far = rows(&Interpolant::of(far.map(|term| 8.0 / PI * term)).powers_from_end());
 
         let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
-        let ([mut below, mut above], energy) =
+        let (mut below, mut above, energy) =
             own_terms::<FIRST, FIRST>(first, second, &TO_FIRST, closer_than(0), decrease);
         apply(&mut below, 1.0, &OUTER_BELOW, &tangent);
         apply(&mut above, 1.0, &OUTER_ABOVE, &tangent);
@@ -490,8 +490,8 @@ impl StiffnessTable {
                 _ => None,
             })
         {
-            let ([mut below, mut above], energy) =
-                own_terms::<POINTS, OTHER_TERMS>(own, before, &TO_OTHERS, closer_than(j), decrease);
+            let (mut below, mut above, energy) =
+                own_terms::<POINTS, FEWER_TERMS>(own, before, &TO_OTHERS, closer_than(j), decrease);
             match next {
                 None => {
                     apply(&mut below, first.root, &OF_FIRST.below_next, &first.phi);
@@ -528,10 +528,10 @@ fn own_terms<const N: usize, const M: usize>(
     operators: &Operators<N>,
     closer: &[Moments],
     total_decrease: f64,
-) -> ([[f64; M]; 2], [f64; N]) {
+) -> ([f64; N], [f64; M], [f64; N]) {
     let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| closer.iter().skip(from).rev().map(of).sum::<f64>();
     let per_scale = 1.0 / own.scale;
-    let ([mut below, mut above], mut energy) = ([[0.0; M]; 2], [0.0; N]);
+    let (mut below, mut above, mut energy) = ([0.0; N], [0.0; M], [0.0; N]);
     apply(&mut below, own.root, &operators.below, &own.phi);
     add(&mut below, per_scale * sum(0, &|of| of.root), &operators.inverse);
 
@@ -551,7 +551,7 @@ fn own_terms<const N: usize, const M: usize>(
     if let Some(constant) = energy.first_mut() {
         *constant += zeroth - total_decrease;
     }
-    ([below, above], energy)
+    (below, above, energy)
 }
 
 #[cfg(test)]
