@@ -607,8 +607,8 @@ mod tests {
             check(&table.above);
             check(&table.energy);
             // G is continuous at gross slip.
-            let [below, above] =
-                [&table.below, &table.above].map(|side| side.value_and_slope(&Place { piece: PIECES - 1, z: -1.0 }).0);
+            let last = Place { piece: PIECES - 1, z: -1.0 };
+            let (below, above) = (table.below.value_and_slope(&last).0, table.above.value_and_slope(&last).0);
             assert!((below - table.slope_at_slip).abs() < 1e-8 && (above - table.slope_at_slip).abs() < 1e-8);
         }
     }
