@@ -442,9 +442,9 @@ impl StiffnessTable {
         // Those of the first piece, of the others, and of what remains, where the stiffness is constant.
         let mut moments = [first.moments(&OF_FIRST); PIECES + 2];
         moments.iter_mut().skip(1).zip(others).for_each(|(moments, other)| *moments = other.moments(&OF_OTHERS));
-        if let ([.., rest], [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }]) =
-            (&mut moments, others)
         {
+            let [.., rest] = &mut moments;
+            let [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }] = others;
             let size = scale * (1.0 / 256.0);
             *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; 2]; _] };
             rest.roots[0] = 2.0 * size.sqrt() * phi;
