@@ -45,8 +45,11 @@ use operators::{
 const PIECES: usize = 7;
 /// Terms of G beyond gross slip on all pieces but the first.
 const FEWER_TERMS: usize = 16;
-/// Largest amplitude of the pieces beyond gross slip.
-const FAR_FROM: f64 = 1.0 + TOP;
+/// Smallest ξ of the last polynomial.
+const FAR: f64 = 1.0 + TOP;
+/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
+/// derivative is least accurate.
+const OVERLAP: f64 = 0.02;
 
 /// The polynomials of one shape.
 #[repr(C)]
@@ -218,7 +221,7 @@ impl StiffnessTable {
     /// At ξ = 1 - e, in units of the initial stiffness.
     #[inline(always)]
     fn at_fraction<const REAL: bool, const IMAGINARY: bool>(&self, xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
-        if xi <= 1.0 - TOP {
+        if xi <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
                 if !requested {
@@ -239,10 +242,10 @@ impl StiffnessTable {
     /// K' beyond the first polynomial.
     #[inline(always)]
     fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: Option<&Place>) -> ValueAndSlope {
-        if xi > FAR_FROM {
-            let (value, slope) = value_and_slope(&self.far, FAR_FROM * per_xi);
+        if xi > FAR {
+            let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
-            return (factor * value, -factor * per_xi * (1.5 * value + FAR_FROM * per_xi * slope));
+            return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
         }
         let (value, rate) = match place {
             Some(place) => {
