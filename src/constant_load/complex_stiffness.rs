@@ -71,6 +71,12 @@ pub(crate) fn gross_slip_quadrature(zones: &dyn StickZones) -> GrossSlipQuadratu
 const GROSS_SLIP_RULE_FROM: f64 = 1.05;
 
 impl Contact {
+    /// Tangent stiffness at the onset of gross slip over the initial one.
+    pub(crate) fn stiffness_at_slip(&self) -> f64 {
+        let zone = self.stick_zones().at_shift_remaining(0.0);
+        self.stick_zones().small_load().compliance / self.stick_zones().compliance(&zone)
+    }
+
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors

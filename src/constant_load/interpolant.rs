@@ -12,7 +12,7 @@
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
 //! scale with the curvature of the curve and not with the stiffness.
 
-use crate::numerics::chebyshev::{Interpolant, Points, Polynomial, TERMS, Tangent};
+use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent};
 use crate::numerics::polynomial::{rows, value_and_slope};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::StickZones;
@@ -25,7 +25,7 @@ pub(crate) const INNER_FRACTION: f64 = 0.4;
 const PIECES: usize = 5;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
-static CYCLE_WEIGHTS: Polynomial = {
+pub(crate) static CYCLE_WEIGHTS: Polynomial = {
     let mut weights = [1.0; TERMS];
     let mut integral = 1.0;
     let mut n = 1;
@@ -58,15 +58,16 @@ impl ForceInterpolant {
         let (slip_shift, compliance, mut at_remaining) =
             (zones.slip_shift(), zones.small_load().compliance, zones.sequence());
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
-        let decrease = Interpolant::<TERMS>::through(&Points::<{ TERMS / 2 }>::Z.map(|z| {
+        let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
             let CurvePoint { compliance_increase: increase, curvature, .. } =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
-            Tangent {
-                value: increase * stiffness,
-                slope: -0.5 * first * compliance * curvature * stiffness * stiffness * stiffness,
-            }
-        }));
+            let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
+            Tangent { value: increase * stiffness, slope }
+        });
+        // From x = 0 on; the points are symmetric.
+        tangents.reverse();
+        let decrease = Interpolant::<TERMS>::osculating(&tangents);
         let mut converged = decrease.is_converged(1e-15);
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
@@ -138,7 +139,7 @@ fn interpolate<const N: usize, const M: usize>(
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
-    let tangents = Points::<M>::Z.map(|z| {
+    let tangents = Interpolant::<M>::POINTS.map(|z| {
         let CurvePoint { remaining, compliance_increase: increase, curvature } = at(z);
         sum += remaining;
         let first = *first.get_or_insert(increase);
@@ -147,7 +148,7 @@ fn interpolate<const N: usize, const M: usize>(
         let slope = (compliance + first) * curvature * stiffness * stiffness * stiffness;
         Tangent { value: r * ratio, slope: ratio - r * r * unit * slope }
     });
-    let decrease = Interpolant::<N>::through(&tangents);
+    let decrease = Interpolant::<N>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
     let mut integral =
         decrease.integral().powers_from_middle().map(|row| row.map(|coefficient| -stiffness * coefficient));

@@ -1,22 +1,22 @@
-//! Interpolation of values and slopes at Chebyshev points. For a smooth function the trailing coefficients estimate the error.
+//! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
 
 use super::const_math::cosine;
 use crate::numerics::polynomial::{Rows, rows};
 
-/// Largest number of coefficients of a polynomial.
+/// Number of coefficients of a polynomial, and largest number of interpolation points.
 pub(crate) const TERMS: usize = 20;
 
 /// A polynomial in rows of four coefficients.
 pub(crate) type Polynomial = Rows<{ TERMS / 4 }>;
 
 /// Coefficients of the powers of z in T_n(shift + scale z), at `[n][power]`: integers below 2⁵³.
-const fn powers_in(shift: f64, scale: f64) -> [[f64; TERMS]; TERMS] {
-    let mut table = [[0.0; TERMS]; TERMS];
+const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
+    let mut table = [[0.0; N]; N];
     table[0][0] = 1.0;
     table[1][0] = shift;
     table[1][1] = scale;
     let mut n = 2;
-    while n < TERMS {
+    while n < N {
         let mut k = 0;
         while k <= n {
             let below = if k > 0 { table[n - 1][k - 1] } else { 0.0 };
@@ -30,8 +30,27 @@ const fn powers_in(shift: f64, scale: f64) -> [[f64; TERMS]; TERMS] {
 
 /// Expansion about the middle of (-1, 1), in powers of z.
 static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
-/// Expansion about the upper end, in powers of y = (1-z)/2 from 0 to 1.
-static FROM_END: [[f64; TERMS]; TERMS] = powers_in(1.0, -2.0);
+/// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
+static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
+
+/// Expansion of 32 terms about the middle.
+static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
+
+/// Powers of z in T_n, at `[n][power]`.
+pub(crate) fn middle_powers() -> &'static [[f64; 32]; 32] {
+    &MORE_AROUND_MIDDLE
+}
+
+/// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
+static PER_TWICE: [f64; TERMS] = {
+    let mut table = [0.5; TERMS];
+    let mut n = 1;
+    while n < TERMS {
+        table[n] = 0.5 / (n as f64 + 1.0);
+        n += 1;
+    }
+    table
+};
 
 /// Value and slope of a function at a point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,67 +59,76 @@ pub(crate) struct Tangent {
     pub slope: f64,
 }
 
-/// The M Chebyshev points `z = cos θ` on (-1, 1), in descending order.
-pub(crate) struct Points<const M: usize>;
-
-impl<const M: usize> Points<M> {
-    pub const Z: [f64; M] = {
-        let mut table = [0.0; M];
-        let mut j = 0;
-        while j < M {
-            table[j] = cosine(2 * j + 1, M);
-            j += 1;
-        }
-        table
-    };
-
-    /// cos mθ at `[j][m]`.
-    const COSINES: [[f64; M]; M] = {
-        let mut table = [[0.0; M]; M];
-        let mut j = 0;
-        while j < M {
-            let mut m = 0;
-            while m < M {
-                table[j][m] = cosine(m * (2 * j + 1), M);
-                m += 1;
-            }
-            j += 1;
-        }
-        table
-    };
-
-    /// sin θ sin (M-m)θ at `[j][m]`.
-    const SINES: [[f64; M]; M] = {
-        let mut table = [[0.0; M]; M];
-        let mut j = 0;
-        while j < M {
-            let mut m = 0;
-            while m < M {
-                // sin θ = cos(π/2 - θ), in quarters of a period of M.
-                let (first, all) = (2 * j + 1, (M - m) * (2 * j + 1));
-                table[j][m] = cosine(5 * M - first, M) * cosine(5 * M + 4 * M * M - all, M);
-                m += 1;
-            }
-            j += 1;
-        }
-        table
-    };
-}
-
 /// A Chebyshev series: the coefficients of T_0, T_1, ...
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Interpolant<const N: usize>([f64; N]);
 
 impl<const N: usize> Interpolant<N> {
+    /// Interpolation points on (-1, 1), in descending order.
+    pub const POINTS: [f64; N] = {
+        let mut table = [0.0; N];
+        let mut j = 0;
+        while j < N {
+            table[j] = cosine(2 * j + 1, N);
+            j += 1;
+        }
+        table
+    };
+
+    /// T_n at point j, at `[j][n]`.
+    pub const AT_POINTS: [[f64; N]; N] = {
+        let mut table = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            let mut n = 0;
+            while n < N {
+                table[j][n] = cosine(n * (2 * j + 1), N);
+                n += 1;
+            }
+            j += 1;
+        }
+        table
+    };
+
+    /// sin θ sin (N-m)θ at `[j][m]`, with point j at cos θ.
+    const SINES: [[f64; N]; N] = {
+        let mut table = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            let mut m = 0;
+            while m < N {
+                // sin θ = cos(θ - π/2), in N parts of a quarter of a period.
+                let (first, all) = (2 * j + 1, (N - m) * (2 * j + 1));
+                table[j][m] = cosine(first + 3 * N, N) * cosine(all + 3 * N, N);
+                m += 1;
+            }
+            j += 1;
+        }
+        table
+    };
+
+    /// The interpolant of a function.
+    pub fn through(value: impl FnMut(f64) -> f64) -> Interpolant<N> {
+        let mut coefficients = [0.0; N];
+        for (value, at_point) in Self::POINTS.map(value).iter().zip(const { &Self::AT_POINTS }) {
+            coefficients.iter_mut().zip(at_point).for_each(|(sum, t)| *sum += value * t);
+        }
+        coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
+        if let Some(first) = coefficients.first_mut() {
+            *first *= 0.5;
+        }
+        Interpolant(coefficients)
+    }
+
     /// The interpolant of values and slopes at N/2 Chebyshev points.
     ///
     /// At the M points T_M+k = -T_M-k, and sin θ dT_n/dz = n sin nθ has the same value for both. So the transforms
     /// `a_m = 2/M Σ f cos mθ` and `b_m = 2/M Σ f' sin θ sin mθ` equal `c_m - c_2M-m` and `m c_m + (2M-m) c_2M-m`.
-    pub fn through<const M: usize>(tangents: &[Tangent; M]) -> Interpolant<N> {
+    pub fn osculating<const M: usize>(tangents: &[Tangent; M]) -> Interpolant<N> {
         const { assert!(N == 2 * M) };
         let mut coefficients = [0.0; N];
         let (values, slopes) = coefficients.split_at_mut(M);
-        let tables = const { &Points::<M>::COSINES }.iter().zip(const { &Points::<M>::SINES });
+        let tables = const { &Interpolant::<M>::AT_POINTS }.iter().zip(const { &Interpolant::<M>::SINES });
         for (tangent, (cosines, sines)) in tangents.iter().zip(tables) {
             values.iter_mut().zip(cosines).for_each(|(sum, cosine)| *sum += tangent.value * cosine);
             slopes.iter_mut().zip(sines).for_each(|(sum, sine)| *sum += tangent.slope * sine);
@@ -117,6 +145,11 @@ impl<const N: usize> Interpolant<N> {
         Interpolant(coefficients)
     }
 
+    /// Of given coefficients.
+    pub fn of(coefficients: [f64; N]) -> Interpolant<N> {
+        Interpolant(coefficients)
+    }
+
     /// Whether the last two coefficients are within the tolerance.
     pub fn is_converged(&self, tolerance: f64) -> bool {
         let &[.., last_but_one, last] = self.0.as_slice() else { return false };
@@ -128,28 +161,6 @@ impl<const N: usize> Interpolant<N> {
         self.0.first().copied().unwrap_or(0.0)
     }
 
-    /// The integral over z whose mean over the points is zero. The twentieth coefficient is dropped: its integral would exceed the
-    /// degree.
-    pub fn integral(&self) -> Interpolant<TERMS> {
-        let mut padded = [0.0; TERMS + 1];
-        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
-        if let Some(first) = padded.first_mut() {
-            *first *= 2.0;
-        }
-        let mut integral = [0.0; TERMS];
-        for (((target, below), above), n) in
-            integral.iter_mut().skip(1).zip(&padded).zip(padded.iter().skip(2)).zip(1..)
-        {
-            *target = (below - above) / f64::from(2 * n);
-        }
-        // T_N is -1 at all points.
-        let mean = integral.get(N).copied();
-        if let Some((first, mean)) = integral.first_mut().zip(mean) {
-            *first = mean;
-        }
-        Interpolant(integral)
-    }
-
     /// Conversion to powers of the variable of `table`.
     fn powers(&self, table: &[[f64; TERMS]; TERMS]) -> [f64; TERMS] {
         let mut powers = [0.0; TERMS];
@@ -159,17 +170,38 @@ impl<const N: usize> Interpolant<N> {
         powers
     }
 
+    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is dropped: its integral would exceed the
+    /// degree.
+    pub fn integral(&self) -> Interpolant<TERMS> {
+        let mut padded = [0.0; TERMS + 1];
+        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
+        if let Some(first) = padded.first_mut() {
+            *first *= 2.0;
+        }
+        let mut integral = [0.0; TERMS];
+        let differences = padded.iter().zip(padded.iter().skip(2)).zip(&PER_TWICE);
+        for (target, ((below, above), factor)) in integral.iter_mut().skip(1).zip(differences) {
+            *target = factor * (below - above);
+        }
+        // T_N is -1 at all those points.
+        let mean = integral.get(N).copied();
+        if let Some((first, mean)) = integral.first_mut().zip(mean) {
+            *first = mean;
+        }
+        Interpolant(integral)
+    }
+
     /// Coefficients of the powers of z.
     pub fn powers_from_middle(&self) -> Polynomial {
         rows(&self.powers(&AROUND_MIDDLE))
     }
 
-    /// Coefficients of the powers of y = (1-z)/2.
+    /// Coefficients of the powers of y = (1+z)/2.
     pub fn powers_from_end(&self) -> [f64; TERMS] {
         self.powers(&FROM_END)
     }
 
-    /// Mean over (0, y), as a polynomial in y = (1-z)/2.
+    /// Mean over (0, y), as a polynomial in y = (1+z)/2.
     pub fn mean_from_end(&self) -> Polynomial {
         let mut powers = self.powers_from_end();
         for (power, n) in powers.iter_mut().zip(1..) {
@@ -183,38 +215,40 @@ impl<const N: usize> Interpolant<N> {
 mod tests {
     use super::*;
     use crate::numerics::polynomial::{sum, value_and_slope};
-    use core::f64::consts::PI;
 
-    fn check_tables<const M: usize>() {
-        let tables = Points::<M>::COSINES.into_iter().zip(Points::<M>::SINES);
-        for ((j, (cosines, sines)), z) in tables.enumerate().zip(Points::<M>::Z) {
-            let theta = PI * (2 * j + 1) as f64 / (2 * M) as f64;
-            for m in 0..M {
-                // The arguments are rounded by up to 30 units of rounding.
-                assert!((cosines[m] - (m as f64 * theta).cos()).abs() < 1e-14);
-                assert!((sines[m] - theta.sin() * ((M - m) as f64 * theta).sin()).abs() < 1e-14);
+    fn check_values<const N: usize>() {
+        for (j, row) in Interpolant::<N>::AT_POINTS.iter().enumerate() {
+            for (n, value) in row.iter().enumerate() {
+                let exact = (core::f64::consts::PI * (n * (2 * j + 1)) as f64 / (2 * N) as f64).cos();
+                // The argument of `exact` is rounded by up to 60 units of rounding.
+                assert!((value - exact).abs() < 2e-14);
             }
-            assert_eq!(cosines[1], z);
+            let theta = core::f64::consts::PI * (2 * j + 1) as f64 / (2 * N) as f64;
+            for (m, value) in Interpolant::<N>::SINES[j].iter().enumerate() {
+                assert!((value - theta.sin() * ((N - m) as f64 * theta).sin()).abs() < 2e-14);
+            }
             // T_2 = 2 T_1² - 1, up to the rounding of both sides.
-            assert!((cosines[2] - (2.0 * z * z - 1.0)).abs() < 4e-16);
+            assert!((row[2] - (2.0 * row[1] * row[1] - 1.0)).abs() < 4e-16);
         }
     }
 
     #[test]
-    fn tables_are_cosines_and_sines() {
-        check_tables::<8>();
-        check_tables::<10>();
+    fn values_at_the_points_are_cosines() {
+        check_values::<8>();
+        check_values::<10>();
+        check_values::<16>();
+        check_values::<20>();
     }
 
-    fn through<const N: usize, const M: usize>(tangent: impl FnMut(f64) -> (f64, f64)) -> Interpolant<N> {
-        Interpolant::through(&Points::<M>::Z.map(tangent).map(|(value, slope)| Tangent { value, slope }))
+    fn osculating<const N: usize, const M: usize>(tangent: impl FnMut(f64) -> (f64, f64)) -> Interpolant<N> {
+        Interpolant::osculating(&Interpolant::<M>::POINTS.map(tangent).map(|(value, slope)| Tangent { value, slope }))
     }
 
     #[test]
     fn chebyshev_polynomials_are_reproduced() {
         for n in 0..20 {
             // T_n and its derivative at cos θ; the arguments are rounded, multiplied by up to n².
-            let found = through::<20, 10>(|z| {
+            let found = osculating::<20, 10>(|z| {
                 let (theta, n) = (z.acos(), f64::from(n));
                 ((n * theta).cos(), n * (n * theta).sin() / theta.sin())
             });
@@ -226,28 +260,29 @@ mod tests {
 
     #[test]
     fn the_exponential_is_interpolated_integrated_and_averaged() {
-        let interpolant = through::<20, 10>(|z| (z.exp(), z.exp()));
+        let interpolant = osculating::<20, 10>(|z| (z.exp(), z.exp()));
         assert!(interpolant.is_converged(1e-15));
         for z in [-1.0, -0.3, 0.0, 0.77, 1.0_f64] {
             let integral = interpolant.integral().powers_from_middle();
             let (value, slope) = value_and_slope(&integral, z);
-            let mean = Points::<10>::Z.iter().map(|z| value_and_slope(&integral, *z).0).sum::<f64>() / 10.0;
+            let mean = Interpolant::<10>::POINTS.iter().map(|z| value_and_slope(&integral, *z).0).sum::<f64>() / 10.0;
             assert!(mean.abs() < 1e-15);
             // A few units of rounding of e; the derivative multiplies twenty terms by up to nineteen.
             assert!((value - (z.exp() - interpolant.mean())).abs() < 2e-15, "{z}");
             assert!((slope - z.exp()).abs() < 8e-15, "{z} {slope}");
-            let y: f64 = 0.5 * (1.0 - z);
+            let y: f64 = 0.5 * (1.0 + z);
             let mean = sum(interpolant.mean_from_end().iter().copied(), y);
-            let exact = if y > 0.0 { 0.5 * (1f64.exp() - z.exp()) / y } else { 1f64.exp() };
+            let exact = if y > 0.0 { 0.5 * (z.exp() - (-1f64).exp()) / y } else { (-1f64).exp() };
             assert!((mean / exact - 1.0).abs() < 2e-15, "{z}");
         }
-        assert!(!through::<20, 10>(|z| (z.abs(), z.signum())).is_converged(1e-15));
+        assert!(!osculating::<20, 10>(|z| (z.abs(), z.signum())).is_converged(1e-15));
+        assert!(Interpolant::<20>::through(f64::exp).is_converged(1e-15));
     }
 
     #[test]
     fn powers_in_sums_to_chebyshev_polynomials() {
         for (shift, scale) in [(0.0, 1.0), (-1.0, 2.0)] {
-            for (n, row) in powers_in(shift, scale).iter().enumerate() {
+            for (n, row) in powers_in::<TERMS>(shift, scale).iter().enumerate() {
                 for z in [-1.0, -0.4, 0.3, 0.9_f64] {
                     let x = (z - shift) / scale;
                     let value = row.iter().rev().fold(0.0, |sum, power| sum * x + power);

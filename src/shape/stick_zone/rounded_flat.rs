@@ -12,7 +12,7 @@
 //! These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation and are replaced by the expansion of `small_load`. The size parameter is
 //! `σ = w_c/w_b`.
 
-use crate::numerics::chebyshev::{Interpolant, Points, Tangent};
+use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
 use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
@@ -283,7 +283,7 @@ fn curvature(punch: &RoundedPunch, load: f64) -> f64 {
 /// h'' as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
 fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
     let mut last: Option<InversePower> = None;
-    let tangents = Points::<{ RETAINED_TERMS / 2 }>::Z.map(|z| {
+    let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
         let remaining = (0.75 + 0.25 * z) * load;
         let w = last.as_ref().map_or(contact.w, |last| last.w(remaining));
         let (punch, inverse) = RoundedPunch::refine_from(RoundedPunch::new(contact.flat, w), remaining);
@@ -292,9 +292,11 @@ fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] 
         let value = curvature(&punch, load);
         // Logarithmic derivative with respect to w, and the derivative of τ.
         let (decrease, dload) = ((2.0 * w + flat / psi) / (half_width * half_width), 4.0 * w * psi / load);
-        Tangent { value, slope: -0.25 * value * decrease / dload }
+        Tangent { value, slope: 0.25 * value * decrease / dload }
     });
-    let interpolant = Interpolant::<RETAINED_TERMS>::through(&tangents);
+    // From τ = 0 on; the points are symmetric.
+    tangents.reverse();
+    let interpolant = Interpolant::<RETAINED_TERMS>::osculating(&tangents);
     let mut scale = 1.0;
     interpolant.powers_from_end().map(|power| {
         let coefficient = scale * power;
