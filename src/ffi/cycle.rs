@@ -3,7 +3,7 @@
 use super::mslip_contact;
 use super::pointers::{self, input, output, outputs, set, status};
 use super::simd_dispatch::dispatch_simd;
-use crate::constant_load::complex_stiffness::{ComplexStiffness, check_amplitude};
+use crate::constant_load::complex_stiffness::{ComplexStiffness, NODES_OF_TABLE, check_amplitude};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
@@ -178,7 +178,7 @@ fn write_tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64],
     dispatch_simd!(
         tabulated,
         contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs => ()
-    )
+    );
 }
 
 /// Complex stiffness from a table, the requested parts only.
@@ -206,7 +206,20 @@ fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outp
     }
 }
 
+/// Without a table of the caller, with one on the stack if that is cheaper.
 fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) -> Result<(), Error> {
+    let real = outputs[0].is_some() || outputs[2].is_some();
+    let mut nodes = 0;
+    for &one in amplitude {
+        nodes += contact.complex_stiffness(one)?.nodes();
+        if real && nodes > NODES_OF_TABLE {
+            let table = stiffness_table(contact);
+            if table.has_polynomials() {
+                write_tabulated(contact, &table, amplitude, outputs);
+                return Ok(());
+            }
+        }
+    }
     for (i, &amplitude) in amplitude.iter().enumerate() {
         write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
     }
