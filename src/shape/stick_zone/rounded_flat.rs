@@ -109,12 +109,14 @@ impl RoundedFlatZones {
             iterations_left -= 1;
             if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
                 let gap = remaining - now.shift.remaining;
-                let (rate, rate_change) = (-w / c2, (w - punch.flat) / c2 * ((w + punch.flat) / c2));
-                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * step * rate / compliance);
+                // Relative change of c², and -½ ln(1 + change).
+                let change = step * (2.0 * w + step) / c2;
+                let increase = -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0)));
+                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * increase / compliance);
                 let zone = StickZone {
                     load: Complement { consumed: 1.0 - load, remaining: load },
                     shift: Complement { consumed: self.slip_shift - remaining, remaining },
-                    compliance_increase: now.compliance_increase + step * (rate + 0.5 * step * rate_change),
+                    compliance_increase: now.compliance_increase + increase,
                     size_parameter: Some((w + step) / self.w),
                 };
                 return (zone, punch.moved(step), inverse);
