@@ -31,7 +31,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
-use crate::shape::stick_zone::Complement;
+use crate::shape::stick_zone::{Complement, StickZones};
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -347,14 +347,19 @@ impl Curve {
             return None;
         }
         let [compliance, slip_shift] = shape_of(contact);
-        let mut zones = contact.rounded_flat_zones().sequence();
+        let zones = contact.rounded_flat_zones();
+        let (series, mut sequence) = (StickZones::small_load(zones), zones.sequence());
         // 1 - k where x and ρ are given.
         let mut decrease_at = |consumed: f64, remaining: f64| {
             if contact.is_elliptic() {
                 return consumed / (1.0 + remaining.sqrt());
             }
             let shift = Complement { consumed: slip_shift * consumed, remaining: slip_shift * remaining };
-            let increase = zones(shift).compliance_increase;
+            let increase = if shift.consumed <= series.half_shift {
+                series.at_shift(shift).compliance_increase
+            } else {
+                sequence(shift.remaining).compliance_increase
+            };
             increase / (compliance + increase)
         };
         let decrease = Interpolant::<TERMS>::through(|z| {
