@@ -43,8 +43,9 @@ use operators::{
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
 const PIECES: usize = 7;
-/// Terms of G beyond gross slip on all pieces but the first.
-const FEWER_TERMS: usize = 16;
+/// Rows of G below and beyond gross slip on all pieces but the first, on which it is nearly constant.
+const ROWS_BELOW: usize = 5;
+const ROWS_ABOVE: usize = 4;
 /// Smallest ξ of the last polynomial.
 const FAR: f64 = 1.0 + TOP;
 /// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
@@ -71,8 +72,8 @@ pub(crate) struct StiffnessTable {
     /// K' ξ^(3/2) over 1.6/ξ.
     far: Polynomial,
     /// (8/π) G over z = 4 2ʲ u - 3.
-    below: Pieces<{ POINTS / 4 }>,
-    above: Pieces<{ FEWER_TERMS / 4 }>,
+    below: Pieces<ROWS_BELOW>,
+    above: Pieces<ROWS_ABOVE>,
     /// R/π.
     energy: Pieces<{ POINTS / 4 }>,
 }
@@ -499,7 +500,7 @@ impl StiffnessTable {
             })
         {
             let (mut below, mut above, energy) =
-                own_terms::<POINTS, FEWER_TERMS>(own, before, &TO_OTHERS, closer_than(j), decrease);
+                own_terms::<POINTS, { 4 * ROWS_ABOVE }>(own, before, &TO_OTHERS, closer_than(j), decrease);
             match next {
                 None => {
                     apply(&mut below, first.root, &OF_FIRST.below_next, &first.phi);
