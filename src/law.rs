@@ -37,6 +37,9 @@ pub(crate) struct BranchRange {
 /// Evaluates the response at displacements on one branch without gross slip.
 pub(crate) trait Evaluator: Copy {
     fn at(&self, displacement: f64) -> Response;
+
+    /// Forces, and stiffnesses if requested, at four displacements, with the same bits.
+    fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]);
 }
 
 /// A contact law in the steady state of a periodic displacement.

@@ -5,7 +5,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
-use crate::constant_load::interpolant::ForceInterpolant;
+use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
 use crate::law::Response;
 use crate::shape::stick_zone::Complement;
 
@@ -116,6 +116,76 @@ impl CurveEvaluator<'_> {
         self.contact.solved_response(displacement)
     }
 
+    /// Forces, and stiffnesses if requested, at four displacements up to that of gross slip, with the same bits as at one.
+    #[inline(always)]
+    pub fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        if self.elliptic || !self.interpolant.is_converged() {
+            return self.one_by_one(displacement);
+        }
+        let mut y = [0.0; 4];
+        for k in 0..4 {
+            y[k] = displacement[k] * self.inner_scale;
+        }
+        if y[0] <= 1.0 && y[1] <= 1.0 && y[2] <= 1.0 && y[3] <= 1.0 {
+            return self.four_inner::<STIFFNESS>(displacement, &y);
+        }
+        let mut v = [0.0; 4];
+        for k in 0..4 {
+            v[k] = root_of((self.slip_displacement - displacement[k]) * self.outer_scale);
+        }
+        let interval = |k: usize| if y[k] <= 1.0 { None } else { Some(Interval::of(v[k])) };
+        let intervals = [interval(0), interval(1), interval(2), interval(3)];
+        let [first, .., last] = intervals;
+        // Along a branch at most two neighbouring intervals occur, unless they are short.
+        let covered = intervals.iter().all(|interval| interval.is_none_or(Interval::is_covered));
+        if !covered || intervals.iter().any(|interval| *interval != first && *interval != last) {
+            return self.one_by_one(displacement);
+        }
+        let within = |interval| match interval {
+            None => self.four_inner::<STIFFNESS>(displacement, &y),
+            Some(interval) => self.four_outer::<STIFFNESS>(interval, &v),
+        };
+        let (mut forces, mut stiffnesses) = within(first);
+        if first != last {
+            let (last_forces, last_stiffnesses) = within(last);
+            for k in 0..4 {
+                if intervals[k] != first {
+                    (forces[k], stiffnesses[k]) = (last_forces[k], last_stiffnesses[k]);
+                }
+            }
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(always)]
+    fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4], y: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut forces, mut stiffnesses) = self.interpolant.four_secants_and_tangents::<STIFFNESS>(y);
+        for k in 0..4 {
+            forces[k] *= self.initial_stiffness * displacement[k];
+            stiffnesses[k] *= self.initial_stiffness;
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(always)]
+    fn four_outer<const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut forces, mut stiffnesses) = self.interpolant.four_complements_and_slopes::<STIFFNESS>(interval, v);
+        for k in 0..4 {
+            forces[k] = self.slip_force - self.slip_force * forces[k];
+            stiffnesses[k] *= self.outer_stiffness;
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(never)]
+    fn one_by_one(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
+        for ((force, stiffness), displacement) in forces.iter_mut().zip(&mut stiffnesses).zip(displacement) {
+            Response { force: *force, stiffness: *stiffness } = self.at(*displacement);
+        }
+        (forces, stiffnesses)
+    }
+
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` for an ellipse, and
     /// if there is no interpolant at this displacement.
     #[inline(always)]
@@ -144,5 +214,30 @@ impl CurveEvaluator<'_> {
         let load = consumed * (1.0 + size * (1.0 + size));
         let force = self.slip_force * if load > 1.0 { 1.0 } else { load };
         Response { force, stiffness: self.initial_stiffness * size }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+
+    #[test]
+    fn four_displacements_have_the_bits_of_one() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let evaluator = contact.evaluator();
+            let fractions = (0..400).map(|k| f64::from(k) / 400.0).chain([0.4, 0.85, 0.85, 0.9, 0.999, 0.9999, 1.0, 0.3]);
+            let displacements = fractions.map(|x| x * contact.slip_displacement).collect::<std::vec::Vec<_>>();
+            // Neighbours, and any order.
+            for stride in [1, 7, 150] {
+                for first in 0..displacements.len() {
+                    let four = core::array::from_fn(|k| displacements[(first + k * stride) % displacements.len()]);
+                    let (forces, stiffnesses) = evaluator.four::<true>(&four);
+                    let one_by_one = four.map(|displacement| evaluator.at(displacement));
+                    assert_eq!(forces, one_by_one.map(|response| response.force));
+                    assert_eq!(stiffnesses, one_by_one.map(|response| response.stiffness));
+                    assert_eq!(evaluator.four::<false>(&four).0, forces);
+                }
+            }
+        }
     }
 }

@@ -46,6 +46,22 @@ impl Evaluator for BranchEvaluator<'_> {
         let force = if force > *limit { *limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
     }
+
+    #[inline(always)]
+    fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let BranchEvaluator { branch, factor, limit, curve } = self;
+        let mut distance = [0.0; 4];
+        for k in 0..4 {
+            distance[k] = branch.distance(curve.slip_displacement, displacement[k]);
+        }
+        let (mut forces, stiffnesses) = curve.four::<STIFFNESS>(&distance);
+        for force in &mut forces {
+            *force = branch.start.force + factor * *force;
+            *force = if *force > *limit { *limit } else { *force };
+            *force = if *force < -limit { -limit } else { *force };
+        }
+        (forces, stiffnesses)
+    }
 }
 
 /// A step from a state to a displacement: what it leads to, before anything is written.
