@@ -18,10 +18,11 @@
 mod event_driven;
 pub(crate) mod folded_fourier;
 pub(crate) mod fourier;
-mod fourier_sums;
 mod jacobian;
 mod motion;
+pub(crate) mod rows;
 mod sampled_gradients;
+pub(crate) mod sampled_jacobian;
 mod segments;
 mod uniform_sampling;
 pub(crate) mod workspace;

@@ -119,38 +119,41 @@ impl CurveEvaluator<'_> {
     /// Forces, and stiffnesses if requested, at four displacements up to that of gross slip, with the same bits as at one.
     #[inline(always)]
     pub fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        if self.elliptic || !self.interpolant.is_converged() {
+        if self.elliptic {
+            return self.four_elliptic(displacement);
+        }
+        if !self.interpolant.is_converged() {
             return self.one_by_one(displacement);
         }
         let mut y = [0.0; 4];
         for k in 0..4 {
             y[k] = displacement[k] * self.inner_scale;
         }
-        if y[0] <= 1.0 && y[1] <= 1.0 && y[2] <= 1.0 && y[3] <= 1.0 {
-            return self.four_inner::<STIFFNESS>(displacement, &y);
+        let inner = [y[0] <= 1.0, y[1] <= 1.0, y[2] <= 1.0, y[3] <= 1.0];
+        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
+        if inner != [false; 4] {
+            (forces, stiffnesses) = self.four_inner::<STIFFNESS>(displacement, &y);
+        }
+        if inner == [true; 4] {
+            return (forces, stiffnesses);
         }
         let mut v = [0.0; 4];
         for k in 0..4 {
             v[k] = root_of((self.slip_displacement - displacement[k]) * self.outer_scale);
         }
-        let interval = |k: usize| if y[k] <= 1.0 { None } else { Some(Interval::of(v[k])) };
-        let intervals = [interval(0), interval(1), interval(2), interval(3)];
-        let [first, .., last] = intervals;
-        // Along a branch at most two neighbouring intervals occur, unless they are short.
-        let covered = intervals.iter().all(|interval| interval.is_none_or(Interval::is_covered));
-        if !covered || intervals.iter().any(|interval| *interval != first && *interval != last) {
-            return self.one_by_one(displacement);
-        }
-        let within = |interval| match interval {
-            None => self.four_inner::<STIFFNESS>(displacement, &y),
-            Some(interval) => self.four_outer::<STIFFNESS>(interval, &v),
-        };
-        let (mut forces, mut stiffnesses) = within(first);
-        if first != last {
-            let (last_forces, last_stiffnesses) = within(last);
+        let intervals = [Interval::of(v[0]), Interval::of(v[1]), Interval::of(v[2]), Interval::of(v[3])];
+        let mut done = inner;
+        // Each interval that occurs, along a branch seldom more than two.
+        while let Some(next) = done.iter().position(|done| !done) {
+            let interval = intervals.get(next).copied().unwrap_or(intervals[0]);
+            if !interval.is_covered() {
+                return self.one_by_one(displacement);
+            }
+            let (outer_forces, outer_stiffnesses) = self.four_outer::<STIFFNESS>(interval, &v);
             for k in 0..4 {
-                if intervals[k] != first {
-                    (forces[k], stiffnesses[k]) = (last_forces[k], last_stiffnesses[k]);
+                if !inner[k] && intervals[k] == interval {
+                    (forces[k], stiffnesses[k]) = (outer_forces[k], outer_stiffnesses[k]);
+                    done[k] = true;
                 }
             }
         }
@@ -173,6 +176,16 @@ impl CurveEvaluator<'_> {
         for k in 0..4 {
             forces[k] = self.slip_force - self.slip_force * forces[k];
             stiffnesses[k] *= self.outer_stiffness;
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(always)]
+    fn four_elliptic(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            let response = self.elliptic_at(displacement[k], self.slip_displacement - displacement[k]);
+            (forces[k], stiffnesses[k]) = (response.force, response.stiffness);
         }
         (forces, stiffnesses)
     }
@@ -225,7 +238,8 @@ mod tests {
     fn four_displacements_have_the_bits_of_one() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let evaluator = contact.evaluator();
-            let fractions = (0..400).map(|k| f64::from(k) / 400.0).chain([0.4, 0.85, 0.85, 0.9, 0.999, 0.9999, 1.0, 0.3]);
+            let fractions =
+                (0..400).map(|k| f64::from(k) / 400.0).chain([0.4, 0.85, 0.85, 0.9, 0.999, 0.9999, 1.0, 0.3]);
             let displacements = fractions.map(|x| x * contact.slip_displacement).collect::<std::vec::Vec<_>>();
             // Neighbours, and any order.
             for stride in [1, 7, 150] {

@@ -205,6 +205,25 @@ pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     }
 }
 
+/// Completes values that were evaluated in half a period from a sample and keep (+1) or change (-1) their sign after it.
+#[inline(always)]
+pub(crate) fn continue_half_wave(values: &mut [f64], start: usize, samples: usize, sign: f64) {
+    let half = samples / 2;
+    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
+        return;
+    };
+    // The evaluated half starts in either half of the period.
+    let turn = if start < half { start } else { start - half };
+    let from_first = start < half;
+    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
+        if (index >= turn) == from_first {
+            *second = sign * *first;
+        } else {
+            *first = sign * *second;
+        }
+    }
+}
+
 #[inline(always)]
 fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]

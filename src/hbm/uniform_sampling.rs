@@ -1,29 +1,25 @@
 //! Harmonic force by alternating frequency/time (AFT) with uniformly spaced samples.
 //!
-//! The displacement is sampled, the law is advanced from sample to sample, and the forces are transformed back. The error is
-//! O(samples⁻²); the Jacobian is exact for the discrete sums, see `jacobian`. The sums Σ φ over the samples of a branch are geometric
-//! series.
+//! The displacement is sampled, the law advanced from branch to branch, the forces of each branch are evaluated four at a time, and
+//! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
+//! the stiffness, and `sampled_gradients` adds the terms of the reversals.
 
-use super::fourier::{fill_columns, normalise, synthesise};
-use super::fourier_sums::{FourierSums, TableRows, block_count, fill_table};
-use super::sampled_gradients::SampledGradients;
-use super::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout, padded};
-use super::{HarmonicOutput, Requested, jacobian};
+use super::HarmonicOutput;
+use super::folded_fourier::{self, FoldedFourier, continue_half_wave, sample_length};
+use super::fourier::normalise;
+use super::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
+use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients, ranges, wrapped};
+use super::sampled_jacobian::{self, Assembly};
+use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::error::Error;
 use crate::law::{BranchRange, Evaluator, Law, Point, Response, Reversal};
 use crate::tag::Kind;
-use core::f64::consts::PI;
 
 /// Lengths of the parts of a workspace.
 pub(super) struct Layout(Size);
 
 impl Layout {
-    /// Samples in the tables: half a period, after which odd orders change their sign; a whole period if the number is odd.
-    fn half(&self) -> usize {
-        if self.0.samples.is_multiple_of(2) { self.0.samples / 2 } else { self.0.samples }
-    }
-
-    /// Capacity for reversals: one per sample, and one more.
+    /// Capacity for reversals and branches: one per sample, and one more.
     fn reversals(&self) -> usize {
         self.0.samples + 1
     }
@@ -41,33 +37,32 @@ impl WorkspaceLayout for Layout {
     }
 
     fn max_rows(&self) -> usize {
-        self.0.samples + 8
+        2 * self.0.samples + 16
     }
 
     fn tables_length(&self) -> usize {
-        let (half, up_to_2h) = (self.half(), 4 * block_count(2 * self.0.harmonics));
-        padded(half * self.0.coefficients()) + 2 * padded(half * up_to_2h) + padded(self.0.harmonics)
+        let Size { harmonics, samples } = self.0;
+        folded_fourier::table_length(samples, 2 * harmonics) + rows_length(harmonics, samples)
     }
 
     fn length(&self) -> usize {
-        let (n, reversals) = (self.0.coefficients(), self.reversals());
-        let sums = 2 * 4 * block_count(self.0.harmonics) + 4 * 4 * block_count(2 * self.0.harmonics);
-        let stack = padded(3 * reversals) + padded(reversals) + padded(reversals * n);
-        HEADER + self.tables_length() + 3 * padded(self.0.samples) + stack + sums + 4 * padded(n)
+        let (Size { harmonics, samples }, reversals) = (self.0, self.reversals());
+        let gradients = padded(BRANCH * reversals) + padded(ENTRY * reversals) + 8 * row_blocks(harmonics) * reversals;
+        HEADER
+            + self.tables_length()
+            + folded_fourier::scratch_length(samples, 2 * harmonics)
+            + 3 * sample_length(samples)
+            + padded(3 * reversals)
+            + gradients
+            + outer_products_length::<1>(harmonics, reversals)
+            + sampled_jacobian::memory_length(harmonics)
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let (Size { harmonics, samples }, half) = (self.0, self.half());
-        fill_columns(tables.take(half * self.0.coefficients())?, samples, half);
-        for parity in [0, 1] {
-            let table = tables.take_blocks(half * block_count(2 * harmonics))?;
-            fill_table(table, parity, 2 * harmonics, samples, half);
-        }
-        // 1/(exp(imΔ) - 1) = -1/2 - (i/2) cot(mΔ/2), with Δ the step.
-        for (m, cotangent) in (1..).zip(tables.take(harmonics)?) {
-            let (sine, cosine) = (PI * m as f64 / samples as f64).sin_cos();
-            *cotangent = 0.5 * cosine / sine;
-        }
+        let Size { harmonics, samples } = self.0;
+        let table = tables.take(folded_fourier::table_length(samples, 2 * harmonics))?;
+        folded_fourier::fill_table(table, samples, 2 * harmonics);
+        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
         Ok(())
     }
 }
@@ -75,29 +70,13 @@ impl WorkspaceLayout for Layout {
 /// An opened workspace.
 #[derive(Debug)]
 pub(super) struct Workspace<'a> {
+    size: Size,
+    fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
-    buffers: Buffers<'a>,
-}
-
-/// Tables, samples and sums.
-#[derive(Debug)]
-struct Buffers<'a> {
-    harmonics: usize,
-    samples: usize,
-    half: usize,
-    /// Columns 1, cos t, sin t, cos 2t, ... over the samples of half a period.
-    columns: &'a [f64],
-    /// Tables of the even and of the odd orders up to 2H over the samples of half a period.
-    tables: [&'a Blocks; 2],
-    displacement: &'a mut [f64],
-    force: &'a mut [f64],
-    stiffness: &'a mut [f64],
+    samples: Samples<'a>,
     gradients: SampledGradients<'a>,
-    /// Fourier sums: of the force, of the stiffness on one branch, and of the stiffness on all branches.
-    force_sums: FourierSums<'a>,
-    branch_sums: FourierSums<'a>,
-    stiffness_sums: FourierSums<'a>,
+    assembly: Assembly<'a>,
 }
 
 impl<'a> Workspace<'a> {
@@ -108,50 +87,27 @@ impl<'a> Workspace<'a> {
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
-        let (half, coefficients) = (layout.half(), layout.0.coefficients());
-        let (up_to_h, up_to_2h) = (block_count(layout.0.harmonics), block_count(2 * layout.0.harmonics));
-        // Parts in the order of the workspace: tables, samples, gradients, sums, rows.
-        let columns: &[f64] = parts.take(half * coefficients)?;
-        let tables: [&Blocks; 2] = [parts.take_blocks(half * up_to_2h)?, parts.take_blocks(half * up_to_2h)?];
-        let cotangents = parts.take(layout.0.harmonics)?;
-        let samples = layout.0.samples;
-        let [displacement, force, stiffness] = [parts.take(samples)?, parts.take(samples)?, parts.take(samples)?];
-        let (reversed_at, gradients) =
-            (parts.take(layout.reversals())?, parts.take(layout.reversals() * coefficients)?);
-        let mut sums = |blocks| Ok(FourierSums([parts.take_blocks(blocks)?, parts.take_blocks(blocks)?]));
-        let (force_sums, branch_sums, stiffness_sums) = (sums(up_to_h)?, sums(up_to_2h)?, sums(up_to_2h)?);
-        let gradients = SampledGradients {
-            coefficients,
-            half,
-            columns,
-            cotangents,
-            samples: reversed_at,
-            gradients,
-            phi: parts.take(coefficients)?,
-            phi_sums: parts.take(coefficients)?,
-            stiffness_sums: parts.take(coefficients)?,
-            row: parts.take(coefficients)?,
-        };
-        let buffers = Buffers {
-            harmonics: layout.0.harmonics,
-            samples,
-            half,
-            columns,
-            tables,
-            displacement,
-            force,
-            stiffness,
-            gradients,
-            force_sums,
-            branch_sums,
-            stiffness_sums,
-        };
-        Ok(Workspace { reversals: parts.take(3 * layout.reversals())?.as_chunks_mut().0, buffers })
+        let (size, capacity) = (layout.0, layout.reversals());
+        let Size { harmonics, samples: count } = size;
+        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
+        let rows = Rows::take(&mut parts, harmonics, count)?;
+        fourier.take_scratch(&mut parts)?;
+        let mut array = || parts.take(sample_length(count));
+        let [displacement, force, stiffness] = [array()?, array()?, array()?];
+        let branches = Branches::new(parts.take(BRANCH * capacity)?);
+        let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
+        let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
+        let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
+        let outer = OuterProducts::take(&mut parts, harmonics, capacity)?;
+        let assembly = Assembly::take(&mut parts, size)?;
+        let samples = Samples { count, displacement, force, stiffness, branches };
+        let gradients = SampledGradients { rows, entries, sums, outer };
+        Ok(Workspace { size, fourier, reversals, samples, gradients, assembly })
     }
 
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
-        self.buffers.gradients.coefficients
+        self.size.coefficients()
     }
 }
 
@@ -163,180 +119,181 @@ pub(super) fn harmonic_force<'w, L: Law>(
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { reversals, buffers } = workspace;
-    let requested = output.requested();
-    let HarmonicOutput { force, mut jacobian, dissipated } = output;
-    let half_wave_symmetric = synthesise(buffers.columns, buffers.half, buffers.displacement, displacement);
-    let law = law(reversals, dissipated.is_some());
-    let mut period = Period { law, requested, half_wave_symmetric };
-    period.integrate(buffers, &mut jacobian);
-    if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
+    let Workspace { size, fourier, reversals, samples, gradients, assembly } = workspace;
+    let HarmonicOutput { force, jacobian, dissipated } = output;
+    let count = size.samples;
+    fourier.synthesise(displacement, samples.displacement);
+    let is_even = |c: usize| c.div_ceil(2).is_multiple_of(2);
+    let half_wave_symmetric =
+        is_even(count) && displacement.iter().enumerate().all(|(c, value)| !is_even(c) || *value == 0.0);
+    let length = if half_wave_symmetric { count / 2 } else { count };
+    let mut law = law(reversals, dissipated.is_some());
+    let first = if jacobian.is_some() {
+        samples.advance::<true, true, L>(&mut law, length)
+    } else if force.is_some() {
+        samples.advance::<true, false, L>(&mut law, length)
+    } else {
+        samples.advance::<false, false, L>(&mut law, length)
+    };
+    if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
-    // Under half-wave symmetry the sums are those of half a period.
-    let weight = if half_wave_symmetric { 2.0 } else { 1.0 } / buffers.samples as f64;
     if let Some(force) = force {
-        buffers.force_sums.copy_to(force);
-        normalise(force, weight);
+        if half_wave_symmetric {
+            continue_half_wave(samples.force, first, count, -1.0);
+        }
+        fourier.sum(samples.force, force);
+        normalise(force, 1.0 / count as f64);
     }
     if let Some(jacobian) = jacobian {
-        let sums = |order| buffers.stiffness_sums.of_order(order);
-        jacobian::complete(jacobian, buffers.harmonics, sums, weight, half_wave_symmetric);
-    }
-}
-
-/// Number of values, at most `limit`, before the first for which `ends(previous, value)`; and the last value before it.
-#[inline(always)]
-fn count_until(parts: [&[f64]; 2], limit: usize, first: f64, ends: impl Fn(f64, f64) -> bool) -> (usize, f64) {
-    let (mut last, mut count) = (first, 0);
-    for part in parts {
-        for &next in part.get(..limit - count).unwrap_or(part) {
-            if ends(last, next) {
-                return (count, last);
-            }
-            last = next;
-            count += 1;
+        gradients.gather(&samples.branches, first, samples.stiffness);
+        if half_wave_symmetric {
+            continue_half_wave(samples.stiffness, first, count, 1.0);
         }
+        fourier.sum(samples.stiffness, assembly.sums);
+        let length = size.coefficients().max(1);
+        assembly.write_sums(jacobian.chunks_exact_mut(length));
+        let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
+        assembly.add_products(&gradients.outer, 0, symmetry, jacobian.chunks_exact_mut(length));
     }
-    (count, last)
 }
 
-/// Integration over a period, sample by sample.
-struct Period<L> {
-    law: L,
-    requested: Requested,
-    /// Only one half of the period is evaluated.
-    half_wave_symmetric: bool,
+/// Values at the samples, and the branches on which they lie.
+#[derive(Debug)]
+struct Samples<'a> {
+    count: usize,
+    displacement: &'a mut [f64],
+    force: &'a mut [f64],
+    stiffness: &'a mut [f64],
+    branches: Branches<'a>,
 }
 
-impl<L: Law> Period<L> {
-    /// Integrates a period, or half of it, from the farthest sample: Fourier sums, and the terms of the reversals of the Jacobian.
+impl Samples<'_> {
+    /// Advances the law from the farthest of the first `length` samples, along as many samples, and evaluates the force, and its
+    /// stiffness, if requested. Returns the first of them, the one after the farthest.
     #[inline(always)]
-    fn integrate(&mut self, buffers: &mut Buffers, jacobian: &mut Option<&mut [f64]>) {
-        let samples = buffers.samples;
-        let after = |sample: usize| if sample + 1 >= samples { 0 } else { sample + 1 };
-        let mut remaining = if self.half_wave_symmetric { buffers.half } else { samples };
-        let mut before = farthest(buffers.displacement, remaining);
-        self.begin(buffers, before);
-        buffers.force_sums.clear();
-        buffers.stiffness_sums.clear();
+    fn advance<const FORCE: bool, const STIFFNESS: bool, L: Law>(&mut self, law: &mut L, length: usize) -> usize {
+        let mut before = farthest(self.displacement, length);
+        let mut from = Point { displacement: at(self.displacement, before), force: 0.0 };
+        let response = law.begin(from.displacement);
+        from.force = response.force;
+        if let Some(stiffness) = self.stiffness.get_mut(before) {
+            *stiffness = response.stiffness;
+        }
+        self.branches.clear();
+        let first = wrapped(before + 1, self.count);
+        let (mut sample, mut remaining) = (first, length);
         while remaining > 0 {
-            let sample = after(before);
-            self.step(buffers, before, sample);
-            let count = 1 + self.samples_on_branch(buffers.displacement, sample, remaining - 1);
-            before = self.evaluate_branch(buffers, sample, count, jacobian);
+            let displacement = at(self.displacement, sample);
+            law.advance(from, displacement);
+            let branch = law.branch();
+            let count = self.samples_on_branch(&branch, sample, remaining);
+            before = wrapped(sample + count - 1, self.count);
+            from.displacement = at(self.displacement, before);
+            if count > 1 {
+                law.account_for(displacement, from.displacement);
+            }
+            self.branches.push(count, branch.depth);
+            if FORCE {
+                self.evaluate::<STIFFNESS, L>(law, &branch, sample, count);
+                from.force = at(self.force, before);
+            }
+            sample = wrapped(sample + count, self.count);
             remaining -= count;
         }
+        first
     }
 
-    /// Number of samples after `sample`, at most `limit`, on the same branch.
+    /// Number of samples, at most `limit`, on a branch, the first of which is known to lie on it.
     #[inline(always)]
-    fn samples_on_branch(&mut self, displacement: &[f64], sample: usize, limit: usize) -> usize {
-        let (earlier, later) = displacement.split_at_checked(sample + 1).unwrap_or((displacement, &[]));
-        let entered = earlier.last().copied().unwrap_or(0.0);
-        let BranchRange { direction, end, .. } = self.law.branch();
-        let (count, last) = if direction > 0.0 {
-            count_until([later, earlier], limit, entered, |last, next| next < last || next >= end)
-        } else {
-            count_until([later, earlier], limit, entered, |last, next| next > last || next <= end)
+    fn samples_on_branch(&self, branch: &BranchRange, sample: usize, limit: usize) -> usize {
+        let [range, wrapped] = ranges(sample, limit, self.count);
+        let span = |range: core::ops::Range<usize>| self.displacement.get(range).unwrap_or(&[]);
+        let (present, next) = (span(range), span(wrapped));
+        let count = count_on_branch(present, branch.direction, branch.end);
+        let continues = |last: f64, next: f64| {
+            branch.direction * next >= branch.direction * last
+                && branch.direction * next < branch.direction * branch.end
         };
-        if count > 0 {
-            self.law.account_for(entered, last);
-        }
-        count
-    }
-
-    /// Enters the steady state at the farthest sample.
-    #[inline(always)]
-    fn begin(&mut self, buffers: &mut Buffers, sample: usize) {
-        let displacement = buffers.displacement.get(sample).copied().unwrap_or(0.0);
-        let response = self.law.begin(displacement);
-        if let (Some(force), Some(stiffness)) = (buffers.force.get_mut(sample), buffers.stiffness.get_mut(sample)) {
-            Response { force: *force, stiffness: *stiffness } = response;
-        }
-    }
-
-    /// Applies one step, which may reverse, close loops or slip.
-    #[inline(always)]
-    fn step(&mut self, buffers: &mut Buffers, before: usize, sample: usize) {
-        let displacement = |sample: usize| buffers.displacement.get(sample).copied().unwrap_or(0.0);
-        let force = buffers.force.get(before).copied().unwrap_or(0.0);
-        let from = Point { displacement: displacement(before), force };
-        let left = self.law.branch().depth;
-        if self.law.advance(from, displacement(sample)) {
-            let index = self.law.branch().depth - 1;
-            if self.requested.stiffness {
-                let stiffness = buffers.stiffness.get(before).copied().unwrap_or(0.0);
-                buffers.gradients.store(index, before, left, stiffness);
+        match (present.last(), next.first()) {
+            (Some(&last), Some(&first)) if count == present.len() && continues(last, first) => {
+                count + count_on_branch(next, branch.direction, branch.end)
             }
+            _ => count.max(1),
         }
     }
 
-    /// Evaluates `count` consecutive samples on the present branch, and adds them to the Fourier sums and the terms of the reversals
-    /// of the Jacobian. Returns the last of the samples.
+    /// Evaluates consecutive samples on a branch.
     #[inline(always)]
-    fn evaluate_branch(
-        &self,
-        buffers: &mut Buffers,
-        first: usize,
-        count: usize,
-        jacobian: &mut Option<&mut [f64]>,
-    ) -> usize {
-        let (branch, requested) = (self.law.branch(), self.requested);
-        let evaluator = self.law.evaluator();
-        let (mut next, mut remaining) = (first, count);
-        if requested.stiffness && !branch.gross_slip {
-            buffers.branch_sums.clear();
-        }
-        while remaining > 0 {
-            // At most up to the middle or the end of the period, at which the tables start again.
-            let boundary = if next < buffers.half { buffers.half } else { buffers.samples };
-            let rows = TableRows::at(next, buffers.half);
-            let range = next..boundary.min(next + remaining);
-            let length = range.len();
-            next = if range.end == buffers.samples { 0 } else { range.end };
-            remaining -= length;
-            if !(requested.force || requested.stiffness) {
-                continue;
-            }
-            let parts = (
-                buffers.displacement.get(range.clone()),
-                buffers.force.get_mut(range.clone()),
-                buffers.stiffness.get_mut(range),
-            );
-            let (Some(displacement), Some(force), Some(stiffness)) = parts else { break };
+    fn evaluate<const STIFFNESS: bool, L: Law>(&mut self, law: &L, branch: &BranchRange, sample: usize, count: usize) {
+        let evaluator = law.evaluator();
+        for range in ranges(sample, count, self.count) {
+            let (Some(displacement), Some(force), Some(stiffness)) = (
+                self.displacement.get(range.clone()),
+                self.force.get_mut(range.clone()),
+                self.stiffness.get_mut(range),
+            ) else {
+                return;
+            };
             if branch.gross_slip {
-                force.fill(self.law.response(0.0).force);
+                force.fill(law.response(0.0).force);
                 stiffness.fill(0.0);
-            } else if requested.stiffness {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
-                {
-                    Response { force: *force, stiffness: *stiffness } = evaluator.at(displacement);
-                }
-                buffers.branch_sums.add(&buffers.tables, 0, &rows, stiffness);
-                buffers.branch_sums.add(&buffers.tables, 1, &rows, stiffness);
             } else {
-                for (force, &displacement) in force.iter_mut().zip(displacement) {
-                    *force = evaluator.at(displacement).force;
-                }
-            }
-            if requested.force {
-                if !self.half_wave_symmetric {
-                    buffers.force_sums.add(&buffers.tables, 0, &rows, force);
-                }
-                buffers.force_sums.add(&buffers.tables, 1, &rows, force);
+                evaluate::<STIFFNESS>(evaluator, displacement, force, stiffness);
             }
         }
-        if let Some(jacobian) = jacobian
-            && !branch.gross_slip
-        {
-            buffers.stiffness_sums.add_all(&buffers.branch_sums);
-            if branch.depth > 0 {
-                let (gradients, sums) = (&mut buffers.gradients, &buffers.branch_sums);
-                gradients.add_branch_term(first, next, count, branch.depth, sums, jacobian);
-            }
+    }
+}
+
+#[inline(always)]
+fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(0.0)
+}
+
+/// Number of samples before the first after which the motion reverses, or reaches the end of the branch.
+#[inline(always)]
+fn count_on_branch(samples: &[f64], direction: f64, end: f64) -> usize {
+    let end = direction * end;
+    let continues = |last: f64, next: f64| direction * next >= direction * last && direction * next < end;
+    let later = samples.get(1..).unwrap_or(&[]);
+    let blocks = samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0);
+    let whole = 4 * blocks
+        .take_while(|([a, b, c, d], [e, f, g, h])| {
+            continues(*a, *e) & continues(*b, *f) & continues(*c, *g) & continues(*d, *h)
+        })
+        .count();
+    let pairs = samples.iter().zip(later).skip(whole);
+    whole + pairs.take_while(|(last, next)| continues(**last, **next)).count() + usize::from(!samples.is_empty())
+}
+
+/// Evaluates samples on a branch, four at a time; the last four may overlap those before.
+#[inline(always)]
+fn evaluate<const STIFFNESS: bool>(
+    evaluator: impl Evaluator,
+    displacement: &[f64],
+    force: &mut [f64],
+    stiffness: &mut [f64],
+) {
+    let Some(last) = displacement.len().checked_sub(4) else {
+        for ((force, stiffness), displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
+            Response { force: *force, stiffness: *stiffness } = evaluator.at(*displacement);
         }
-        if next == 0 { buffers.samples - 1 } else { next - 1 }
+        return;
+    };
+    for first in (0..displacement.len()).step_by(4) {
+        let range = first.min(last)..first.min(last) + 4;
+        let blocks = (displacement.get(range.clone()), force.get_mut(range.clone()), stiffness.get_mut(range));
+        let (Some(displacement), Some(force), Some(stiffness)) = blocks else { return };
+        let (Some(displacement), Some(force), Some(stiffness)) =
+            (displacement.first_chunk(), force.first_chunk_mut(), stiffness.first_chunk_mut())
+        else {
+            return;
+        };
+        let (forces, stiffnesses) = evaluator.four::<STIFFNESS>(displacement);
+        *force = forces;
+        if STIFFNESS {
+            *stiffness = stiffnesses;
+        }
     }
 }
 
@@ -362,10 +319,11 @@ fn farthest(displacement: &[f64], count: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
     use crate::hbm::Rule::UniformSampling;
     use crate::hbm::tests::{SHAPE, compute as all, scaled, workspace};
+    use core::f64::consts::PI;
     use std::vec;
     use std::vec::Vec;
 

@@ -9,11 +9,10 @@
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
 //! - `walk`: the memory diagram along the period, without evaluating any force;
 //! - `tractions`: the forces;
-//! - `sensitivity`: their exact derivatives; `jacobian`: its Fourier coefficients;
+//! - `sensitivity`: their exact derivatives;
 //! - `energy`: dissipation.
 
 mod energy;
-mod jacobian;
 mod samples;
 mod sensitivity;
 mod tractions;
@@ -23,14 +22,15 @@ pub use crate::hbm::HarmonicOutput;
 
 use crate::error::Error;
 use crate::hbm::check_coefficients;
-use crate::hbm::folded_fourier::{self, FoldedFourier, sample_length};
+use crate::hbm::folded_fourier::{self, FoldedFourier, continue_half_wave, sample_length};
 use crate::hbm::fourier::normalise;
+use crate::hbm::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
+use crate::hbm::sampled_jacobian::{self, Assembly};
 use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
 use crate::tag::Kind;
 use crate::varying_load::element::Element;
-use jacobian::Assembly;
-use samples::{Part, Samples, continue_half_wave};
-use sensitivity::{Context, Cuts, PIECE, Sensitivity, row_blocks};
+use samples::{Part, Samples};
+use sensitivity::{Context, Cuts, PIECE, Sensitivity};
 use tractions::Tractions;
 use walk::{KNOT, RUN, Walk};
 
@@ -71,11 +71,6 @@ struct Layout(Size);
 const SAMPLE_ARRAYS: usize = 19;
 
 impl Layout {
-    /// Doubles of the rows over the coefficients of all samples.
-    fn rows_length(&self) -> usize {
-        4 * row_blocks(self.0.harmonics) * self.0.samples
-    }
-
     /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
     fn capacity(&self) -> usize {
         self.0.samples + 4
@@ -102,7 +97,8 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables_length(&self) -> usize {
-        folded_fourier::table_length(self.0.samples, 2 * self.0.harmonics) + 2 * self.rows_length()
+        folded_fourier::table_length(self.0.samples, 2 * self.0.harmonics)
+            + rows_length(self.0.harmonics, self.0.samples)
     }
 
     fn length(&self) -> usize {
@@ -114,16 +110,15 @@ impl WorkspaceLayout for Layout {
             + SAMPLE_ARRAYS * sample_length(samples)
             + walk
             + 2 * self.pieces_length()
-            + 3 * self.rows_length()
-            + jacobian::memory_length(harmonics)
+            + outer_products_length::<2>(harmonics, samples)
+            + sampled_jacobian::memory_length(harmonics)
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
         let Size { harmonics, samples } = self.0;
         let table = tables.take(folded_fourier::table_length(samples, 2 * harmonics))?;
         folded_fourier::fill_table(table, samples, 2 * harmonics);
-        let (rows, antiderivatives) = (tables.take(self.rows_length())?, tables.take(self.rows_length())?);
-        sensitivity::fill_rows(rows, antiderivatives, harmonics, samples);
+        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
         Ok(())
     }
 }
@@ -151,8 +146,7 @@ impl<'a> Workspace<'a> {
         let size = layout.0;
         let Size { harmonics, samples: count } = size;
         let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
-        let rows = parts.take(layout.rows_length())?.as_chunks().0;
-        let antiderivatives = parts.take(layout.rows_length())?.as_chunks().0;
+        let rows = Rows::take(&mut parts, harmonics, count)?;
         fourier.take_scratch(&mut parts)?;
         let mut array = || parts.take(sample_length(count));
         let samples = Samples {
@@ -183,22 +177,10 @@ impl<'a> Workspace<'a> {
             cut_shift,
         };
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
-        let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
-        let stored = blocks(2 * layout.pieces_length())?;
-        let (derivatives, touched_rows) = (blocks(2 * layout.rows_length())?, blocks(layout.rows_length())?);
+        let stored = parts.take(2 * layout.pieces_length())?.as_chunks_mut().0;
+        let outer = OuterProducts::take(&mut parts, harmonics, count)?;
         let assembly = Assembly::take(&mut parts, size)?;
-        let sensitivity = Sensitivity {
-            row_blocks: row_blocks(harmonics),
-            rows,
-            antiderivatives,
-            pieces,
-            stored,
-            places,
-            touched: 0,
-            derivatives,
-            touched_rows,
-            own,
-        };
+        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
         Ok(Workspace { size, fourier, samples, walk, tractions, sensitivity, assembly })
     }
 
@@ -404,7 +386,7 @@ impl Workspace<'_> {
         let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
         if let Some(part) = part {
             if motion.half_wave {
-                continue_half_wave(tractions.force, part, samples.count, -1.0);
+                continue_half_wave(tractions.force, part.start, samples.count, -1.0);
             }
             fourier.sum(tractions.force, tangential);
             normalise(tangential, weight);
@@ -434,14 +416,14 @@ impl Workspace<'_> {
         for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
             if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
                 if motion.half_wave {
-                    continue_half_wave(own, part, samples.count, sign);
+                    continue_half_wave(own, part.start, samples.count, sign);
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
                 assembly
                     .write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
                 let columns = columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients));
-                assembly.add_products(sensitivity, index, symmetry, columns);
+                assembly.add_products(&sensitivity.outer, index, symmetry, columns);
             } else {
                 columns.fill(0.0);
             }
