@@ -38,8 +38,15 @@ pub(crate) struct BranchRange {
 pub(crate) trait Evaluator: Copy {
     fn at(&self, displacement: f64) -> Response;
 
-    /// Forces, and stiffnesses if requested, at four displacements, with the same bits.
-    fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]);
+    /// Forces, and stiffnesses if requested, at displacements in the order of the branch, with the same bits. Scratch memory: two
+    /// arrays with at least three more values than displacements.
+    fn along<const STIFFNESS: bool>(
+        &self,
+        displacement: &[f64],
+        scratch: [&mut [f64]; 2],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    );
 }
 
 /// A contact law in the steady state of a periodic displacement.

@@ -92,6 +92,37 @@ impl Contact {
     }
 }
 
+/// Further values behind those that are evaluated four at a time.
+pub(crate) const BEYOND: usize = 3;
+
+/// Four values from an index on.
+#[inline(always)]
+fn block(values: &[f64], first: usize) -> Option<&[f64; 4]> {
+    values.get(first..)?.first_chunk()
+}
+
+/// Stores results from an index on, those that fit.
+#[inline(always)]
+fn store<const STIFFNESS: bool>(
+    forces: &mut [f64],
+    stiffnesses: &mut [f64],
+    first: usize,
+    force: [f64; 4],
+    stiffness: [f64; 4],
+) {
+    let put = |values: &mut [f64], block: [f64; 4]| {
+        let rest = values.get_mut(first..).unwrap_or(&mut []);
+        match rest.first_chunk_mut() {
+            Some(place) => *place = block,
+            None => rest.iter_mut().zip(block).for_each(|(place, value)| *place = value),
+        }
+    };
+    put(forces, force);
+    if STIFFNESS {
+        put(stiffnesses, stiffness);
+    }
+}
+
 impl CurveEvaluator<'_> {
     /// At a displacement >= 0.
     #[inline(always)]
@@ -116,53 +147,54 @@ impl CurveEvaluator<'_> {
         self.contact.solved_response(displacement)
     }
 
-    /// Forces, and stiffnesses if requested, at four displacements up to that of gross slip, with the same bits as at one.
+    /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
+    /// evaluated at once, so the displacements continue with [`BEYOND`] further ones; `roots` is scratch memory of that length.
     #[inline(always)]
-    pub fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+    pub fn along<const STIFFNESS: bool>(
+        &self,
+        displacement: &[f64],
+        roots: &mut [f64],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let mut next = 0;
         if self.elliptic {
-            return self.four_elliptic(displacement);
+            for ((force, stiffness), &x) in forces.iter_mut().zip(stiffnesses).zip(displacement) {
+                Response { force: *force, stiffness: *stiffness } = self.elliptic_at(x, self.slip_displacement - x);
+            }
+            return;
         }
-        if !self.interpolant.is_converged() {
-            return self.one_by_one(displacement);
+        if self.interpolant.is_converged() {
+            while let Some(x) = block(displacement, next).filter(|[first, ..]| *first * self.inner_scale <= 1.0) {
+                let (force, stiffness) = self.four_inner::<STIFFNESS>(x);
+                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                next += x.iter().take_while(|x| **x * self.inner_scale <= 1.0).count();
+            }
+            for (root, x) in roots.iter_mut().zip(displacement).skip(next) {
+                *root = root_of((self.slip_displacement - x) * self.outer_scale);
+            }
+            while next < forces.len()
+                && let Some(v) = block(roots, next)
+            {
+                let interval = Interval::of(v[0]);
+                if !interval.is_covered() {
+                    break;
+                }
+                let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
+                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                next += v.iter().take_while(|v| Interval::of(**v) == interval).count();
+            }
         }
+        self.one_by_one(displacement, forces, stiffnesses, next);
+    }
+
+    #[inline(always)]
+    fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
         let mut y = [0.0; 4];
         for k in 0..4 {
             y[k] = displacement[k] * self.inner_scale;
         }
-        let inner = [y[0] <= 1.0, y[1] <= 1.0, y[2] <= 1.0, y[3] <= 1.0];
-        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
-        if inner != [false; 4] {
-            (forces, stiffnesses) = self.four_inner::<STIFFNESS>(displacement, &y);
-        }
-        if inner == [true; 4] {
-            return (forces, stiffnesses);
-        }
-        let mut v = [0.0; 4];
-        for k in 0..4 {
-            v[k] = root_of((self.slip_displacement - displacement[k]) * self.outer_scale);
-        }
-        let intervals = [Interval::of(v[0]), Interval::of(v[1]), Interval::of(v[2]), Interval::of(v[3])];
-        let mut done = inner;
-        // Each interval that occurs, along a branch seldom more than two.
-        while let Some(next) = done.iter().position(|done| !done) {
-            let interval = intervals.get(next).copied().unwrap_or(intervals[0]);
-            if !interval.is_covered() {
-                return self.one_by_one(displacement);
-            }
-            let (outer_forces, outer_stiffnesses) = self.four_outer::<STIFFNESS>(interval, &v);
-            for k in 0..4 {
-                if !inner[k] && intervals[k] == interval {
-                    (forces[k], stiffnesses[k]) = (outer_forces[k], outer_stiffnesses[k]);
-                    done[k] = true;
-                }
-            }
-        }
-        (forces, stiffnesses)
-    }
-
-    #[inline(always)]
-    fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4], y: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut forces, mut stiffnesses) = self.interpolant.four_secants_and_tangents::<STIFFNESS>(y);
+        let (mut forces, mut stiffnesses) = self.interpolant.four_secants_and_tangents::<STIFFNESS>(&y);
         for k in 0..4 {
             forces[k] *= self.initial_stiffness * displacement[k];
             stiffnesses[k] *= self.initial_stiffness;
@@ -180,23 +212,12 @@ impl CurveEvaluator<'_> {
         (forces, stiffnesses)
     }
 
-    #[inline(always)]
-    fn four_elliptic(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
-        for k in 0..4 {
-            let response = self.elliptic_at(displacement[k], self.slip_displacement - displacement[k]);
-            (forces[k], stiffnesses[k]) = (response.force, response.stiffness);
-        }
-        (forces, stiffnesses)
-    }
-
+    /// From the displacement with the index `first` on.
     #[inline(never)]
-    fn one_by_one(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut forces, mut stiffnesses) = ([0.0; 4], [0.0; 4]);
-        for ((force, stiffness), displacement) in forces.iter_mut().zip(&mut stiffnesses).zip(displacement) {
-            Response { force: *force, stiffness: *stiffness } = self.at(*displacement);
+    fn one_by_one(&self, displacement: &[f64], forces: &mut [f64], stiffnesses: &mut [f64], first: usize) {
+        for ((force, stiffness), &x) in forces.iter_mut().zip(stiffnesses).zip(displacement).skip(first) {
+            Response { force: *force, stiffness: *stiffness } = self.at(x);
         }
-        (forces, stiffnesses)
     }
 
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` for an ellipse, and
@@ -232,25 +253,30 @@ impl CurveEvaluator<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::BEYOND;
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+    use std::vec;
+    use std::vec::Vec;
 
     #[test]
-    fn four_displacements_have_the_bits_of_one() {
+    fn many_displacements_have_the_bits_of_one() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let evaluator = contact.evaluator();
-            let fractions =
-                (0..400).map(|k| f64::from(k) / 400.0).chain([0.4, 0.85, 0.85, 0.9, 0.999, 0.9999, 1.0, 0.3]);
-            let displacements = fractions.map(|x| x * contact.slip_displacement).collect::<std::vec::Vec<_>>();
-            // Neighbours, and any order.
-            for stride in [1, 7, 150] {
-                for first in 0..displacements.len() {
-                    let four = core::array::from_fn(|k| displacements[(first + k * stride) % displacements.len()]);
-                    let (forces, stiffnesses) = evaluator.four::<true>(&four);
-                    let one_by_one = four.map(|displacement| evaluator.at(displacement));
-                    assert_eq!(forces, one_by_one.map(|response| response.force));
-                    assert_eq!(stiffnesses, one_by_one.map(|response| response.stiffness));
-                    assert_eq!(evaluator.four::<false>(&four).0, forces);
+            let fractions = (0..200).map(|k| f64::from(k) / 200.0).chain([0.9991, 0.9999, 1.0]);
+            let displacements: Vec<f64> = fractions.map(|x| x * contact.slip_displacement).collect();
+            for (first, stride) in [(0, 1), (3, 1), (0, 7), (0, 60), (100, 40), (199, 1), (80, 200)] {
+                let mut along: Vec<f64> = displacements.iter().skip(first).step_by(stride).copied().collect();
+                let n = along.len();
+                along.extend([contact.slip_displacement; BEYOND]);
+                let (mut roots, mut forces, mut stiffnesses) = (vec![0.0; n + BEYOND], vec![0.0; n], vec![0.0; n]);
+                evaluator.along::<true>(&along, &mut roots, &mut forces, &mut stiffnesses);
+                for ((&x, &force), &stiffness) in along.iter().zip(&forces).zip(&stiffnesses) {
+                    let response = evaluator.at(x);
+                    assert_eq!([response.force, response.stiffness], [force, stiffness], "{x}");
                 }
+                let with_stiffness = forces.clone();
+                evaluator.along::<false>(&along, &mut roots, &mut forces, &mut stiffnesses);
+                assert_eq!(forces, with_stiffness);
             }
         }
     }

@@ -132,7 +132,7 @@ impl ForceInterpolant {
     pub fn four_secants_and_tangents<const TANGENTS: bool>(&self, y: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
         let (secants, mut tangents) = four_values_and_slopes::<_, TANGENTS>(&self.inner, y);
         for k in 0..4 {
-            tangents[k] = secants[k] + tangents[k] * y[k];
+            tangents[k] = if TANGENTS { secants[k] + tangents[k] * y[k] } else { 0.0 };
         }
         (secants, tangents)
     }
@@ -152,7 +152,7 @@ impl ForceInterpolant {
         let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
         let (remaining, mut slopes) = four_values_and_slopes::<_, SLOPES>(piece, &z);
         for k in 0..4 {
-            slopes[k] = 2.0 * scale * slopes[k] / v[k];
+            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
         }
         (remaining, slopes)
     }

@@ -4,7 +4,7 @@
 
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::evaluator::CurveEvaluator;
+use crate::constant_load::evaluator::{BEYOND, CurveEvaluator};
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
@@ -48,19 +48,28 @@ impl Evaluator for BranchEvaluator<'_> {
     }
 
     #[inline(always)]
-    fn four<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+    fn along<const STIFFNESS: bool>(
+        &self,
+        displacement: &[f64],
+        [distances, roots]: [&mut [f64]; 2],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
         let BranchEvaluator { branch, factor, limit, curve } = self;
-        let mut distance = [0.0; 4];
-        for k in 0..4 {
-            distance[k] = branch.distance(curve.slip_displacement, displacement[k]);
+        let mut last = 0.0;
+        for (distance, &displacement) in distances.iter_mut().zip(displacement) {
+            *distance = branch.distance(curve.slip_displacement, displacement);
+            last = *distance;
         }
-        let (mut forces, stiffnesses) = curve.four::<STIFFNESS>(&distance);
-        for force in &mut forces {
+        let extent = displacement.len() + BEYOND;
+        let (Some(distances), Some(roots)) = (distances.get_mut(..extent), roots.get_mut(..extent)) else { return };
+        distances.iter_mut().skip(displacement.len()).for_each(|distance| *distance = last);
+        curve.along::<STIFFNESS>(distances, roots, forces, stiffnesses);
+        for force in forces {
             *force = branch.start.force + factor * *force;
             *force = if *force > *limit { *limit } else { *force };
             *force = if *force < -limit { -limit } else { *force };
         }
-        (forces, stiffnesses)
     }
 }
 

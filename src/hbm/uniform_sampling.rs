@@ -12,7 +12,7 @@ use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients, ranges
 use super::sampled_jacobian::{self, Assembly};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::error::Error;
-use crate::law::{BranchRange, Evaluator, Law, Point, Response, Reversal};
+use crate::law::{BranchRange, Evaluator, Law, Point, Reversal};
 use crate::tag::Kind;
 
 /// Lengths of the parts of a workspace.
@@ -52,6 +52,7 @@ impl WorkspaceLayout for Layout {
             + self.tables_length()
             + folded_fourier::scratch_length(samples, 2 * harmonics)
             + 3 * sample_length(samples)
+            + 2 * padded(samples + 3)
             + padded(3 * reversals)
             + gradients
             + outer_products_length::<1>(harmonics, reversals)
@@ -94,13 +95,15 @@ impl<'a> Workspace<'a> {
         fourier.take_scratch(&mut parts)?;
         let mut array = || parts.take(sample_length(count));
         let [displacement, force, stiffness] = [array()?, array()?, array()?];
+        let mut array = || parts.take(count + 3);
+        let scratch = [array()?, array()?];
         let branches = Branches::new(parts.take(BRANCH * capacity)?);
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
         let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(&mut parts, harmonics, capacity)?;
         let assembly = Assembly::take(&mut parts, size)?;
-        let samples = Samples { count, displacement, force, stiffness, branches };
+        let samples = Samples { count, displacement, force, stiffness, scratch, branches };
         let gradients = SampledGradients { rows, entries, sums, outer };
         Ok(Workspace { size, fourier, reversals, samples, gradients, assembly })
     }
@@ -165,6 +168,8 @@ struct Samples<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],
     stiffness: &'a mut [f64],
+    /// Scratch memory of evaluators.
+    scratch: [&'a mut [f64]; 2],
     branches: Branches<'a>,
 }
 
@@ -239,7 +244,8 @@ impl Samples<'_> {
                 force.fill(law.response(0.0).force);
                 stiffness.fill(0.0);
             } else {
-                evaluate::<STIFFNESS>(evaluator, displacement, force, stiffness);
+                let [one, two] = &mut self.scratch;
+                evaluator.along::<STIFFNESS>(displacement, [one, two], force, stiffness);
             }
         }
     }
@@ -264,37 +270,6 @@ fn count_on_branch(samples: &[f64], direction: f64, end: f64) -> usize {
         .count();
     let pairs = samples.iter().zip(later).skip(whole);
     whole + pairs.take_while(|(last, next)| continues(**last, **next)).count() + usize::from(!samples.is_empty())
-}
-
-/// Evaluates samples on a branch, four at a time; the last four may overlap those before.
-#[inline(always)]
-fn evaluate<const STIFFNESS: bool>(
-    evaluator: impl Evaluator,
-    displacement: &[f64],
-    force: &mut [f64],
-    stiffness: &mut [f64],
-) {
-    let Some(last) = displacement.len().checked_sub(4) else {
-        for ((force, stiffness), displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
-            Response { force: *force, stiffness: *stiffness } = evaluator.at(*displacement);
-        }
-        return;
-    };
-    for first in (0..displacement.len()).step_by(4) {
-        let range = first.min(last)..first.min(last) + 4;
-        let blocks = (displacement.get(range.clone()), force.get_mut(range.clone()), stiffness.get_mut(range));
-        let (Some(displacement), Some(force), Some(stiffness)) = blocks else { return };
-        let (Some(displacement), Some(force), Some(stiffness)) =
-            (displacement.first_chunk(), force.first_chunk_mut(), stiffness.first_chunk_mut())
-        else {
-            return;
-        };
-        let (forces, stiffnesses) = evaluator.four::<STIFFNESS>(displacement);
-        *force = forces;
-        if STIFFNESS {
-            *stiffness = stiffnesses;
-        }
-    }
 }
 
 /// Index of the first of the leading `count` samples with the largest magnitude.
