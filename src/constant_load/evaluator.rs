@@ -6,7 +6,7 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
-use crate::law::Response;
+use crate::law::{BEYOND, Response};
 use crate::shape::stick_zone::Complement;
 
 /// Evaluates force and stiffness on the monotonic curve.
@@ -92,16 +92,20 @@ impl Contact {
     }
 }
 
-/// Further values behind those that are evaluated four at a time.
-pub(crate) const BEYOND: usize = 3;
-
 /// Four values from an index on.
 #[inline(always)]
 fn block(values: &[f64], first: usize) -> Option<&[f64; 4]> {
-    values.get(first..)?.first_chunk()
+    values.get(first..first + 4)?.first_chunk()
 }
 
-/// Stores results from an index on, those that fit.
+/// Number of leading values, the first included, for which a condition holds that is monotone: seldom fewer than all.
+#[inline(always)]
+fn leading(values: &[f64; 4], condition: impl Fn(f64) -> bool) -> usize {
+    let [_, second, third, fourth] = *values;
+    if condition(fourth) { 4 } else { 1 + usize::from(condition(second)) + usize::from(condition(third)) }
+}
+
+/// Stores results from an index on.
 #[inline(always)]
 fn store<const STIFFNESS: bool>(
     forces: &mut [f64],
@@ -111,10 +115,8 @@ fn store<const STIFFNESS: bool>(
     stiffness: [f64; 4],
 ) {
     let put = |values: &mut [f64], block: [f64; 4]| {
-        let rest = values.get_mut(first..).unwrap_or(&mut []);
-        match rest.first_chunk_mut() {
-            Some(place) => *place = block,
-            None => rest.iter_mut().zip(block).for_each(|(place, value)| *place = value),
+        if let Some(place) = values.get_mut(first..first + 4).and_then(|rest| rest.first_chunk_mut()) {
+            *place = block;
         }
     };
     put(forces, force);
@@ -148,10 +150,12 @@ impl CurveEvaluator<'_> {
     }
 
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
-    /// evaluated at once, so the displacements continue with [`BEYOND`] further ones; `roots` is scratch memory of that length.
+    /// evaluated at once: the arrays have at least [`BEYOND`] more values than the `count` displacements, those of displacements not
+    /// below the last; `roots` is scratch memory.
     #[inline(always)]
     pub fn along<const STIFFNESS: bool>(
         &self,
+        count: usize,
         displacement: &[f64],
         roots: &mut [f64],
         forces: &mut [f64],
@@ -159,21 +163,30 @@ impl CurveEvaluator<'_> {
     ) {
         let mut next = 0;
         if self.elliptic {
-            for ((force, stiffness), &x) in forces.iter_mut().zip(stiffnesses).zip(displacement) {
+            let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(count);
+            for ((force, stiffness), &x) in values {
                 Response { force: *force, stiffness: *stiffness } = self.elliptic_at(x, self.slip_displacement - x);
             }
             return;
         }
         if self.interpolant.is_converged() {
-            while let Some(x) = block(displacement, next).filter(|[first, ..]| *first * self.inner_scale <= 1.0) {
+            while next < count
+                && let Some(x) = block(displacement, next)
+                && x[0] * self.inner_scale <= 1.0
+            {
                 let (force, stiffness) = self.four_inner::<STIFFNESS>(x);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
-                next += x.iter().take_while(|x| **x * self.inner_scale <= 1.0).count();
+                next += leading(x, |x| x * self.inner_scale <= 1.0);
             }
-            for (root, x) in roots.iter_mut().zip(displacement).skip(next) {
-                *root = root_of((self.slip_displacement - x) * self.outer_scale);
+            if let (Some(roots), Some(displacement)) = (roots.get_mut(next..), displacement.get(next..)) {
+                let blocks = roots.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+                for (root, x) in blocks.take((count + BEYOND).saturating_sub(next).div_ceil(4)) {
+                    for k in 0..4 {
+                        root[k] = root_of((self.slip_displacement - x[k]) * self.outer_scale);
+                    }
+                }
             }
-            while next < forces.len()
+            while next < count
                 && let Some(v) = block(roots, next)
             {
                 let interval = Interval::of(v[0]);
@@ -182,10 +195,12 @@ impl CurveEvaluator<'_> {
                 }
                 let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
-                next += v.iter().take_while(|v| Interval::of(**v) == interval).count();
+                next += leading(v, |v| Interval::of(v) == interval);
             }
         }
-        self.one_by_one(displacement, forces, stiffnesses, next);
+        if next < count {
+            self.one_by_one(next..count, displacement, forces, stiffnesses);
+        }
     }
 
     #[inline(always)]
@@ -212,10 +227,16 @@ impl CurveEvaluator<'_> {
         (forces, stiffnesses)
     }
 
-    /// From the displacement with the index `first` on.
     #[inline(never)]
-    fn one_by_one(&self, displacement: &[f64], forces: &mut [f64], stiffnesses: &mut [f64], first: usize) {
-        for ((force, stiffness), &x) in forces.iter_mut().zip(stiffnesses).zip(displacement).skip(first) {
+    fn one_by_one(
+        &self,
+        range: core::ops::Range<usize>,
+        displacement: &[f64],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(range.end).skip(range.start);
+        for ((force, stiffness), &x) in values {
             Response { force: *force, stiffness: *stiffness } = self.at(x);
         }
     }
@@ -253,8 +274,8 @@ impl CurveEvaluator<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::BEYOND;
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+    use crate::law::BEYOND;
     use std::vec;
     use std::vec::Vec;
 
@@ -268,15 +289,15 @@ mod tests {
                 let mut along: Vec<f64> = displacements.iter().skip(first).step_by(stride).copied().collect();
                 let n = along.len();
                 along.extend([contact.slip_displacement; BEYOND]);
-                let (mut roots, mut forces, mut stiffnesses) = (vec![0.0; n + BEYOND], vec![0.0; n], vec![0.0; n]);
-                evaluator.along::<true>(&along, &mut roots, &mut forces, &mut stiffnesses);
-                for ((&x, &force), &stiffness) in along.iter().zip(&forces).zip(&stiffnesses) {
+                let [mut roots, mut forces, mut stiffnesses] = [(); 3].map(|()| vec![0.0; n + BEYOND]);
+                evaluator.along::<true>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                for ((&x, &force), &stiffness) in along.iter().zip(&forces).zip(&stiffnesses).take(n) {
                     let response = evaluator.at(x);
                     assert_eq!([response.force, response.stiffness], [force, stiffness], "{x}");
                 }
                 let with_stiffness = forces.clone();
-                evaluator.along::<false>(&along, &mut roots, &mut forces, &mut stiffnesses);
-                assert_eq!(forces, with_stiffness);
+                evaluator.along::<false>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                assert_eq!(forces[..n], with_stiffness[..n]);
             }
         }
     }

@@ -4,11 +4,11 @@
 
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::evaluator::{BEYOND, CurveEvaluator};
+use crate::constant_load::evaluator::CurveEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
-use crate::law::{Evaluator, Point, Response};
+use crate::law::{BEYOND, Evaluator, Point, Response};
 
 /// Evaluates force and stiffness on a branch without gross slip.
 #[derive(Debug, Clone, Copy)]
@@ -50,25 +50,30 @@ impl Evaluator for BranchEvaluator<'_> {
     #[inline(always)]
     fn along<const STIFFNESS: bool>(
         &self,
+        count: usize,
         displacement: &[f64],
         [distances, roots]: [&mut [f64]; 2],
         forces: &mut [f64],
         stiffnesses: &mut [f64],
     ) {
         let BranchEvaluator { branch, factor, limit, curve } = self;
-        let mut last = 0.0;
-        for (distance, &displacement) in distances.iter_mut().zip(displacement) {
-            *distance = branch.distance(curve.slip_displacement, displacement);
-            last = *distance;
+        let blocks = || count.div_ceil(4);
+        for (distance, x) in
+            distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0).take(blocks())
+        {
+            for k in 0..4 {
+                distance[k] = branch.distance(curve.slip_displacement, x[k]);
+            }
         }
-        let extent = displacement.len() + BEYOND;
-        let (Some(distances), Some(roots)) = (distances.get_mut(..extent), roots.get_mut(..extent)) else { return };
-        distances.iter_mut().skip(displacement.len()).for_each(|distance| *distance = last);
-        curve.along::<STIFFNESS>(distances, roots, forces, stiffnesses);
-        for force in forces {
-            *force = branch.start.force + factor * *force;
-            *force = if *force > *limit { *limit } else { *force };
-            *force = if *force < -limit { -limit } else { *force };
+        let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
+        distances.iter_mut().skip(count).take(BEYOND).for_each(|distance| *distance = last);
+        curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
+        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(blocks()) {
+            for k in 0..4 {
+                let sum = branch.start.force + factor * force[k];
+                let sum = if sum > *limit { *limit } else { sum };
+                force[k] = if sum < -limit { -limit } else { sum };
+            }
         }
     }
 }

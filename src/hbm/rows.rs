@@ -114,11 +114,6 @@ impl<'a> Rows<'a> {
         row_blocks(self.harmonics)
     }
 
-    #[inline(always)]
-    pub fn samples(&self) -> usize {
-        self.samples
-    }
-
     /// The strips of all samples; N is that of [`with_strips`].
     #[inline(always)]
     pub fn strips<const N: usize>(&self, strip: usize) -> RowStrips<'a, N> {

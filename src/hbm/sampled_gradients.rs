@@ -25,6 +25,7 @@ pub(super) struct Branches<'a> {
 /// Consecutive samples on a branch.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
+    /// Counted from the farthest sample.
     first: usize,
     count: usize,
     /// Number of reversals on the stack.
@@ -49,29 +50,16 @@ impl<'a> Branches<'a> {
         }
     }
 
-    /// The branches, the first of which starts at a sample.
     #[inline(always)]
-    fn from_sample(&self, mut first: usize, samples: usize) -> impl Iterator<Item = Branch> {
+    fn iter(&self) -> impl Iterator<Item = Branch> {
+        let mut first = 1;
         self.encoded.iter().take(self.used).map(move |word| {
             let word = word.to_bits();
             let branch = Branch { first, count: word as u32 as usize, depth: (word >> 32) as usize };
-            first = wrapped(first + branch.count, samples);
+            first += branch.count;
             branch
         })
     }
-}
-
-/// A sample of the next period as one of this.
-#[inline(always)]
-pub(super) fn wrapped(sample: usize, samples: usize) -> usize {
-    if sample >= samples { sample - samples } else { sample }
-}
-
-/// Consecutive samples as ranges that do not cross the end of the period.
-#[inline(always)]
-pub(super) fn ranges(first: usize, count: usize, samples: usize) -> [core::ops::Range<usize>; 2] {
-    let end = first + count;
-    if end <= samples { [first..end, 0..0] } else { [first..samples, 0..end - samples] }
 }
 
 /// Tables and memory.
@@ -86,26 +74,25 @@ pub(super) struct SampledGradients<'a> {
 }
 
 impl SampledGradients<'_> {
-    /// Gathers the terms along the branches.
+    /// Gathers the terms along the branches, from the farthest sample on, at which `stiffness` starts.
     #[inline(always)]
-    pub fn gather(&mut self, branches: &Branches, first: usize, stiffness: &[f64]) {
-        with_strips!(self.rows.blocks(), self.gather_strips(branches, first, stiffness))
+    pub fn gather(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+        with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness))
     }
 
     #[inline(always)]
-    fn gather_strips<const N: usize>(&mut self, branches: &Branches, first: usize, stiffness: &[f64]) {
+    fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
         let SampledGradients { rows, entries, sums, outer } = self;
         let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
-        let samples = rows.samples();
         outer.replace(|strip, terms| {
-            let mut stack = Stack { rows: rows.strips::<N>(strip), entries, sums, depth: 0, terms };
-            for branch in branches.from_sample(first, samples) {
+            let mut stack = Stack { rows: rows.strips::<N>(strip), farthest, entries, sums, depth: 0, terms };
+            for branch in branches.iter() {
                 stack.pop(branch.depth);
                 if branch.depth > stack.depth {
-                    let before = branch.first.checked_sub(1).unwrap_or(samples - 1);
+                    let before = branch.first - 1;
                     stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
                 }
-                stack.add(&branch, samples, stiffness);
+                stack.add(&branch, stiffness);
             }
             stack.pop(0);
         });
@@ -115,6 +102,7 @@ impl SampledGradients<'_> {
 /// The stack of reversals with their sums, in strips of N blocks.
 struct Stack<'s, 't, const N: usize> {
     rows: RowStrips<'s, N>,
+    farthest: usize,
     entries: &'s mut [[f64; ENTRY]],
     sums: &'s mut [[Strip<N>; 2]],
     depth: usize,
@@ -122,8 +110,15 @@ struct Stack<'s, 't, const N: usize> {
 }
 
 impl<const N: usize> Stack<'_, '_, N> {
+    /// The sample of the period.
+    #[inline(always)]
+    fn sample(&self, from_farthest: usize) -> usize {
+        (self.farthest + from_farthest) % self.rows.phi.len().max(1)
+    }
+
     #[inline(always)]
     fn push(&mut self, sample: usize, stiffness: f64) {
+        let sample = self.sample(sample);
         if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
             (*entry, *sums) = ([sample as f64, stiffness], [[[0.0; 4]; N]; 2]);
             self.depth += 1;
@@ -153,21 +148,23 @@ impl<const N: usize> Stack<'_, '_, N> {
 
     /// Adds the samples of a branch to the sums of the reversal that it leaves.
     #[inline(always)]
-    fn add(&mut self, branch: &Branch, samples: usize, stiffness: &[f64]) {
+    fn add(&mut self, branch: &Branch, stiffness: &[f64]) {
         let Branch { first, count, .. } = *branch;
+        let (from, to) = (self.sample(first), self.sample(first + count));
         let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };
-        add_scaled(covered, 1.0, &self.rows.sum_between(first, wrapped(first + count, samples), count));
-        for range in ranges(first, count, samples) {
-            let (rows, weights) = (self.rows.phi.get(range.clone()), stiffness.get(range));
-            subtract_weighted(y, rows.unwrap_or(&[]), weights.unwrap_or(&[]));
-        }
+        add_scaled(covered, 1.0, &self.rows.sum_between(from, to, count));
+        let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));
+        let (before_end, after_end) =
+            weights.split_at_checked(rows.len().saturating_sub(from)).unwrap_or((weights, &[]));
+        subtract_weighted(y, rows.get(from..).unwrap_or(&[]), before_end);
+        subtract_weighted(y, rows, after_end);
     }
 }
 
 /// Subtracts rows times weights, four rows at a time to shorten the chain of dependent operations.
 #[inline(always)]
 fn subtract_weighted<const N: usize>(target: &mut Strip<N>, rows: &[Strip<N>], weights: &[f64]) {
-    let ((row_blocks, last_rows), (weight_blocks, last_weights)) = (rows.as_chunks::<4>(), weights.as_chunks::<4>());
+    let ((weight_blocks, last_weights), row_blocks) = (weights.as_chunks::<4>(), rows.as_chunks::<4>().0);
     for ([a, b, c, d], weights) in row_blocks.iter().zip(weight_blocks) {
         for block in 0..N {
             for k in 0..4 {
@@ -177,7 +174,7 @@ fn subtract_weighted<const N: usize>(target: &mut Strip<N>, rows: &[Strip<N>], w
             }
         }
     }
-    for (row, weight) in last_rows.iter().zip(last_weights) {
+    for (row, weight) in rows.get(4 * weight_blocks.len()..).unwrap_or(&[]).iter().zip(last_weights) {
         add_scaled(target, -weight, row);
     }
 }

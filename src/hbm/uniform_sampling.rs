@@ -5,14 +5,14 @@
 //! the stiffness, and `sampled_gradients` adds the terms of the reversals.
 
 use super::HarmonicOutput;
-use super::folded_fourier::{self, FoldedFourier, continue_half_wave, sample_length};
+use super::folded_fourier::{self, FoldedFourier, sample_length};
 use super::fourier::normalise;
 use super::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
-use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients, ranges, wrapped};
+use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients};
 use super::sampled_jacobian::{self, Assembly};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::error::Error;
-use crate::law::{BranchRange, Evaluator, Law, Point, Reversal};
+use crate::law::{BEYOND, BranchRange, Evaluator, Law, Point, Reversal};
 use crate::tag::Kind;
 
 /// Lengths of the parts of a workspace.
@@ -51,8 +51,8 @@ impl WorkspaceLayout for Layout {
         HEADER
             + self.tables_length()
             + folded_fourier::scratch_length(samples, 2 * harmonics)
-            + 3 * sample_length(samples)
-            + 2 * padded(samples + 3)
+            + sample_length(samples)
+            + 5 * path_length(samples)
             + padded(3 * reversals)
             + gradients
             + outer_products_length::<1>(harmonics, reversals)
@@ -75,7 +75,9 @@ pub(super) struct Workspace<'a> {
     fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
-    samples: Samples<'a>,
+    /// Displacements, then forces or stiffnesses, at the samples of a period.
+    period: &'a mut [f64],
+    path: Path<'a>,
     gradients: SampledGradients<'a>,
     assembly: Assembly<'a>,
 }
@@ -93,19 +95,18 @@ impl<'a> Workspace<'a> {
         let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
         let rows = Rows::take(&mut parts, harmonics, count)?;
         fourier.take_scratch(&mut parts)?;
-        let mut array = || parts.take(sample_length(count));
-        let [displacement, force, stiffness] = [array()?, array()?, array()?];
-        let mut array = || parts.take(count + 3);
-        let scratch = [array()?, array()?];
+        let period = parts.take(sample_length(count))?;
+        let mut array = || parts.take(path_length(count));
+        let ([displacement, force, stiffness], scratch) = ([array()?, array()?, array()?], [array()?, array()?]);
         let branches = Branches::new(parts.take(BRANCH * capacity)?);
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
         let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(&mut parts, harmonics, capacity)?;
         let assembly = Assembly::take(&mut parts, size)?;
-        let samples = Samples { count, displacement, force, stiffness, scratch, branches };
+        let path = Path { displacement, force, stiffness, scratch, branches };
         let gradients = SampledGradients { rows, entries, sums, outer };
-        Ok(Workspace { size, fourier, reversals, samples, gradients, assembly })
+        Ok(Workspace { size, fourier, reversals, period, path, gradients, assembly })
     }
 
     /// 2H + 1.
@@ -122,38 +123,46 @@ pub(super) fn harmonic_force<'w, L: Law>(
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { size, fourier, reversals, samples, gradients, assembly } = workspace;
+    let Workspace { size, fourier, reversals, period, path, gradients, assembly } = workspace;
     let HarmonicOutput { force, jacobian, dissipated } = output;
     let count = size.samples;
-    fourier.synthesise(displacement, samples.displacement);
+    fourier.synthesise(displacement, period);
     let is_even = |c: usize| c.div_ceil(2).is_multiple_of(2);
     let half_wave_symmetric =
         is_even(count) && displacement.iter().enumerate().all(|(c, value)| !is_even(c) || *value == 0.0);
     let length = if half_wave_symmetric { count / 2 } else { count };
+    let farthest = farthest(period, length);
+    rotate(period.get(..count).unwrap_or(&[]), farthest, path.displacement);
+    if let Some(end) = path.displacement.get_mut(count) {
+        *end = at(period, farthest);
+    }
     let mut law = law(reversals, dissipated.is_some());
-    let first = if jacobian.is_some() {
-        samples.advance::<true, true, L>(&mut law, length)
+    if jacobian.is_some() {
+        path.advance::<true, true, L>(&mut law, length);
     } else if force.is_some() {
-        samples.advance::<true, false, L>(&mut law, length)
+        path.advance::<true, false, L>(&mut law, length);
     } else {
-        samples.advance::<false, false, L>(&mut law, length)
-    };
+        path.advance::<false, false, L>(&mut law, length);
+    }
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
-    if let Some(force) = force {
-        if half_wave_symmetric {
-            continue_half_wave(samples.force, first, count, -1.0);
+    // Back to the samples of the period, of which the farthest is the last on the path.
+    let mut sum = |values: &mut [f64], sign: f64, sums: &mut [f64]| {
+        let values = values.get_mut(1..=count).unwrap_or(&mut []);
+        if half_wave_symmetric && let Some((first, second)) = values.split_at_mut_checked(length) {
+            second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
         }
-        fourier.sum(samples.force, force);
+        rotate(values, count - 1 - farthest, period);
+        fourier.sum(period, sums);
+    };
+    if let Some(force) = force {
+        sum(path.force, -1.0, force);
         normalise(force, 1.0 / count as f64);
     }
     if let Some(jacobian) = jacobian {
-        gradients.gather(&samples.branches, first, samples.stiffness);
-        if half_wave_symmetric {
-            continue_half_wave(samples.stiffness, first, count, 1.0);
-        }
-        fourier.sum(samples.stiffness, assembly.sums);
+        gradients.gather(&path.branches, farthest, path.stiffness);
+        sum(path.stiffness, 1.0, assembly.sums);
         let length = size.coefficients().max(1);
         assembly.write_sums(jacobian.chunks_exact_mut(length));
         let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
@@ -161,10 +170,9 @@ pub(super) fn harmonic_force<'w, L: Law>(
     }
 }
 
-/// Values at the samples, and the branches on which they lie.
+/// Values at the samples in the order of time, from the farthest one on, and the branches on which they lie.
 #[derive(Debug)]
-struct Samples<'a> {
-    count: usize,
+struct Path<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],
     stiffness: &'a mut [f64],
@@ -173,80 +181,47 @@ struct Samples<'a> {
     branches: Branches<'a>,
 }
 
-impl Samples<'_> {
-    /// Advances the law from the farthest of the first `length` samples, along as many samples, and evaluates the force, and its
-    /// stiffness, if requested. Returns the first of them, the one after the farthest.
+/// Length of the arrays of a [`Path`].
+fn path_length(samples: usize) -> usize {
+    padded(samples + 1 + BEYOND)
+}
+
+impl Path<'_> {
+    /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
     #[inline(always)]
-    fn advance<const FORCE: bool, const STIFFNESS: bool, L: Law>(&mut self, law: &mut L, length: usize) -> usize {
-        let mut before = farthest(self.displacement, length);
-        let mut from = Point { displacement: at(self.displacement, before), force: 0.0 };
+    fn advance<const FORCE: bool, const STIFFNESS: bool, L: Law>(&mut self, law: &mut L, length: usize) {
+        let Path { displacement, force, stiffness, scratch, branches } = self;
+        let mut from = Point { displacement: at(displacement, 0), force: 0.0 };
         let response = law.begin(from.displacement);
         from.force = response.force;
-        if let Some(stiffness) = self.stiffness.get_mut(before) {
-            *stiffness = response.stiffness;
+        if let (Some(force), Some(stiffness)) = (force.first_mut(), stiffness.first_mut()) {
+            (*force, *stiffness) = (response.force, response.stiffness);
         }
-        self.branches.clear();
-        let first = wrapped(before + 1, self.count);
-        let (mut sample, mut remaining) = (first, length);
-        while remaining > 0 {
-            let displacement = at(self.displacement, sample);
-            law.advance(from, displacement);
+        branches.clear();
+        let mut next = 1;
+        while next <= length {
+            let entered = at(displacement, next);
+            law.advance(from, entered);
             let branch = law.branch();
-            let count = self.samples_on_branch(&branch, sample, remaining);
-            before = wrapped(sample + count - 1, self.count);
-            from.displacement = at(self.displacement, before);
+            let Some(rest) = displacement.get(next..) else { return };
+            let count = count_on_branch(rest, &branch).min(length + 1 - next);
+            branches.push(count, branch.depth);
+            from.displacement = at(displacement, next + count - 1);
             if count > 1 {
-                law.account_for(displacement, from.displacement);
+                law.account_for(entered, from.displacement);
             }
-            self.branches.push(count, branch.depth);
-            if FORCE {
-                self.evaluate::<STIFFNESS, L>(law, &branch, sample, count);
-                from.force = at(self.force, before);
+            if FORCE && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..)) {
+                if branch.gross_slip {
+                    let slip_force = law.response(0.0).force;
+                    force.iter_mut().take(count).for_each(|force| *force = slip_force);
+                    stiffness.iter_mut().take(count).for_each(|stiffness| *stiffness = 0.0);
+                } else {
+                    let [one, two] = scratch;
+                    law.evaluator().along::<STIFFNESS>(count, rest, [one, two], force, stiffness);
+                }
+                from.force = at(force, count - 1);
             }
-            sample = wrapped(sample + count, self.count);
-            remaining -= count;
-        }
-        first
-    }
-
-    /// Number of samples, at most `limit`, on a branch, the first of which is known to lie on it.
-    #[inline(always)]
-    fn samples_on_branch(&self, branch: &BranchRange, sample: usize, limit: usize) -> usize {
-        let [range, wrapped] = ranges(sample, limit, self.count);
-        let span = |range: core::ops::Range<usize>| self.displacement.get(range).unwrap_or(&[]);
-        let (present, next) = (span(range), span(wrapped));
-        let count = count_on_branch(present, branch.direction, branch.end);
-        let continues = |last: f64, next: f64| {
-            branch.direction * next >= branch.direction * last
-                && branch.direction * next < branch.direction * branch.end
-        };
-        match (present.last(), next.first()) {
-            (Some(&last), Some(&first)) if count == present.len() && continues(last, first) => {
-                count + count_on_branch(next, branch.direction, branch.end)
-            }
-            _ => count.max(1),
-        }
-    }
-
-    /// Evaluates consecutive samples on a branch.
-    #[inline(always)]
-    fn evaluate<const STIFFNESS: bool, L: Law>(&mut self, law: &L, branch: &BranchRange, sample: usize, count: usize) {
-        let evaluator = law.evaluator();
-        for range in ranges(sample, count, self.count) {
-            let (Some(displacement), Some(force), Some(stiffness)) = (
-                self.displacement.get(range.clone()),
-                self.force.get_mut(range.clone()),
-                self.stiffness.get_mut(range),
-            ) else {
-                return;
-            };
-            if branch.gross_slip {
-                force.fill(law.response(0.0).force);
-                stiffness.fill(0.0);
-            } else {
-                let [one, two] = &mut self.scratch;
-                evaluator.along::<STIFFNESS>(displacement, [one, two], force, stiffness);
-            }
+            next += count;
         }
     }
 }
@@ -256,20 +231,37 @@ fn at(values: &[f64], index: usize) -> f64 {
     values.get(index).copied().unwrap_or(0.0)
 }
 
-/// Number of samples before the first after which the motion reverses, or reaches the end of the branch.
+/// Copies a period so that it starts at a sample.
 #[inline(always)]
-fn count_on_branch(samples: &[f64], direction: f64, end: f64) -> usize {
-    let end = direction * end;
-    let continues = |last: f64, next: f64| direction * next >= direction * last && direction * next < end;
+fn rotate(from: &[f64], first: usize, to: &mut [f64]) {
+    let (before, after) = from.split_at_checked(first).unwrap_or((from, &[]));
+    to.iter_mut().zip(after).for_each(|(to, from)| *to = *from);
+    let to = to.get_mut(after.len()..).unwrap_or(&mut []);
+    to.iter_mut().zip(before).for_each(|(to, from)| *to = *from);
+}
+
+/// Number of samples, the first included, before the motion reverses or reaches the end of the branch.
+#[inline(always)]
+fn count_on_branch(samples: &[f64], branch: &BranchRange) -> usize {
+    let (direction, end) = (branch.direction, branch.direction * branch.end);
+    let continues = |last: f64, next: f64| (direction * next >= direction * last) & (direction * next < end);
     let later = samples.get(1..).unwrap_or(&[]);
-    let blocks = samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0);
-    let whole = 4 * blocks
-        .take_while(|([a, b, c, d], [e, f, g, h])| {
-            continues(*a, *e) & continues(*b, *f) & continues(*c, *g) & continues(*d, *h)
-        })
-        .count();
-    let pairs = samples.iter().zip(later).skip(whole);
-    whole + pairs.take_while(|(last, next)| continues(**last, **next)).count() + usize::from(!samples.is_empty())
+    let mut count = 1;
+    for ([a, b, c, d], [e, f, g, h]) in samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0) {
+        if continues(*a, *e) & continues(*b, *f) & continues(*c, *g) & continues(*d, *h) {
+            count += 4;
+            continue;
+        }
+        for (last, next) in [(a, e), (b, f), (c, g)] {
+            if !continues(*last, *next) {
+                break;
+            }
+            count += 1;
+        }
+        return count;
+    }
+    let rest = samples.iter().zip(later).skip(count - 1);
+    count + rest.take_while(|(last, next)| continues(**last, **next)).count()
 }
 
 /// Index of the first of the leading `count` samples with the largest magnitude.
@@ -289,7 +281,9 @@ fn farthest(displacement: &[f64], count: usize) -> usize {
     for value in remainder {
         largest = larger(largest, value.abs());
     }
-    samples.iter().position(|value| value.abs() == largest).unwrap_or(0)
+    let has = |block: &[f64; 4]| block.iter().any(|value| value.abs() == largest);
+    let before = 4 * blocks.iter().position(has).unwrap_or(blocks.len());
+    before + samples.iter().skip(before).position(|value| value.abs() == largest).unwrap_or(0)
 }
 
 #[cfg(test)]
