@@ -57,23 +57,28 @@ impl Evaluator for BranchEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         let BranchEvaluator { branch, factor, limit, curve } = self;
-        let blocks = || count.div_ceil(4);
-        for (distance, x) in
-            distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0).take(blocks())
-        {
+        let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+        for (block, &x) in blocks.take(count.div_ceil(4)) {
+            // Stored together: otherwise they could overlap the next displacement.
+            let mut distances = [0.0; 4];
             for k in 0..4 {
-                distance[k] = branch.distance(curve.slip_displacement, x[k]);
+                distances[k] = branch.distance(curve.slip_displacement, x[k]);
             }
+            *block = distances;
         }
         let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
-        distances.iter_mut().skip(count).take(BEYOND).for_each(|distance| *distance = last);
+        if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
+            *beyond = [last; BEYOND];
+        }
         curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
-        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(blocks()) {
-            for k in 0..4 {
-                let sum = branch.start.force + factor * force[k];
-                let sum = if sum > *limit { *limit } else { sum };
-                force[k] = if sum < -limit { -limit } else { sum };
+        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
+            let mut sums = *force;
+            for sum in &mut sums {
+                *sum = branch.start.force + factor * *sum;
+                *sum = if *sum > *limit { *limit } else { *sum };
+                *sum = if *sum < -limit { -limit } else { *sum };
             }
+            *force = sums;
         }
     }
 }

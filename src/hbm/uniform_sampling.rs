@@ -281,7 +281,7 @@ fn farthest(displacement: &[f64], count: usize) -> usize {
     for value in remainder {
         largest = larger(largest, value.abs());
     }
-    let has = |block: &[f64; 4]| block.iter().any(|value| value.abs() == largest);
+    let has = |block: &[f64; 4]| block.iter().fold(false, |has, value| has | (value.abs() == largest));
     let before = 4 * blocks.iter().position(has).unwrap_or(blocks.len());
     before + samples.iter().skip(before).position(|value| value.abs() == largest).unwrap_or(0)
 }
