@@ -174,7 +174,7 @@ pub(crate) fn outer_products_length<const D: usize>(harmonics: usize, capacity: 
 /// One strip of the rows of [`OuterProducts`].
 #[derive(Debug)]
 pub(crate) struct Terms<'a, const N: usize, const D: usize> {
-    pub count: usize,
+    count: &'a mut usize,
     y: &'a mut [[Strip<N>; D]],
     phi: &'a mut [Strip<N>],
 }
@@ -183,10 +183,15 @@ impl<const N: usize, const D: usize> Terms<'_, N, D> {
     /// Appends a term.
     #[inline(always)]
     pub fn push(&mut self, y: [Strip<N>; D], phi: &Strip<N>) {
-        if let (Some(y_place), Some(phi_place)) = (self.y.get_mut(self.count), self.phi.get_mut(self.count)) {
+        if let (Some(y_place), Some(phi_place)) = (self.y.get_mut(*self.count), self.phi.get_mut(*self.count)) {
             (*y_place, *phi_place) = (y, *phi);
-            self.count += 1;
+            *self.count += 1;
         }
+    }
+
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        *self.count
     }
 
     /// Rows Y of a term.
@@ -211,21 +216,22 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         self.count == 0
     }
 
-    /// Replaces all terms by those that a function appends, strip by strip; all strips have the same number.
+    /// Number of strips of N blocks.
     #[inline(always)]
-    pub fn replace<const N: usize>(&mut self, mut terms_of: impl FnMut(usize, &mut Terms<N, D>)) {
-        let mut count = 0;
-        for strip in 0..(self.row_blocks / N).max(1) {
-            let range = strip * self.capacity..(strip + 1) * self.capacity;
-            let mut terms = Terms {
-                count: 0,
-                y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()).unwrap_or(&mut []),
-                phi: self.phi.as_chunks_mut().0.get_mut(range).unwrap_or(&mut []),
-            };
-            terms_of(strip, &mut terms);
-            count = terms.count;
+    pub fn strips<const N: usize>(&self) -> usize {
+        (self.row_blocks / N).max(1)
+    }
+
+    /// A strip of the terms, without any: the same number must be appended to each strip.
+    #[inline(always)]
+    pub fn terms<const N: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
+        let range = strip * self.capacity..(strip + 1) * self.capacity;
+        self.count = 0;
+        Terms {
+            count: &mut self.count,
+            y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()).unwrap_or(&mut []),
+            phi: self.phi.as_chunks_mut().0.get_mut(range).unwrap_or(&mut []),
         }
-        self.count = count;
     }
 
     /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
@@ -238,7 +244,7 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
     fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
         let y_rows = self.y.as_chunks::<N>().0.as_chunks::<D>().0;
         let phi_rows = self.phi.as_chunks::<N>().0;
-        let strips = (self.row_blocks / N).max(1);
+        let strips = self.strips::<N>();
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
             columns.fill([[0.0; 4]; N]);

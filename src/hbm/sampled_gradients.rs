@@ -84,8 +84,9 @@ impl SampledGradients<'_> {
     fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
         let SampledGradients { rows, entries, sums, outer } = self;
         let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
-        outer.replace(|strip, terms| {
-            let mut stack = Stack { rows: rows.strips::<N>(strip), farthest, entries, sums, depth: 0, terms };
+        for strip in 0..outer.strips::<N>() {
+            let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
+            let mut stack = Stack { rows, farthest, entries, sums, depth: 0, terms };
             for branch in branches.iter() {
                 stack.pop(branch.depth);
                 if branch.depth > stack.depth {
@@ -95,21 +96,21 @@ impl SampledGradients<'_> {
                 stack.add(&branch, stiffness);
             }
             stack.pop(0);
-        });
+        }
     }
 }
 
 /// The stack of reversals with their sums, in strips of N blocks.
-struct Stack<'s, 't, const N: usize> {
+struct Stack<'s, const N: usize> {
     rows: RowStrips<'s, N>,
     farthest: usize,
     entries: &'s mut [[f64; ENTRY]],
     sums: &'s mut [[Strip<N>; 2]],
     depth: usize,
-    terms: &'s mut Terms<'t, N, 1>,
+    terms: Terms<'s, N, 1>,
 }
 
-impl<const N: usize> Stack<'_, '_, N> {
+impl<const N: usize> Stack<'_, N> {
     /// The sample of the period.
     #[inline(always)]
     fn sample(&self, from_farthest: usize) -> usize {
@@ -165,16 +166,18 @@ impl<const N: usize> Stack<'_, '_, N> {
 #[inline(always)]
 fn subtract_weighted<const N: usize>(target: &mut Strip<N>, rows: &[Strip<N>], weights: &[f64]) {
     let ((weight_blocks, last_weights), row_blocks) = (weights.as_chunks::<4>(), rows.as_chunks::<4>().0);
+    let mut sums = *target;
     for ([a, b, c, d], weights) in row_blocks.iter().zip(weight_blocks) {
         for block in 0..N {
             for k in 0..4 {
                 let one = weights[0] * a[block][k] + weights[1] * b[block][k];
                 let two = weights[2] * c[block][k] + weights[3] * d[block][k];
-                target[block][k] -= one + two;
+                sums[block][k] -= one + two;
             }
         }
     }
     for (row, weight) in rows.get(4 * weight_blocks.len()..).unwrap_or(&[]).iter().zip(last_weights) {
-        add_scaled(target, -weight, row);
+        add_scaled(&mut sums, -weight, row);
     }
+    *target = sums;
 }

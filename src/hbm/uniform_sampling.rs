@@ -147,26 +147,43 @@ pub(super) fn harmonic_force<'w, L: Law>(
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
-    // Back to the samples of the period, of which the farthest is the last on the path.
-    let mut sum = |values: &mut [f64], sign: f64, sums: &mut [f64]| {
-        let values = values.get_mut(1..=count).unwrap_or(&mut []);
-        if half_wave_symmetric && let Some((first, second)) = values.split_at_mut_checked(length) {
-            second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
-        }
-        rotate(values, count - 1 - farthest, period);
-        fourier.sum(period, sums);
-    };
+    let order = Order { count, farthest, half_wave_symmetric };
     if let Some(force) = force {
-        sum(path.force, -1.0, force);
+        order.copy_to_period(path.force, -1.0, period);
+        fourier.sum(period, force);
         normalise(force, 1.0 / count as f64);
     }
     if let Some(jacobian) = jacobian {
         gradients.gather(&path.branches, farthest, path.stiffness);
-        sum(path.stiffness, 1.0, assembly.sums);
+        order.copy_to_period(path.stiffness, 1.0, period);
+        fourier.sum(period, assembly.sums);
         let length = size.coefficients().max(1);
         assembly.write_sums(jacobian.chunks_exact_mut(length));
         let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
         assembly.add_products(&gradients.outer, 0, symmetry, jacobian.chunks_exact_mut(length));
+    }
+}
+
+/// Order of the samples on a path.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    count: usize,
+    farthest: usize,
+    half_wave_symmetric: bool,
+}
+
+impl Order {
+    /// Copies values of a path, which ends at the farthest sample, to the samples of the period. Under half-wave symmetry the path is
+    /// first completed by values of the given sign.
+    #[inline(always)]
+    fn copy_to_period(&self, path: &mut [f64], sign: f64, period: &mut [f64]) {
+        let values = path.get_mut(1..=self.count).unwrap_or(&mut []);
+        if self.half_wave_symmetric
+            && let Some((first, second)) = values.split_at_mut_checked(self.count / 2)
+        {
+            second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
+        }
+        rotate(values, self.count - 1 - self.farthest, period);
     }
 }
 

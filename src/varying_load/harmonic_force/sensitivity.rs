@@ -174,12 +174,12 @@ impl Sensitivity<'_> {
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
         let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
         let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
-        outer.replace(|strip, terms| {
+        for strip in 0..outer.strips::<N>() {
             places.fill(-1.0);
-            let rows = rows.strips(strip);
+            let (rows, terms) = (rows.strips(strip), outer.terms(strip));
             let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
             gathering.gather(runs.clone(), own_by_u, own_by_input);
-        });
+        }
     }
 }
 
@@ -194,7 +194,7 @@ pub(super) struct Cuts<'c> {
 }
 
 /// The derivatives in strips of N blocks.
-struct Gathering<'c, 't, const N: usize> {
+struct Gathering<'c, const N: usize> {
     context: &'c Context<'c>,
     cuts: &'c Cuts<'c>,
     rows: RowStrips<'c, N>,
@@ -203,10 +203,10 @@ struct Gathering<'c, 't, const N: usize> {
     depth: usize,
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
-    terms: &'c mut Terms<'t, N, 2>,
+    terms: Terms<'c, N, 2>,
 }
 
-impl<const N: usize> Gathering<'_, '_, N> {
+impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn gather(&mut self, runs: Runs, by_u: &mut [f64], by_input: &mut [f64]) {
         let Context { element, samples, .. } = *self.context;
@@ -417,7 +417,7 @@ impl<const N: usize> Gathering<'_, '_, N> {
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
         let Some(place) = self.places.get_mut(sample) else { return };
         if *place < 0.0 {
-            *place = self.terms.count as f64;
+            *place = self.terms.count() as f64;
             if let Some(phi) = self.rows.phi.get(sample) {
                 self.terms.push([scaled(by_u, row), scaled(by_input, row)], phi);
             }
