@@ -174,12 +174,21 @@ impl<'a> FoldedFourier<'a> {
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
         let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
+        let upwards = |first: usize| values.get(first..).unwrap_or(&[]).as_chunks::<4>().0.iter();
+        let downwards = |first: usize| values.get(..=first).unwrap_or(&[]).as_rchunks::<4>().1.iter().rev();
+        let mut blocks = upwards(0).zip(downwards(samples)).zip(upwards(half)).zip(downwards(half));
         for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
-            let here = load(values, first);
-            let mirrored = load_reversed(values, samples.checked_sub(first));
             if samples.is_multiple_of(2) {
-                let opposite = load(values, half + first);
-                let mirrored_opposite = load_reversed(values, half.checked_sub(first));
+                // Checked one by one only if there are few samples.
+                let [here, mirrored, opposite, mirrored_opposite] = match blocks.next() {
+                    Some((((a, b), c), d)) => [*a, reversed(*b), *c, reversed(*d)],
+                    None => [
+                        load(values, first),
+                        load_reversed(values, samples.checked_sub(first)),
+                        load(values, half + first),
+                        load_reversed(values, half.checked_sub(first)),
+                    ],
+                };
                 let (e, o) = (add(here, opposite), subtract(here, opposite));
                 let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
                 *folded = [
@@ -189,6 +198,7 @@ impl<'a> FoldedFourier<'a> {
                     times(*weights, subtract(e, em)),
                 ];
             } else {
+                let (here, mirrored) = (load(values, first), load_reversed(values, samples.checked_sub(first)));
                 let (cosines, sines) =
                     (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
                 *folded = [cosines, sines, cosines, sines];
@@ -251,6 +261,11 @@ fn load(values: &[f64], first: usize) -> [f64; 4] {
         Some(block) => *block,
         None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(0.0)),
     }
+}
+
+#[inline(always)]
+fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    [d, c, b, a]
 }
 
 /// Four consecutive values downwards from `first`.
