@@ -157,8 +157,9 @@ impl<const N: usize> Stack<'_, N> {
         let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));
         let (before_end, after_end) =
             weights.split_at_checked(rows.len().saturating_sub(from)).unwrap_or((weights, &[]));
-        subtract_weighted(y, rows.get(from..).unwrap_or(&[]), before_end);
-        subtract_weighted(y, rows, after_end);
+        for (rows, weights) in [(rows.get(from..).unwrap_or(&[]), before_end), (rows, after_end)] {
+            subtract_weighted(y, rows, weights);
+        }
     }
 }
 
