@@ -237,7 +237,7 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
     /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
     #[inline(always)]
     pub fn products(&self, index: usize, products: &mut Blocks) {
-        with_strips!(self.row_blocks, self.products_of(index, products))
+        with_strips!(self.row_blocks, self.products_of(index, products));
     }
 
     #[inline(always)]

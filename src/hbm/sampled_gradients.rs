@@ -77,7 +77,7 @@ impl SampledGradients<'_> {
     /// Gathers the terms along the branches, from the farthest sample on, at which `stiffness` starts.
     #[inline(always)]
     pub fn gather(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
-        with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness))
+        with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness));
     }
 
     #[inline(always)]

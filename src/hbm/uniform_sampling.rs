@@ -261,7 +261,11 @@ fn rotate(from: &[f64], first: usize, to: &mut [f64]) {
 #[inline(always)]
 fn count_on_branch(samples: &[f64], branch: &BranchRange) -> usize {
     let (direction, end) = (branch.direction, branch.direction * branch.end);
-    let continues = |last: f64, next: f64| (direction * next >= direction * last) & (direction * next < end);
+    let continues = |last: f64, next: f64| {
+        let (last, next) = (direction * last, direction * next);
+        let (continues, is_inside) = (next >= last, next < end);
+        continues & is_inside
+    };
     let later = samples.get(1..).unwrap_or(&[]);
     let mut count = 1;
     for ([a, b, c, d], [e, f, g, h]) in samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0) {

@@ -167,7 +167,7 @@ impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(always)]
     pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
-        with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs))
+        with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
     }
 
     #[inline(always)]
