@@ -439,16 +439,16 @@ impl StiffnessTable {
         inner[1].iter_mut().zip(n).for_each(|(power, n)| *power *= -4.0 / PI * n / (n + 2.0));
         self.inner = inner.each_ref().map(rows);
 
-        let mut moments = [first.moments(&OF_FIRST); PIECES + 1];
+        // Those of the first piece, of the others, and of what remains, where the stiffness is constant.
+        let mut moments = [first.moments(&OF_FIRST); PIECES + 2];
         moments.iter_mut().skip(1).zip(others).for_each(|(moments, other)| *moments = other.moments(&OF_OTHERS));
-        // What remains of the curve is constant.
-        if let (Some(last), [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }]) =
-            (moments.last_mut(), others)
         {
-            let rest = scale * (1.0 / 256.0);
-            last.powers[0][0] += rest * phi;
-            last.powers[0][1] += rest * decrease;
-            last.roots[0] += 2.0 * rest.sqrt() * phi;
+            let [.., rest] = &mut moments;
+            let [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }] = others;
+            let size = scale * (1.0 / 256.0);
+            *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; 2]; _] };
+            rest.roots[0] = 2.0 * size.sqrt() * phi;
+            rest.powers[0] = [size * phi, size * decrease];
         }
         // From the smallest piece on.
         let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| moments.iter().skip(from).rev().map(of).sum::<f64>();
