@@ -7,16 +7,16 @@
 //! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
-//! - `walk`: the memory diagram along the period, without evaluating any force;
+//! - `periodic_path`: the memory diagram along the period, without evaluating any force;
 //! - `tractions`: the forces;
 //! - `sensitivity`: their exact derivatives;
 //! - `energy`: dissipation.
 
 mod energy;
+mod periodic_path;
 mod samples;
 mod sensitivity;
 mod tractions;
-mod walk;
 
 pub use crate::hbm::HarmonicOutput;
 
@@ -29,10 +29,10 @@ use crate::hbm::sampled_jacobian::{self, Assembly};
 use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
 use crate::tag::Kind;
 use crate::varying_load::element::Element;
+use periodic_path::{KNOT, PeriodicPath, RUN};
 use samples::{Part, Samples};
 use sensitivity::{Context, Cuts, PIECE, Sensitivity};
 use tractions::Tractions;
-use walk::{KNOT, RUN, Walk};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
@@ -103,12 +103,12 @@ impl WorkspaceLayout for Layout {
 
     fn length(&self) -> usize {
         let Size { harmonics, samples } = self.0;
-        let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
+        let path = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
             + folded_fourier::scratch_length(samples, 2 * harmonics)
             + SAMPLE_ARRAYS * sample_length(samples)
-            + walk
+            + path
             + 2 * self.pieces_length()
             + outer_products_length::<2>(harmonics, samples)
             + sampled_jacobian::memory_length(harmonics)
@@ -129,7 +129,7 @@ pub struct Workspace<'a> {
     size: Size,
     fourier: FoldedFourier<'a>,
     samples: Samples<'a>,
-    walk: Walk<'a>,
+    path: PeriodicPath<'a>,
     tractions: Tractions<'a>,
     sensitivity: Sensitivity<'a>,
     assembly: Assembly<'a>,
@@ -171,7 +171,7 @@ impl<'a> Workspace<'a> {
             last_cut_load: array()?,
         };
         let (own, places) = ([array()?, array()?], array()?);
-        let walk = Walk {
+        let path = PeriodicPath {
             knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
             runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
             cut_shift,
@@ -181,7 +181,7 @@ impl<'a> Workspace<'a> {
         let outer = OuterProducts::take(&mut parts, harmonics, count)?;
         let assembly = Assembly::take(&mut parts, size)?;
         let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
-        Ok(Workspace { size, fourier, samples, walk, tractions, sensitivity, assembly })
+        Ok(Workspace { size, fourier, samples, path, tractions, sensitivity, assembly })
     }
 
     /// 2H + 1.
@@ -238,17 +238,17 @@ pub fn harmonic_force(
     let needs_forces = force.is_some() || jacobian.is_some();
     let mut part = None;
     if has_friction && (needs_forces || dissipated.is_some()) {
-        let Workspace { fourier, samples, walk, tractions, sensitivity, .. } = workspace;
+        let Workspace { fourier, samples, path, tractions, sensitivity, .. } = workspace;
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
-            let extent = walk.evaluate(element, samples, part);
-            let runs = walk.runs(extent, part, samples.count);
-            tractions.evaluate(element, samples, walk.cuts(extent), runs.clone(), jacobian.is_some());
+            let extent = path.evaluate(element, samples, part);
+            let runs = path.runs(extent, part, samples.count);
+            tractions.evaluate(element, samples, path.cuts(extent), runs.clone(), jacobian.is_some());
             if jacobian.is_some() {
                 let context = Context { element, samples, part };
                 let cuts = Cuts {
-                    shifts: walk.cut_shift,
+                    shifts: path.cut_shift,
                     loads: tractions.cut_load,
                     stiffnesses: tractions.cut_stiffness,
                     slopes: tractions.slope,
@@ -258,8 +258,8 @@ pub fn harmonic_force(
         }
     }
     if let Some(dissipated) = dissipated {
-        let Workspace { samples, walk, .. } = workspace;
-        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, walk.diagram()));
+        let Workspace { samples, path, .. } = workspace;
+        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
         *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {

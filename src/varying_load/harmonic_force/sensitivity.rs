@@ -19,8 +19,8 @@
 use crate::hbm::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
 use crate::hbm::workspace::Blocks;
 use crate::varying_load::element::Element;
+use crate::varying_load::harmonic_force::periodic_path::{Kind, Run, Runs, closing};
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at};
-use crate::varying_load::harmonic_force::walk::{Kind, Run, Runs, closing};
 
 /// Doubles of a piece in the workspace.
 pub(super) const PIECE: usize = 6;
@@ -47,7 +47,7 @@ struct Piece {
     made: Made,
     /// The sample that made it.
     sample: usize,
-    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the walk.
+    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
     weights: [f64; 2],
     since: usize,
     /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
@@ -58,7 +58,7 @@ struct Piece {
     stored: bool,
 }
 
-/// A run that cuts a piece: its samples, counted along the walk, and the first of its packed boundaries.
+/// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     step: usize,
