@@ -1,4 +1,5 @@
-/* task_harmonic.c: harmonic force of a motion of one to nine harmonics from samples, with and without its Jacobian. */
+/* task_harmonic.c: harmonic force of a motion of one to nine harmonics from samples, with and without its Jacobian; and the same for
+ * motions with odd harmonics only and for general ones, to be compared with one spring-slider. */
 #include "cases.h"
 
 #include <math.h>
@@ -34,7 +35,8 @@ static double first_harmonic(const double *got, const double *exact)
     return hypot(got[1] - exact[1], got[2] - exact[2]) / hypot(exact[1], exact[2]);
 }
 
-typedef struct { int harmonics, samples, jacobian; const double *displacement, *exact, *sums; } call;
+/* exact: NULL if errors are not measured. */
+typedef struct { const char *task; int harmonics, samples, jacobian; const double *displacement, *exact, *sums; } call;
 
 static job *add(const call *c, const char *method, job j, double parameter)
 {
@@ -42,14 +44,14 @@ static job *add(const call *c, const char *method, job j, double parameter)
     *kept = j;
     kept->jacobian_requested = c->jacobian;
     memcpy(kept->displacement, c->displacement, sizeof(double) * (size_t)(2 * c->harmonics + 1));
-    entry *e = entry_add("harmonic", method, run, kept, 1);
+    entry *e = entry_add(c->task, method, run, kept, 1);
     e->harmonics = c->harmonics;
     e->samples = c->samples;
     e->jacobian = c->jacobian;
     e->parameter = parameter;
     run(kept);
-    e->error = first_harmonic(kept->force, c->exact);
-    if (c->samples == COMPARED) {
+    e->error = c->exact ? first_harmonic(kept->force, c->exact) : e->error;
+    if (c->exact && c->samples == COMPARED) {
         e->sample_error = first_harmonic(kept->force, c->sums);
     }
     return kept;
@@ -96,6 +98,25 @@ static void add_methods(const test_case *t, const call *c, const extent *x, cons
     }
 }
 
+/* Motions with a mean and all harmonics, and with odd harmonics only. */
+static void add_ratios(const test_case *t, int harmonics, const double *general, const sliders *jenkins)
+{
+    double odd[MOST];
+    for (int i = 0; i < 2 * harmonics + 1; ++i) {
+        odd[i] = (i + 1) / 2 % 2 ? general[i] : 0.0;
+    }
+    for (int k = 0; k < 12; ++k) {
+        const int samples = 64 << k % 3, jacobian = k / 3 % 2, is_odd = k / 6;
+        const call c = { is_odd ? "odd motion" : "general motion", harmonics, samples, jacobian, is_odd ? odd : general, NULL, NULL };
+        job j = { .contact = &t->contact, .workspace = workspace_of(harmonics, samples, MSLIP_UNIFORM_SAMPLING) };
+        add(&c, "microslip", j, -1.0);
+        j = (job) { .method = jenkins_aft, .sliders = jenkins, .aft = aft_of(harmonics, samples) };
+        add(&c, "spring-slider", j, -1.0);
+        j.method = sliders_aft;
+        add(&c, "spring-slider by reversals", j, -1.0);
+    }
+}
+
 void task_harmonic(const test_case *t, const extent *x)
 {
     for (int o = 0; o < x->orders; ++o) {
@@ -111,10 +132,11 @@ void task_harmonic(const test_case *t, const extent *x)
             truth(&t->parameters, "harmonic", 1 + coefficients, arguments, coefficients, sums);
             for (int samples = x->least_samples; samples <= x->most_samples; samples *= 2) {
                 for (int jacobian = 0; samples > 2 * harmonics && jacobian <= 1; ++jacobian) {
-                    const call c = { harmonics, samples, jacobian, arguments + 1, exact, sums };
+                    const call c = { "harmonic", harmonics, samples, jacobian, arguments + 1, exact, sums };
                     add_methods(t, &c, x, &jenkins);
                 }
             }
+            add_ratios(t, harmonics, arguments + 1, &jenkins);
             measure(first, t->shape, x->amplitude[a], mark);
         }
     }

@@ -142,7 +142,7 @@ static inline double clamped(double trial, double limit)
 }
 
 /* Forces of the steady state; returns the sample at which its period starts. */
-static int walk(varying_aft *a, const varying_slider *s, const double *displacement)
+static int advance(varying_aft *a, const varying_slider *s, const double *displacement)
 {
     const int n = a->samples;
     double u[MOST_SAMPLES], least = INFINITY, force = 0.0;
@@ -244,7 +244,7 @@ static inline void add_outer(double *restrict matrix, const double *row, const d
 void varying_slider_stepped(varying_aft *a, const varying_slider *s, const double *displacement, double *force, double *jacobian)
 {
     static const double zeros[MOST_ROW];
-    const int start = walk(a, s, displacement), stride = a->stride, c = a->coefficients, n = a->samples;
+    const int start = advance(a, s, displacement), stride = a->stride, c = a->coefficients, n = a->samples;
     analyse(a, a->force, force);
     analyse(a, a->normal, force + c);
     if (!jacobian) {
@@ -305,7 +305,7 @@ static void products(const varying_aft *a, const double *sums, double *matrix)
 
 void varying_slider_by_runs(varying_aft *a, const varying_slider *s, const double *displacement, double *force, double *jacobian)
 {
-    const int start = walk(a, s, displacement), stride = a->stride, c = a->coefficients, n = a->samples, width = a->width;
+    const int start = advance(a, s, displacement), stride = a->stride, c = a->coefficients, n = a->samples, width = a->width;
     analyse(a, a->force, force);
     analyse(a, a->normal, force + c);
     if (!jacobian) {

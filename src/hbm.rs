@@ -18,10 +18,11 @@
 mod event_driven;
 pub(crate) mod folded_fourier;
 pub(crate) mod fourier;
-mod fourier_sums;
 mod jacobian;
 mod motion;
+pub(crate) mod rows;
 mod sampled_gradients;
+pub(crate) mod sampled_jacobian;
 mod segments;
 mod uniform_sampling;
 pub(crate) mod workspace;
@@ -100,6 +101,7 @@ pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize, Rule), Erro
 pub struct Workspace<'a>(ByRule<'a>);
 
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "it lives on the stack during a call; there is no heap")]
 enum ByRule<'a> {
     UniformSampling(uniform_sampling::Workspace<'a>),
     EventDriven(event_driven::Workspace<'a>),

@@ -34,9 +34,23 @@ pub(crate) struct BranchRange {
     pub gross_slip: bool,
 }
 
+/// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
+pub(crate) const BEYOND: usize = 6;
+
 /// Evaluates the response at displacements on one branch without gross slip.
 pub(crate) trait Evaluator: Copy {
     fn at(&self, displacement: f64) -> Response;
+
+    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, with the same bits. All arrays, of
+    /// which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are overwritten.
+    fn along<const STIFFNESS: bool>(
+        &self,
+        count: usize,
+        displacement: &[f64],
+        scratch: [&mut [f64]; 2],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    );
 }
 
 /// A contact law in the steady state of a periodic displacement.

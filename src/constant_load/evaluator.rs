@@ -5,8 +5,8 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
-use crate::constant_load::interpolant::ForceInterpolant;
-use crate::law::Response;
+use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
+use crate::law::{BEYOND, Response};
 use crate::shape::stick_zone::Complement;
 
 /// Evaluates force and stiffness on the monotonic curve.
@@ -92,6 +92,39 @@ impl Contact {
     }
 }
 
+/// Four values from an index on.
+#[inline(always)]
+fn block(values: &[f64], first: usize) -> Option<&[f64; 4]> {
+    values.get(first..first + 4)?.first_chunk()
+}
+
+/// Number of leading values, the first included, for which a condition holds that is monotone: seldom fewer than all.
+#[inline(always)]
+fn leading(values: &[f64; 4], condition: impl Fn(f64) -> bool) -> usize {
+    let [_, second, third, fourth] = *values;
+    if condition(fourth) { 4 } else { 1 + usize::from(condition(second)) + usize::from(condition(third)) }
+}
+
+/// Stores results from an index on.
+#[inline(always)]
+fn store<const STIFFNESS: bool>(
+    forces: &mut [f64],
+    stiffnesses: &mut [f64],
+    first: usize,
+    force: [f64; 4],
+    stiffness: [f64; 4],
+) {
+    let put = |values: &mut [f64], block: [f64; 4]| {
+        if let Some(place) = values.get_mut(first..first + 4).and_then(|rest| rest.first_chunk_mut()) {
+            *place = block;
+        }
+    };
+    put(forces, force);
+    if STIFFNESS {
+        put(stiffnesses, stiffness);
+    }
+}
+
 impl CurveEvaluator<'_> {
     /// At a displacement >= 0.
     #[inline(always)]
@@ -114,6 +147,100 @@ impl CurveEvaluator<'_> {
             return Response { force, stiffness: self.outer_stiffness * slope };
         }
         self.contact.solved_response(displacement)
+    }
+
+    /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
+    /// evaluated at once: the arrays have at least [`BEYOND`] more values than the `count` displacements, those of displacements not
+    /// below the last; `roots` is scratch memory.
+    #[inline(always)]
+    pub fn along<const STIFFNESS: bool>(
+        &self,
+        count: usize,
+        displacement: &[f64],
+        roots: &mut [f64],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let mut next = 0;
+        if self.elliptic {
+            let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(count);
+            for ((force, stiffness), &x) in values {
+                Response { force: *force, stiffness: *stiffness } = self.elliptic_at(x, self.slip_displacement - x);
+            }
+            return;
+        }
+        if self.interpolant.is_converged() {
+            while next < count
+                && let Some(x) = block(displacement, next)
+                && x[0] * self.inner_scale <= 1.0
+            {
+                let (force, stiffness) = self.four_inner::<STIFFNESS>(x);
+                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                next += leading(x, |x| x * self.inner_scale <= 1.0);
+            }
+            if let (Some(roots), Some(displacement)) = (roots.get_mut(next..), displacement.get(next..)) {
+                let blocks = roots.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+                for (root, &x) in blocks.take((count + BEYOND).saturating_sub(next).div_ceil(4)) {
+                    let mut roots = [0.0; 4];
+                    for k in 0..4 {
+                        roots[k] = root_of((self.slip_displacement - x[k]) * self.outer_scale);
+                    }
+                    *root = roots;
+                }
+            }
+            while next < count
+                && let Some(v) = block(roots, next)
+            {
+                let interval = Interval::of(v[0]);
+                if !interval.is_covered() {
+                    break;
+                }
+                let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
+                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                next += leading(v, |v| Interval::of(v) == interval);
+            }
+        }
+        if next < count {
+            self.one_by_one(next..count, displacement, forces, stiffnesses);
+        }
+    }
+
+    #[inline(always)]
+    fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let mut y = [0.0; 4];
+        for k in 0..4 {
+            y[k] = displacement[k] * self.inner_scale;
+        }
+        let (mut forces, mut stiffnesses) = self.interpolant.four_secants_and_tangents::<STIFFNESS>(&y);
+        for k in 0..4 {
+            forces[k] *= self.initial_stiffness * displacement[k];
+            stiffnesses[k] *= self.initial_stiffness;
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(always)]
+    fn four_outer<const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut forces, mut stiffnesses) = self.interpolant.four_complements_and_slopes::<STIFFNESS>(interval, v);
+        for k in 0..4 {
+            forces[k] = self.slip_force - self.slip_force * forces[k];
+            stiffnesses[k] *= self.outer_stiffness;
+        }
+        (forces, stiffnesses)
+    }
+
+    #[inline(never)]
+    fn one_by_one(
+        &self,
+        range: core::ops::Range<usize>,
+        displacement: &[f64],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(range.end).skip(range.start);
+        for ((force, stiffness), &x) in values {
+            Response { force: *force, stiffness: *stiffness } = self.at(x);
+        }
     }
 
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` for an ellipse, and
@@ -144,5 +271,36 @@ impl CurveEvaluator<'_> {
         let load = consumed * (1.0 + size * (1.0 + size));
         let force = self.slip_force * if load > 1.0 { 1.0 } else { load };
         Response { force, stiffness: self.initial_stiffness * size }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+    use crate::law::BEYOND;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn many_displacements_have_the_bits_of_one() {
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let evaluator = contact.evaluator();
+            let fractions = (0..200).map(|k| f64::from(k) / 200.0).chain([0.9991, 0.9999, 1.0]);
+            let displacements: Vec<f64> = fractions.map(|x| x * contact.slip_displacement).collect();
+            for (first, stride) in [(0, 1), (3, 1), (0, 7), (0, 60), (100, 40), (199, 1), (80, 200)] {
+                let mut along: Vec<f64> = displacements.iter().skip(first).step_by(stride).copied().collect();
+                let n = along.len();
+                along.extend([contact.slip_displacement; BEYOND]);
+                let [mut roots, mut forces, mut stiffnesses] = [(); 3].map(|()| vec![0.0; n + BEYOND]);
+                evaluator.along::<true>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                for ((&x, &force), &stiffness) in along.iter().zip(&forces).zip(&stiffnesses).take(n) {
+                    let response = evaluator.at(x);
+                    assert_eq!([response.force, response.stiffness], [force, stiffness], "{x}");
+                }
+                let with_stiffness = forces.clone();
+                evaluator.along::<false>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                assert_eq!(forces[..n], with_stiffness[..n]);
+            }
+        }
     }
 }

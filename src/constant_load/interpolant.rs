@@ -13,7 +13,7 @@
 //! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent};
-use crate::numerics::polynomial::{rows, value_and_slope};
+use crate::numerics::polynomial::{four_values_and_slopes, rows, value_and_slope};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::rounded_flat::{CurvePoint, RoundedFlatZones};
@@ -96,7 +96,7 @@ impl ForceInterpolant {
     }
 
     #[inline(always)]
-    fn is_converged(&self) -> bool {
+    pub fn is_converged(&self) -> bool {
         self.converged != 0
     }
 
@@ -120,14 +120,73 @@ impl ForceInterpolant {
     /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, or if not converged.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let v = rho.max(TINY).sqrt();
-        // 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first interval.
-        let exponent = (v.to_bits() >> 52).min(1022);
+        let v = root_of(rho);
+        let Interval(exponent) = Interval::of(v);
         let piece = self.pieces.get((1022 - exponent) as usize)?;
-        let scale = f64::from_bits((2047 - 2 - exponent) << 52);
+        let scale = power_of(exponent);
         let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - 3.0);
         self.is_converged().then_some((remaining, 2.0 * scale * slope / v))
     }
+
+    /// [`ForceInterpolant::secant_and_tangent`] at four places, if converged.
+    #[inline(always)]
+    pub fn four_secants_and_tangents<const TANGENTS: bool>(&self, y: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (secants, mut tangents) = four_values_and_slopes::<_, TANGENTS>(&self.inner, y);
+        for k in 0..4 {
+            tangents[k] = if TANGENTS { secants[k] + tangents[k] * y[k] } else { 0.0 };
+        }
+        (secants, tangents)
+    }
+
+    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if converged; any value at other v and intervals.
+    #[inline(always)]
+    pub fn four_complements_and_slopes<const SLOPES: bool>(
+        &self,
+        Interval(exponent): Interval,
+        v: &[f64; 4],
+    ) -> ([f64; 4], [f64; 4]) {
+        let scale = power_of(exponent);
+        let mut z = [0.0; 4];
+        for k in 0..4 {
+            z[k] = 4.0 * (scale * v[k]) - 3.0;
+        }
+        let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
+        let (remaining, mut slopes) = four_values_and_slopes::<_, SLOPES>(piece, &z);
+        for k in 0..4 {
+            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
+        }
+        (remaining, slopes)
+    }
+}
+
+/// The root v of ρ, at least a positive one.
+#[inline(always)]
+pub(crate) fn root_of(rho: f64) -> f64 {
+    rho.max(TINY).sqrt()
+}
+
+/// A dyadic interval of v, by its exponent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Interval(u64);
+
+impl Interval {
+    /// 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first interval.
+    #[inline(always)]
+    pub fn of(v: f64) -> Interval {
+        Interval((v.to_bits() >> 52).min(1022))
+    }
+
+    /// Whether it has a polynomial.
+    #[inline(always)]
+    pub fn is_covered(self) -> bool {
+        1022 - self.0 < PIECES as u64
+    }
+}
+
+/// 2ʲ for the exponent of an interval.
+#[inline(always)]
+fn power_of(exponent: u64) -> f64 {
+    f64::from_bits((2047 - 2 - exponent) << 52)
 }
 
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the

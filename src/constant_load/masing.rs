@@ -8,7 +8,7 @@ use crate::constant_load::evaluator::CurveEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
-use crate::law::{Evaluator, Point, Response};
+use crate::law::{BEYOND, Evaluator, Point, Response};
 
 /// Evaluates force and stiffness on a branch without gross slip.
 #[derive(Debug, Clone, Copy)]
@@ -45,6 +45,41 @@ impl Evaluator for BranchEvaluator<'_> {
         let force = branch.start.force + factor * force;
         let force = if force > *limit { *limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
+    }
+
+    #[inline(always)]
+    fn along<const STIFFNESS: bool>(
+        &self,
+        count: usize,
+        displacement: &[f64],
+        [distances, roots]: [&mut [f64]; 2],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let BranchEvaluator { branch, factor, limit, curve } = self;
+        let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+        for (block, &x) in blocks.take(count.div_ceil(4)) {
+            // Stored together: otherwise they could overlap the next displacement.
+            let mut distances = [0.0; 4];
+            for k in 0..4 {
+                distances[k] = branch.distance(curve.slip_displacement, x[k]);
+            }
+            *block = distances;
+        }
+        let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
+        if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
+            *beyond = [last; BEYOND];
+        }
+        curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
+        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
+            let mut sums = *force;
+            for sum in &mut sums {
+                *sum = branch.start.force + factor * *sum;
+                *sum = if *sum > *limit { *limit } else { *sum };
+                *sum = if *sum < -limit { -limit } else { *sum };
+            }
+            *force = sums;
+        }
     }
 }
 

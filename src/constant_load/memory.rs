@@ -36,7 +36,15 @@ impl InitialCurve {
     pub fn after(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
         if contact.is_frictionless() {
             InitialCurve { offset: displacement, slip_direction: 0.0 }
-        } else if branch.gross_slip {
+        } else {
+            self.after_friction(contact, branch, displacement)
+        }
+    }
+
+    /// The same for a contact with friction.
+    #[inline(always)]
+    pub fn after_friction(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
+        if branch.gross_slip {
             let offset = displacement - branch.direction * contact.slip_displacement;
             InitialCurve { offset, slip_direction: branch.direction }
         } else {

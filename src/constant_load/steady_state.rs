@@ -6,7 +6,7 @@ use crate::constant_load::masing::BranchEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, push};
 use crate::law::{BranchRange, Law, Point, Response, Reversal};
 
-/// A contact under a constant normal force in the steady state of a periodic displacement.
+/// A contact with friction under a constant normal force in the steady state of a periodic displacement.
 #[derive(Debug)]
 pub(crate) struct SteadyState<'c, 's> {
     contact: &'c Contact,
@@ -48,7 +48,7 @@ impl<'c> Law for SteadyState<'c, '_> {
         let initial_curve = self.memory(Point { displacement, force: 0.0 }).branch(self.contact, 0, direction);
         let gross_slip = displacement.abs() > self.contact.slip_displacement;
         self.branch = Branch { gross_slip, ..initial_curve };
-        self.initial = self.initial.after(self.contact, &self.branch, displacement);
+        self.initial = self.initial.after_friction(self.contact, &self.branch, displacement);
         self.response(displacement)
     }
 
@@ -83,7 +83,7 @@ impl<'c> Law for SteadyState<'c, '_> {
             push(self.contact, self.initial.offset, self.reversals, self.depth, from);
         }
         self.depth = self.branch.depth;
-        self.initial = self.initial.after(self.contact, &self.branch, displacement);
+        self.initial = self.initial.after_friction(self.contact, &self.branch, displacement);
         transition.reversed
     }
 
@@ -110,7 +110,7 @@ impl<'c> Law for SteadyState<'c, '_> {
 
     #[inline(always)]
     fn account_for(&mut self, from: f64, to: f64) {
-        self.initial = self.initial.after(self.contact, &self.branch, to);
+        self.initial = self.initial.after_friction(self.contact, &self.branch, to);
         if let Some(energy) = &mut self.energy {
             energy.add(self.branch.segment(self.contact.slip_displacement, from, to));
         }

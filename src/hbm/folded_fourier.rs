@@ -174,12 +174,21 @@ impl<'a> FoldedFourier<'a> {
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
         let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
+        let upwards = |first: usize| values.get(first..).unwrap_or(&[]).as_chunks::<4>().0.iter();
+        let downwards = |first: usize| values.get(..=first).unwrap_or(&[]).as_rchunks::<4>().1.iter().rev();
+        let mut blocks = upwards(0).zip(downwards(samples)).zip(upwards(half)).zip(downwards(half));
         for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
-            let here = load(values, first);
-            let mirrored = load_reversed(values, samples.checked_sub(first));
             if samples.is_multiple_of(2) {
-                let opposite = load(values, half + first);
-                let mirrored_opposite = load_reversed(values, half.checked_sub(first));
+                // Checked one by one only if there are few samples.
+                let [here, mirrored, opposite, mirrored_opposite] = match blocks.next() {
+                    Some((((a, b), c), d)) => [*a, reversed(*b), *c, reversed(*d)],
+                    None => [
+                        load(values, first),
+                        load_reversed(values, samples.checked_sub(first)),
+                        load(values, half + first),
+                        load_reversed(values, half.checked_sub(first)),
+                    ],
+                };
                 let (e, o) = (add(here, opposite), subtract(here, opposite));
                 let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
                 *folded = [
@@ -189,6 +198,7 @@ impl<'a> FoldedFourier<'a> {
                     times(*weights, subtract(e, em)),
                 ];
             } else {
+                let (here, mirrored) = (load(values, first), load_reversed(values, samples.checked_sub(first)));
                 let (cosines, sines) =
                     (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
                 *folded = [cosines, sines, cosines, sines];
@@ -202,6 +212,25 @@ impl<'a> FoldedFourier<'a> {
 pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     if let Some((period, beyond)) = values.split_at_mut_checked(samples) {
         beyond.iter_mut().zip(period.iter().cycle()).for_each(|(value, continued)| *value = *continued);
+    }
+}
+
+/// Completes values that were evaluated in half a period from a sample and keep (+1) or change (-1) their sign after it.
+#[inline(always)]
+pub(crate) fn continue_half_wave(values: &mut [f64], start: usize, samples: usize, sign: f64) {
+    let half = samples / 2;
+    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
+        return;
+    };
+    // The evaluated half starts in either half of the period.
+    let turn = if start < half { start } else { start - half };
+    let from_first = start < half;
+    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
+        if (index >= turn) == from_first {
+            *second = sign * *first;
+        } else {
+            *first = sign * *second;
+        }
     }
 }
 
@@ -225,13 +254,19 @@ fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
     (a + c) + (b + d)
 }
 
-/// Four consecutive values; those outside the array are 0.
+/// Four consecutive values; those outside the array are 0, with the sign that keeps compilers from an instruction that valgrind does
+/// not know.
 #[inline(always)]
 fn load(values: &[f64], first: usize) -> [f64; 4] {
     match values.get(first..).and_then(<[f64]>::first_chunk) {
         Some(block) => *block,
-        None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(0.0)),
+        None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(-0.0)),
     }
+}
+
+#[inline(always)]
+fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    [d, c, b, a]
 }
 
 /// Four consecutive values downwards from `first`.
@@ -240,7 +275,7 @@ fn load_reversed(values: &[f64], first: Option<usize>) -> [f64; 4] {
     let Some(first) = first else { return [0.0; 4] };
     match first.checked_sub(3).and_then(|last| values.get(last..)).and_then(<[f64]>::first_chunk) {
         Some(&[a, b, c, d]) => [d, c, b, a],
-        None => [0, 1, 2, 3].map(|k| first.checked_sub(k).and_then(|at| values.get(at)).copied().unwrap_or(0.0)),
+        None => [0, 1, 2, 3].map(|k| first.checked_sub(k).and_then(|at| values.get(at)).copied().unwrap_or(-0.0)),
     }
 }
 

@@ -1,29 +1,25 @@
 //! Harmonic force by alternating frequency/time (AFT) with uniformly spaced samples.
 //!
-//! The displacement is sampled, the law is advanced from sample to sample, and the forces are transformed back. The error is
-//! O(samples⁻²); the Jacobian is exact for the discrete sums, see `jacobian`. The sums Σ φ over the samples of a branch are geometric
-//! series.
+//! The displacement is sampled, the law advanced from branch to branch, the forces of each branch are evaluated four at a time, and
+//! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
+//! the stiffness, and `sampled_gradients` adds the terms of the reversals.
 
-use super::fourier::{fill_columns, normalise, synthesise};
-use super::fourier_sums::{FourierSums, TableRows, block_count, fill_table};
-use super::sampled_gradients::SampledGradients;
-use super::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout, padded};
-use super::{HarmonicOutput, Requested, jacobian};
+use super::HarmonicOutput;
+use super::folded_fourier::{self, FoldedFourier, sample_length};
+use super::fourier::normalise;
+use super::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
+use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients};
+use super::sampled_jacobian::{self, Assembly};
+use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::error::Error;
-use crate::law::{BranchRange, Evaluator, Law, Point, Response, Reversal};
+use crate::law::{BEYOND, BranchRange, Evaluator, Law, Point, Reversal};
 use crate::tag::Kind;
-use core::f64::consts::PI;
 
 /// Lengths of the parts of a workspace.
 pub(super) struct Layout(Size);
 
 impl Layout {
-    /// Samples in the tables: half a period, after which odd orders change their sign; a whole period if the number is odd.
-    fn half(&self) -> usize {
-        if self.0.samples.is_multiple_of(2) { self.0.samples / 2 } else { self.0.samples }
-    }
-
-    /// Capacity for reversals: one per sample, and one more.
+    /// Capacity for reversals and branches: one per sample, and one more.
     fn reversals(&self) -> usize {
         self.0.samples + 1
     }
@@ -41,33 +37,33 @@ impl WorkspaceLayout for Layout {
     }
 
     fn max_rows(&self) -> usize {
-        self.0.samples + 8
+        2 * self.0.samples + 16
     }
 
     fn tables_length(&self) -> usize {
-        let (half, up_to_2h) = (self.half(), 4 * block_count(2 * self.0.harmonics));
-        padded(half * self.0.coefficients()) + 2 * padded(half * up_to_2h) + padded(self.0.harmonics)
+        let Size { harmonics, samples } = self.0;
+        folded_fourier::table_length(samples, 2 * harmonics) + rows_length(harmonics, samples)
     }
 
     fn length(&self) -> usize {
-        let (n, reversals) = (self.0.coefficients(), self.reversals());
-        let sums = 2 * 4 * block_count(self.0.harmonics) + 4 * 4 * block_count(2 * self.0.harmonics);
-        let stack = padded(3 * reversals) + padded(reversals) + padded(reversals * n);
-        HEADER + self.tables_length() + 3 * padded(self.0.samples) + stack + sums + 4 * padded(n)
+        let (Size { harmonics, samples }, reversals) = (self.0, self.reversals());
+        let gradients = padded(BRANCH * reversals) + padded(ENTRY * reversals) + 8 * row_blocks(harmonics) * reversals;
+        HEADER
+            + self.tables_length()
+            + folded_fourier::scratch_length(samples, 2 * harmonics)
+            + sample_length(samples)
+            + 5 * path_length(samples)
+            + padded(3 * reversals)
+            + gradients
+            + outer_products_length::<1>(harmonics, reversals)
+            + sampled_jacobian::memory_length(harmonics)
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let (Size { harmonics, samples }, half) = (self.0, self.half());
-        fill_columns(tables.take(half * self.0.coefficients())?, samples, half);
-        for parity in [0, 1] {
-            let table = tables.take_blocks(half * block_count(2 * harmonics))?;
-            fill_table(table, parity, 2 * harmonics, samples, half);
-        }
-        // 1/(exp(imΔ) - 1) = -1/2 - (i/2) cot(mΔ/2), with Δ the step.
-        for (m, cotangent) in (1..).zip(tables.take(harmonics)?) {
-            let (sine, cosine) = (PI * m as f64 / samples as f64).sin_cos();
-            *cotangent = 0.5 * cosine / sine;
-        }
+        let Size { harmonics, samples } = self.0;
+        let table = tables.take(folded_fourier::table_length(samples, 2 * harmonics))?;
+        folded_fourier::fill_table(table, samples, 2 * harmonics);
+        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
         Ok(())
     }
 }
@@ -75,29 +71,15 @@ impl WorkspaceLayout for Layout {
 /// An opened workspace.
 #[derive(Debug)]
 pub(super) struct Workspace<'a> {
+    size: Size,
+    fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
-    buffers: Buffers<'a>,
-}
-
-/// Tables, samples and sums.
-#[derive(Debug)]
-struct Buffers<'a> {
-    harmonics: usize,
-    samples: usize,
-    half: usize,
-    /// Columns 1, cos t, sin t, cos 2t, ... over the samples of half a period.
-    columns: &'a [f64],
-    /// Tables of the even and of the odd orders up to 2H over the samples of half a period.
-    tables: [&'a Blocks; 2],
-    displacement: &'a mut [f64],
-    force: &'a mut [f64],
-    stiffness: &'a mut [f64],
+    /// Displacements, then forces or stiffnesses, at the samples of a period.
+    period: &'a mut [f64],
+    path: Path<'a>,
     gradients: SampledGradients<'a>,
-    /// Fourier sums: of the force, of the stiffness on one branch, and of the stiffness on all branches.
-    force_sums: FourierSums<'a>,
-    branch_sums: FourierSums<'a>,
-    stiffness_sums: FourierSums<'a>,
+    assembly: Assembly<'a>,
 }
 
 impl<'a> Workspace<'a> {
@@ -108,50 +90,28 @@ impl<'a> Workspace<'a> {
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
-        let (half, coefficients) = (layout.half(), layout.0.coefficients());
-        let (up_to_h, up_to_2h) = (block_count(layout.0.harmonics), block_count(2 * layout.0.harmonics));
-        // Parts in the order of the workspace: tables, samples, gradients, sums, rows.
-        let columns: &[f64] = parts.take(half * coefficients)?;
-        let tables: [&Blocks; 2] = [parts.take_blocks(half * up_to_2h)?, parts.take_blocks(half * up_to_2h)?];
-        let cotangents = parts.take(layout.0.harmonics)?;
-        let samples = layout.0.samples;
-        let [displacement, force, stiffness] = [parts.take(samples)?, parts.take(samples)?, parts.take(samples)?];
-        let (reversed_at, gradients) =
-            (parts.take(layout.reversals())?, parts.take(layout.reversals() * coefficients)?);
-        let mut sums = |blocks| Ok(FourierSums([parts.take_blocks(blocks)?, parts.take_blocks(blocks)?]));
-        let (force_sums, branch_sums, stiffness_sums) = (sums(up_to_h)?, sums(up_to_2h)?, sums(up_to_2h)?);
-        let gradients = SampledGradients {
-            coefficients,
-            half,
-            columns,
-            cotangents,
-            samples: reversed_at,
-            gradients,
-            phi: parts.take(coefficients)?,
-            phi_sums: parts.take(coefficients)?,
-            stiffness_sums: parts.take(coefficients)?,
-            row: parts.take(coefficients)?,
-        };
-        let buffers = Buffers {
-            harmonics: layout.0.harmonics,
-            samples,
-            half,
-            columns,
-            tables,
-            displacement,
-            force,
-            stiffness,
-            gradients,
-            force_sums,
-            branch_sums,
-            stiffness_sums,
-        };
-        Ok(Workspace { reversals: parts.take(3 * layout.reversals())?.as_chunks_mut().0, buffers })
+        let (size, capacity) = (layout.0, layout.reversals());
+        let Size { harmonics, samples: count } = size;
+        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
+        let rows = Rows::take(&mut parts, harmonics, count)?;
+        fourier.take_scratch(&mut parts)?;
+        let period = parts.take(sample_length(count))?;
+        let mut array = || parts.take(path_length(count));
+        let ([displacement, force, stiffness], scratch) = ([array()?, array()?, array()?], [array()?, array()?]);
+        let branches = Branches::new(parts.take(BRANCH * capacity)?);
+        let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
+        let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
+        let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
+        let outer = OuterProducts::take(&mut parts, harmonics, capacity)?;
+        let assembly = Assembly::take(&mut parts, size)?;
+        let path = Path { displacement, force, stiffness, scratch, branches };
+        let gradients = SampledGradients { rows, entries, sums, outer };
+        Ok(Workspace { size, fourier, reversals, period, path, gradients, assembly })
     }
 
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
-        self.buffers.gradients.coefficients
+        self.size.coefficients()
     }
 }
 
@@ -163,181 +123,166 @@ pub(super) fn harmonic_force<'w, L: Law>(
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { reversals, buffers } = workspace;
-    let requested = output.requested();
-    let HarmonicOutput { force, mut jacobian, dissipated } = output;
-    let half_wave_symmetric = synthesise(buffers.columns, buffers.half, buffers.displacement, displacement);
-    let law = law(reversals, dissipated.is_some());
-    let mut period = Period { law, requested, half_wave_symmetric };
-    period.integrate(buffers, &mut jacobian);
-    if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
+    let Workspace { size, fourier, reversals, period, path, gradients, assembly } = workspace;
+    let HarmonicOutput { force, jacobian, dissipated } = output;
+    let count = size.samples;
+    fourier.synthesise(displacement, period);
+    let is_even = |c: usize| c.div_ceil(2).is_multiple_of(2);
+    let half_wave_symmetric =
+        is_even(count) && displacement.iter().enumerate().all(|(c, value)| !is_even(c) || *value == 0.0);
+    let length = if half_wave_symmetric { count / 2 } else { count };
+    let farthest = farthest(period, length);
+    rotate(period.get(..count).unwrap_or(&[]), farthest, path.displacement);
+    if let Some(end) = path.displacement.get_mut(count) {
+        *end = at(period, farthest);
+    }
+    let mut law = law(reversals, dissipated.is_some());
+    if jacobian.is_some() {
+        path.advance::<true, true, L>(&mut law, length);
+    } else if force.is_some() {
+        path.advance::<true, false, L>(&mut law, length);
+    } else {
+        path.advance::<false, false, L>(&mut law, length);
+    }
+    if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
-    // Under half-wave symmetry the sums are those of half a period.
-    let weight = if half_wave_symmetric { 2.0 } else { 1.0 } / buffers.samples as f64;
+    let order = Order { count, farthest, half_wave_symmetric };
     if let Some(force) = force {
-        buffers.force_sums.copy_to(force);
-        normalise(force, weight);
+        order.copy_to_period(path.force, -1.0, period);
+        fourier.sum(period, force);
+        normalise(force, 1.0 / count as f64);
     }
     if let Some(jacobian) = jacobian {
-        let sums = |order| buffers.stiffness_sums.of_order(order);
-        jacobian::complete(jacobian, buffers.harmonics, sums, weight, half_wave_symmetric);
+        gradients.gather(&path.branches, farthest, path.stiffness);
+        order.copy_to_period(path.stiffness, 1.0, period);
+        fourier.sum(period, assembly.sums);
+        let length = size.coefficients().max(1);
+        assembly.write_sums(jacobian.chunks_exact_mut(length));
+        let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
+        assembly.add_products(&gradients.outer, 0, symmetry, jacobian.chunks_exact_mut(length));
     }
 }
 
-/// Number of values, at most `limit`, before the first for which `ends(previous, value)`; and the last value before it.
-#[inline(always)]
-fn count_until(parts: [&[f64]; 2], limit: usize, first: f64, ends: impl Fn(f64, f64) -> bool) -> (usize, f64) {
-    let (mut last, mut count) = (first, 0);
-    for part in parts {
-        for &next in part.get(..limit - count).unwrap_or(part) {
-            if ends(last, next) {
-                return (count, last);
-            }
-            last = next;
-            count += 1;
-        }
-    }
-    (count, last)
-}
-
-/// Integration over a period, sample by sample.
-struct Period<L> {
-    law: L,
-    requested: Requested,
-    /// Only one half of the period is evaluated.
+/// Order of the samples on a path.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    count: usize,
+    farthest: usize,
     half_wave_symmetric: bool,
 }
 
-impl<L: Law> Period<L> {
-    /// Integrates a period, or half of it, from the farthest sample: Fourier sums, and the terms of the reversals of the Jacobian.
+impl Order {
+    /// Copies values of a path, which ends at the farthest sample, to the samples of the period. Under half-wave symmetry the path is
+    /// first completed by values of the given sign.
     #[inline(always)]
-    fn integrate(&mut self, buffers: &mut Buffers, jacobian: &mut Option<&mut [f64]>) {
-        let samples = buffers.samples;
-        let after = |sample: usize| if sample + 1 >= samples { 0 } else { sample + 1 };
-        let mut remaining = if self.half_wave_symmetric { buffers.half } else { samples };
-        let mut before = farthest(buffers.displacement, remaining);
-        self.begin(buffers, before);
-        buffers.force_sums.clear();
-        buffers.stiffness_sums.clear();
-        while remaining > 0 {
-            let sample = after(before);
-            self.step(buffers, before, sample);
-            let count = 1 + self.samples_on_branch(buffers.displacement, sample, remaining - 1);
-            before = self.evaluate_branch(buffers, sample, count, jacobian);
-            remaining -= count;
-        }
-    }
-
-    /// Number of samples after `sample`, at most `limit`, on the same branch.
-    #[inline(always)]
-    fn samples_on_branch(&mut self, displacement: &[f64], sample: usize, limit: usize) -> usize {
-        let (earlier, later) = displacement.split_at_checked(sample + 1).unwrap_or((displacement, &[]));
-        let entered = earlier.last().copied().unwrap_or(0.0);
-        let BranchRange { direction, end, .. } = self.law.branch();
-        let (count, last) = if direction > 0.0 {
-            count_until([later, earlier], limit, entered, |last, next| next < last || next >= end)
-        } else {
-            count_until([later, earlier], limit, entered, |last, next| next > last || next <= end)
-        };
-        if count > 0 {
-            self.law.account_for(entered, last);
-        }
-        count
-    }
-
-    /// Enters the steady state at the farthest sample.
-    #[inline(always)]
-    fn begin(&mut self, buffers: &mut Buffers, sample: usize) {
-        let displacement = buffers.displacement.get(sample).copied().unwrap_or(0.0);
-        let response = self.law.begin(displacement);
-        if let (Some(force), Some(stiffness)) = (buffers.force.get_mut(sample), buffers.stiffness.get_mut(sample)) {
-            Response { force: *force, stiffness: *stiffness } = response;
-        }
-    }
-
-    /// Applies one step, which may reverse, close loops or slip.
-    #[inline(always)]
-    fn step(&mut self, buffers: &mut Buffers, before: usize, sample: usize) {
-        let displacement = |sample: usize| buffers.displacement.get(sample).copied().unwrap_or(0.0);
-        let force = buffers.force.get(before).copied().unwrap_or(0.0);
-        let from = Point { displacement: displacement(before), force };
-        let left = self.law.branch().depth;
-        if self.law.advance(from, displacement(sample)) {
-            let index = self.law.branch().depth - 1;
-            if self.requested.stiffness {
-                let stiffness = buffers.stiffness.get(before).copied().unwrap_or(0.0);
-                buffers.gradients.store(index, before, left, stiffness);
-            }
-        }
-    }
-
-    /// Evaluates `count` consecutive samples on the present branch, and adds them to the Fourier sums and the terms of the reversals
-    /// of the Jacobian. Returns the last of the samples.
-    #[inline(always)]
-    fn evaluate_branch(
-        &self,
-        buffers: &mut Buffers,
-        first: usize,
-        count: usize,
-        jacobian: &mut Option<&mut [f64]>,
-    ) -> usize {
-        let (branch, requested) = (self.law.branch(), self.requested);
-        let evaluator = self.law.evaluator();
-        let (mut next, mut remaining) = (first, count);
-        if requested.stiffness && !branch.gross_slip {
-            buffers.branch_sums.clear();
-        }
-        while remaining > 0 {
-            // At most up to the middle or the end of the period, at which the tables start again.
-            let boundary = if next < buffers.half { buffers.half } else { buffers.samples };
-            let rows = TableRows::at(next, buffers.half);
-            let range = next..boundary.min(next + remaining);
-            let length = range.len();
-            next = if range.end == buffers.samples { 0 } else { range.end };
-            remaining -= length;
-            if !(requested.force || requested.stiffness) {
-                continue;
-            }
-            let parts = (
-                buffers.displacement.get(range.clone()),
-                buffers.force.get_mut(range.clone()),
-                buffers.stiffness.get_mut(range),
-            );
-            let (Some(displacement), Some(force), Some(stiffness)) = parts else { break };
-            if branch.gross_slip {
-                force.fill(self.law.response(0.0).force);
-                stiffness.fill(0.0);
-            } else if requested.stiffness {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness.iter_mut()).zip(displacement)
-                {
-                    Response { force: *force, stiffness: *stiffness } = evaluator.at(displacement);
-                }
-                buffers.branch_sums.add(&buffers.tables, 0, &rows, stiffness);
-                buffers.branch_sums.add(&buffers.tables, 1, &rows, stiffness);
-            } else {
-                for (force, &displacement) in force.iter_mut().zip(displacement) {
-                    *force = evaluator.at(displacement).force;
-                }
-            }
-            if requested.force {
-                if !self.half_wave_symmetric {
-                    buffers.force_sums.add(&buffers.tables, 0, &rows, force);
-                }
-                buffers.force_sums.add(&buffers.tables, 1, &rows, force);
-            }
-        }
-        if let Some(jacobian) = jacobian
-            && !branch.gross_slip
+    fn copy_to_period(&self, path: &mut [f64], sign: f64, period: &mut [f64]) {
+        let values = path.get_mut(1..=self.count).unwrap_or(&mut []);
+        if self.half_wave_symmetric
+            && let Some((first, second)) = values.split_at_mut_checked(self.count / 2)
         {
-            buffers.stiffness_sums.add_all(&buffers.branch_sums);
-            if branch.depth > 0 {
-                let (gradients, sums) = (&mut buffers.gradients, &buffers.branch_sums);
-                gradients.add_branch_term(first, next, count, branch.depth, sums, jacobian);
-            }
+            second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
         }
-        if next == 0 { buffers.samples - 1 } else { next - 1 }
+        rotate(values, self.count - 1 - self.farthest, period);
     }
+}
+
+/// Values at the samples in the order of time, from the farthest one on, and the branches on which they lie.
+#[derive(Debug)]
+struct Path<'a> {
+    displacement: &'a mut [f64],
+    force: &'a mut [f64],
+    stiffness: &'a mut [f64],
+    /// Scratch memory of evaluators.
+    scratch: [&'a mut [f64]; 2],
+    branches: Branches<'a>,
+}
+
+/// Length of the arrays of a [`Path`].
+fn path_length(samples: usize) -> usize {
+    padded(samples + 1 + BEYOND)
+}
+
+impl Path<'_> {
+    /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
+    #[inline(always)]
+    fn advance<const FORCE: bool, const STIFFNESS: bool, L: Law>(&mut self, law: &mut L, length: usize) {
+        let Path { displacement, force, stiffness, scratch, branches } = self;
+        let mut from = Point { displacement: at(displacement, 0), force: 0.0 };
+        let response = law.begin(from.displacement);
+        from.force = response.force;
+        if let (Some(force), Some(stiffness)) = (force.first_mut(), stiffness.first_mut()) {
+            (*force, *stiffness) = (response.force, response.stiffness);
+        }
+        branches.clear();
+        let mut next = 1;
+        while next <= length {
+            let entered = at(displacement, next);
+            law.advance(from, entered);
+            let branch = law.branch();
+            let Some(rest) = displacement.get(next..) else { return };
+            let count = count_on_branch(rest, &branch).min(length + 1 - next);
+            branches.push(count, branch.depth);
+            from.displacement = at(displacement, next + count - 1);
+            if count > 1 {
+                law.account_for(entered, from.displacement);
+            }
+            if FORCE && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..)) {
+                if branch.gross_slip {
+                    let slip_force = law.response(0.0).force;
+                    force.iter_mut().take(count).for_each(|force| *force = slip_force);
+                    stiffness.iter_mut().take(count).for_each(|stiffness| *stiffness = 0.0);
+                } else {
+                    let [one, two] = scratch;
+                    law.evaluator().along::<STIFFNESS>(count, rest, [one, two], force, stiffness);
+                }
+                from.force = at(force, count - 1);
+            }
+            next += count;
+        }
+    }
+}
+
+#[inline(always)]
+fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(0.0)
+}
+
+/// Copies a period so that it starts at a sample.
+#[inline(always)]
+fn rotate(from: &[f64], first: usize, to: &mut [f64]) {
+    let (before, after) = from.split_at_checked(first).unwrap_or((from, &[]));
+    to.iter_mut().zip(after).for_each(|(to, from)| *to = *from);
+    let to = to.get_mut(after.len()..).unwrap_or(&mut []);
+    to.iter_mut().zip(before).for_each(|(to, from)| *to = *from);
+}
+
+/// Number of samples, the first included, before the motion reverses or reaches the end of the branch.
+#[inline(always)]
+fn count_on_branch(samples: &[f64], branch: &BranchRange) -> usize {
+    let (direction, end) = (branch.direction, branch.direction * branch.end);
+    let continues = |last: f64, next: f64| {
+        let (last, next) = (direction * last, direction * next);
+        let (continues, is_inside) = (next >= last, next < end);
+        continues & is_inside
+    };
+    let later = samples.get(1..).unwrap_or(&[]);
+    let mut count = 1;
+    for ([a, b, c, d], [e, f, g, h]) in samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0) {
+        if continues(*a, *e) & continues(*b, *f) & continues(*c, *g) & continues(*d, *h) {
+            count += 4;
+            continue;
+        }
+        for (last, next) in [(a, e), (b, f), (c, g)] {
+            if !continues(*last, *next) {
+                break;
+            }
+            count += 1;
+        }
+        return count;
+    }
+    let rest = samples.iter().zip(later).skip(count - 1);
+    count + rest.take_while(|(last, next)| continues(**last, **next)).count()
 }
 
 /// Index of the first of the leading `count` samples with the largest magnitude.
@@ -357,15 +302,18 @@ fn farthest(displacement: &[f64], count: usize) -> usize {
     for value in remainder {
         largest = larger(largest, value.abs());
     }
-    samples.iter().position(|value| value.abs() == largest).unwrap_or(0)
+    let has = |block: &[f64; 4]| block.iter().fold(false, |has, value| has | (value.abs() == largest));
+    let before = 4 * blocks.iter().position(has).unwrap_or(blocks.len());
+    before + samples.iter().skip(before).position(|value| value.abs() == largest).unwrap_or(0)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
     use crate::hbm::Rule::UniformSampling;
     use crate::hbm::tests::{SHAPE, compute as all, scaled, workspace};
+    use core::f64::consts::PI;
     use std::vec;
     use std::vec::Vec;
 

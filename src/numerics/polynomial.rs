@@ -54,6 +54,43 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
     (even + odd * x, odd + (even_rate + odd_rate * x))
 }
 
+/// [`value_and_slope`] at four places, with the same bits. Without slopes these are 0.
+#[inline(always)]
+pub(crate) fn four_values_and_slopes<const R: usize, const SLOPES: bool>(
+    rows: &Rows<R>,
+    x: &[f64; 4],
+) -> ([f64; 4], [f64; 4]) {
+    let (mut square, mut step) = ([0.0; 4], [0.0; 4]);
+    for k in 0..4 {
+        square[k] = x[k] * x[k];
+        step[k] = square[k] * square[k];
+    }
+    // Sums of every fourth power, and their derivatives by x⁴, at the four places.
+    let (mut sums, mut slopes) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+    for (n, row) in rows.iter().rev().enumerate() {
+        for c in 0..4 {
+            for k in 0..4 {
+                if SLOPES && n > 0 {
+                    slopes[c][k] = if n > 1 { slopes[c][k] * step[k] + sums[c][k] } else { sums[c][k] };
+                }
+                sums[c][k] = if n > 0 { sums[c][k] * step[k] + row[c] } else { row[c] };
+            }
+        }
+    }
+    let (mut values, mut derivatives) = ([0.0; 4], [0.0; 4]);
+    for k in 0..4 {
+        let (even, odd) = (sums[0][k] + sums[2][k] * square[k], sums[1][k] + sums[3][k] * square[k]);
+        values[k] = even + odd * x[k];
+        if SLOPES {
+            let (twice, cube) = (2.0 * x[k], 4.0 * (square[k] * x[k]));
+            let even_rate = sums[2][k] * twice + (slopes[0][k] + slopes[2][k] * square[k]) * cube;
+            let odd_rate = sums[3][k] * twice + (slopes[1][k] + slopes[3][k] * square[k]) * cube;
+            derivatives[k] = odd + (even_rate + odd_rate * x[k]);
+        }
+    }
+    (values, derivatives)
+}
+
 /// Number of rows, at most `all`, after which a series with coefficients near 1 is converged to double precision at x.
 #[inline]
 pub(crate) fn rows_for(x: f64, all: usize) -> usize {
@@ -73,6 +110,15 @@ pub(crate) fn rows_for(x: f64, all: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn four_places_have_the_bits_of_one() {
+        let coefficients: Rows<5> = rows(&core::array::from_fn::<f64, 20, _>(|n| (1.0 + n as f64).recip() - 0.3));
+        let x = [-0.9, 0.1, 0.57, 1.0];
+        let (values, slopes) = four_values_and_slopes::<5, true>(&coefficients, &x);
+        assert_eq!(x.map(|x| value_and_slope(&coefficients, x)), core::array::from_fn(|k| (values[k], slopes[k])));
+        assert_eq!(four_values_and_slopes::<5, false>(&coefficients, &x), (values, [0.0; 4]));
+    }
 
     #[test]
     fn the_rows_of_a_geometric_series_are_enough_up_to_each_bound() {

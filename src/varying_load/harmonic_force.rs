@@ -7,32 +7,32 @@
 //! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
-//! - `walk`: the memory diagram along the period, without evaluating any force;
+//! - `periodic_path`: the memory diagram along the period, without evaluating any force;
 //! - `tractions`: the forces;
-//! - `sensitivity`: their exact derivatives; `jacobian`: its Fourier coefficients;
+//! - `sensitivity`: their exact derivatives;
 //! - `energy`: dissipation.
 
 mod energy;
-mod jacobian;
+mod periodic_path;
 mod samples;
 mod sensitivity;
 mod tractions;
-mod walk;
 
 pub use crate::hbm::HarmonicOutput;
 
 use crate::error::Error;
 use crate::hbm::check_coefficients;
-use crate::hbm::folded_fourier::{self, FoldedFourier, sample_length};
+use crate::hbm::folded_fourier::{self, FoldedFourier, continue_half_wave, sample_length};
 use crate::hbm::fourier::normalise;
+use crate::hbm::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
+use crate::hbm::sampled_jacobian::{self, Assembly};
 use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
 use crate::tag::Kind;
 use crate::varying_load::element::Element;
-use jacobian::Assembly;
-use samples::{Part, Samples, continue_half_wave};
-use sensitivity::{Context, Cuts, PIECE, Sensitivity, row_blocks};
+use periodic_path::{KNOT, PeriodicPath, RUN};
+use samples::{Part, Samples};
+use sensitivity::{Context, Cuts, PIECE, Sensitivity};
 use tractions::Tractions;
-use walk::{KNOT, RUN, Walk};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
@@ -71,11 +71,6 @@ struct Layout(Size);
 const SAMPLE_ARRAYS: usize = 19;
 
 impl Layout {
-    /// Doubles of the rows over the coefficients of all samples.
-    fn rows_length(&self) -> usize {
-        4 * row_blocks(self.0.harmonics) * self.0.samples
-    }
-
     /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
     fn capacity(&self) -> usize {
         self.0.samples + 4
@@ -102,28 +97,28 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables_length(&self) -> usize {
-        folded_fourier::table_length(self.0.samples, 2 * self.0.harmonics) + 2 * self.rows_length()
+        folded_fourier::table_length(self.0.samples, 2 * self.0.harmonics)
+            + rows_length(self.0.harmonics, self.0.samples)
     }
 
     fn length(&self) -> usize {
         let Size { harmonics, samples } = self.0;
-        let walk = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
+        let path = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
             + folded_fourier::scratch_length(samples, 2 * harmonics)
             + SAMPLE_ARRAYS * sample_length(samples)
-            + walk
+            + path
             + 2 * self.pieces_length()
-            + 3 * self.rows_length()
-            + jacobian::memory_length(harmonics)
+            + outer_products_length::<2>(harmonics, samples)
+            + sampled_jacobian::memory_length(harmonics)
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
         let Size { harmonics, samples } = self.0;
         let table = tables.take(folded_fourier::table_length(samples, 2 * harmonics))?;
         folded_fourier::fill_table(table, samples, 2 * harmonics);
-        let (rows, antiderivatives) = (tables.take(self.rows_length())?, tables.take(self.rows_length())?);
-        sensitivity::fill_rows(rows, antiderivatives, harmonics, samples);
+        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
         Ok(())
     }
 }
@@ -134,7 +129,7 @@ pub struct Workspace<'a> {
     size: Size,
     fourier: FoldedFourier<'a>,
     samples: Samples<'a>,
-    walk: Walk<'a>,
+    path: PeriodicPath<'a>,
     tractions: Tractions<'a>,
     sensitivity: Sensitivity<'a>,
     assembly: Assembly<'a>,
@@ -151,8 +146,7 @@ impl<'a> Workspace<'a> {
         let size = layout.0;
         let Size { harmonics, samples: count } = size;
         let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
-        let rows = parts.take(layout.rows_length())?.as_chunks().0;
-        let antiderivatives = parts.take(layout.rows_length())?.as_chunks().0;
+        let rows = Rows::take(&mut parts, harmonics, count)?;
         fourier.take_scratch(&mut parts)?;
         let mut array = || parts.take(sample_length(count));
         let samples = Samples {
@@ -177,29 +171,17 @@ impl<'a> Workspace<'a> {
             last_cut_load: array()?,
         };
         let (own, places) = ([array()?, array()?], array()?);
-        let walk = Walk {
+        let path = PeriodicPath {
             knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
             runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
             cut_shift,
         };
         let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
-        let mut blocks = |length| Ok(parts.take(length)?.as_chunks_mut().0);
-        let stored = blocks(2 * layout.pieces_length())?;
-        let (derivatives, touched_rows) = (blocks(2 * layout.rows_length())?, blocks(layout.rows_length())?);
+        let stored = parts.take(2 * layout.pieces_length())?.as_chunks_mut().0;
+        let outer = OuterProducts::take(&mut parts, harmonics, count)?;
         let assembly = Assembly::take(&mut parts, size)?;
-        let sensitivity = Sensitivity {
-            row_blocks: row_blocks(harmonics),
-            rows,
-            antiderivatives,
-            pieces,
-            stored,
-            places,
-            touched: 0,
-            derivatives,
-            touched_rows,
-            own,
-        };
-        Ok(Workspace { size, fourier, samples, walk, tractions, sensitivity, assembly })
+        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
+        Ok(Workspace { size, fourier, samples, path, tractions, sensitivity, assembly })
     }
 
     /// 2H + 1.
@@ -256,17 +238,17 @@ pub fn harmonic_force(
     let needs_forces = force.is_some() || jacobian.is_some();
     let mut part = None;
     if has_friction && (needs_forces || dissipated.is_some()) {
-        let Workspace { fourier, samples, walk, tractions, sensitivity, .. } = workspace;
+        let Workspace { fourier, samples, path, tractions, sensitivity, .. } = workspace;
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
-            let extent = walk.evaluate(element, samples, part);
-            let runs = walk.runs(extent, part, samples.count);
-            tractions.evaluate(element, samples, walk.cuts(extent), runs.clone(), jacobian.is_some());
+            let extent = path.evaluate(element, samples, part);
+            let runs = path.runs(extent, part, samples.count);
+            tractions.evaluate(element, samples, path.cuts(extent), runs.clone(), jacobian.is_some());
             if jacobian.is_some() {
                 let context = Context { element, samples, part };
                 let cuts = Cuts {
-                    shifts: walk.cut_shift,
+                    shifts: path.cut_shift,
                     loads: tractions.cut_load,
                     stiffnesses: tractions.cut_stiffness,
                     slopes: tractions.slope,
@@ -276,8 +258,8 @@ pub fn harmonic_force(
         }
     }
     if let Some(dissipated) = dissipated {
-        let Workspace { samples, walk, .. } = workspace;
-        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, walk.diagram()));
+        let Workspace { samples, path, .. } = workspace;
+        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
         *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
@@ -404,7 +386,7 @@ impl Workspace<'_> {
         let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
         if let Some(part) = part {
             if motion.half_wave {
-                continue_half_wave(tractions.force, part, samples.count, -1.0);
+                continue_half_wave(tractions.force, part.start, samples.count, -1.0);
             }
             fourier.sum(tractions.force, tangential);
             normalise(tangential, weight);
@@ -434,14 +416,14 @@ impl Workspace<'_> {
         for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
             if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
                 if motion.half_wave {
-                    continue_half_wave(own, part, samples.count, sign);
+                    continue_half_wave(own, part.start, samples.count, sign);
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
                 assembly
                     .write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
                 let columns = columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients));
-                assembly.add_products(sensitivity, index, symmetry, columns);
+                assembly.add_products(&sensitivity.outer, index, symmetry, columns);
             } else {
                 columns.fill(0.0);
             }

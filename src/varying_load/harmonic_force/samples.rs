@@ -39,25 +39,6 @@ pub(super) fn ranges(part: &Part, samples: usize) -> [core::ops::Range<usize>; 2
     if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
 }
 
-/// Completes values that were evaluated in half a period and keep (+1) or change (-1) their sign after it.
-#[inline(always)]
-pub(super) fn continue_half_wave(values: &mut [f64], part: &Part, samples: usize, sign: f64) {
-    let half = samples / 2;
-    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
-        return;
-    };
-    // The evaluated half starts in either half of the period.
-    let turn = if part.start < half { part.start } else { part.start - half };
-    let from_first = part.start < half;
-    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
-        if (index >= turn) == from_first {
-            *second = sign * *first;
-        } else {
-            *first = sign * *second;
-        }
-    }
-}
-
 pub(super) fn at(values: &[f64], index: usize) -> f64 {
     values.get(index).copied().unwrap_or(0.0)
 }
@@ -112,7 +93,7 @@ impl Samples<'_> {
                 *stiffness = quotients;
             }
         }
-        // The same bits: arguments outside the tables are evaluated differently in company.
+        // The values beyond the period, which the characteristic coordinates are computed from.
         continue_periodically(self.shift, self.count);
     }
 

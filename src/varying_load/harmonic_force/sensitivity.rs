@@ -16,58 +16,14 @@
 //! its weight, which is constant while it is covered, so that differences of antiderivatives of φ give the sums. Once the piece is
 //! removed, the sum is added to those of the one or two samples that made it; in the end `J += Σ Y_j ⊗ φ_j`.
 
-use crate::hbm::fourier::angle;
+use crate::hbm::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
 use crate::hbm::workspace::Blocks;
 use crate::varying_load::element::Element;
+use crate::varying_load::harmonic_force::periodic_path::{Kind, Run, Runs, closing};
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at};
-use crate::varying_load::harmonic_force::walk::{Kind, Run, Runs, closing};
-use core::f64::consts::PI;
 
 /// Doubles of a piece in the workspace.
 pub(super) const PIECE: usize = 6;
-
-/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
-pub(super) fn row_blocks(harmonics: usize) -> usize {
-    let blocks = (2 * harmonics + 1).div_ceil(4);
-    if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(4) }
-}
-
-/// Blocks of a row that are gathered together, and kept in registers: all up to 5.
-fn strip_blocks(row_blocks: usize) -> usize {
-    if row_blocks <= 5 { row_blocks } else { 4 }
-}
-
-/// A strip of a row.
-type Strip<const N: usize> = [[f64; 4]; N];
-
-/// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
-/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
-pub(super) fn fill_rows(rows: &mut [f64], antiderivatives: &mut [f64], harmonics: usize, samples: usize) {
-    let width = (4 * strip_blocks(row_blocks(harmonics))).max(4);
-    let fill = |values: &mut [f64], function: &dyn Fn(usize, usize) -> f64| {
-        for (index, strip) in values.chunks_exact_mut(width).enumerate() {
-            let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
-            for (c, value) in (first..).zip(strip) {
-                *value = if c <= 2 * harmonics { function(c, n) } else { 0.0 };
-            }
-        }
-    };
-    let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
-    fill(rows, &|c, n| {
-        let angle = angle(c.div_ceil(2), n, samples);
-        if is_sine(c) { angle.sin() } else { angle.cos() }
-    });
-    fill(antiderivatives, &|c, n| {
-        let order = c.div_ceil(2);
-        if order == 0 {
-            return 0.0;
-        }
-        // Sums of a geometric series: the angle half a step before the sample.
-        let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
-        let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
-        scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
-    });
-}
 
 /// How a piece was made, in 3 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +47,7 @@ struct Piece {
     made: Made,
     /// The sample that made it.
     sample: usize,
-    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the walk.
+    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
     weights: [f64; 2],
     since: usize,
     /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
@@ -102,7 +58,7 @@ struct Piece {
     stored: bool,
 }
 
-/// A run that cuts a piece: its samples, counted along the walk, and the first of its packed boundaries.
+/// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     step: usize,
@@ -157,40 +113,19 @@ impl InnerEnd {
     }
 }
 
-/// Tables and memory. Of rows, the first strips of all come first.
+/// Tables and memory.
 #[derive(Debug)]
 pub(super) struct Sensitivity<'a> {
-    pub row_blocks: usize,
-    /// φ and A of each sample.
-    pub rows: &'a Blocks,
-    pub antiderivatives: &'a Blocks,
+    pub rows: Rows<'a>,
     pub pieces: &'a mut [[f64; PIECE]],
     /// Sums of φ times both weights of pieces that were cut repeatedly.
     pub stored: &'a mut Blocks,
-    /// Place of each sample among those touched, or -1; for each of these the rows Y by u and by the input, and φ.
+    /// Term of each sample among the outer products, or -1.
     pub places: &'a mut [f64],
-    pub touched: usize,
-    pub derivatives: &'a mut Blocks,
-    pub touched_rows: &'a mut Blocks,
+    /// Rows Y by u and by the input.
+    pub outer: OuterProducts<'a, 2>,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
     pub own: [&'a mut [f64]; 2],
-}
-
-/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
-/// not combine them in a vector.
-#[inline(always)]
-pub(super) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
-    let ([a, b, c, d], [e, f, g, h]) = (target, row);
-    [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
-}
-
-#[inline(always)]
-fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
-    for block in 0..N {
-        for k in 0..4 {
-            target[block][k] += scale * row[block][k];
-        }
-    }
 }
 
 /// 1/width of a stuck piece: S rises, or rounding made two values equal.
@@ -232,101 +167,20 @@ impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(always)]
     pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
-        match self.row_blocks {
-            1 => self.gather_strips::<1>(context, cuts, runs),
-            3 => self.gather_strips::<3>(context, cuts, runs),
-            5 => self.gather_strips::<5>(context, cuts, runs),
-            _ => self.gather_strips::<4>(context, cuts, runs),
-        }
+        with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
     }
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
-        let samples = context.samples.count.max(1);
-        for strip in 0..(self.row_blocks / N).max(1) {
-            let range = strip * samples..(strip + 1) * samples;
-            let (Some(rows), Some(antiderivatives), Some(derivatives), Some(touched_rows)) = (
-                self.rows.as_chunks().0.get(range.clone()),
-                self.antiderivatives.as_chunks().0.get(range.clone()),
-                self.derivatives.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()),
-                self.touched_rows.as_chunks_mut().0.get_mut(range),
-            ) else {
-                return;
-            };
-            self.places.fill(-1.0);
-            let [own_by_u, own_by_input] = &mut self.own;
-            let mut gathering = Gathering {
-                context,
-                cuts,
-                is_first: strip == 0,
-                rows,
-                antiderivatives,
-                pieces: self.pieces,
-                depth: 0,
-                stored: self.stored.as_chunks_mut::<N>().0.as_chunks_mut().0,
-                places: self.places,
-                touched: 0,
-                derivatives,
-                touched_rows,
-            };
+        let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
+        let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        for strip in 0..outer.strips::<N>() {
+            places.fill(-1.0);
+            let (rows, terms) = (rows.strips(strip), outer.terms(strip));
+            let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
             gathering.gather(runs.clone(), own_by_u, own_by_input);
-            self.touched = gathering.touched;
         }
     }
-
-    /// `Σ Y_j ⊗ φ_j`, columns for the derivatives by u (0) or by the input (1).
-    #[inline(always)]
-    pub fn products(&self, index: usize, products: &mut Blocks) {
-        match self.row_blocks {
-            1 => self.products_of::<1>(index, products),
-            3 => self.products_of::<3>(index, products),
-            5 => self.products_of::<5>(index, products),
-            _ => self.products_of::<4>(index, products),
-        }
-    }
-
-    #[inline(always)]
-    fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
-        let derivatives = self.derivatives.as_chunks::<N>().0.as_chunks::<2>().0;
-        let touched_rows = self.touched_rows.as_chunks::<N>().0;
-        let strips = (self.row_blocks / N).max(1);
-        let samples = derivatives.len() / strips;
-        let touched = |strip: usize| strip * samples..strip * samples + self.touched;
-        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
-            columns.fill([[0.0; 4]; N]);
-            let phi = touched_rows.get(touched(strip)).unwrap_or(&[]);
-            for row_strip in 0..strips {
-                let derivatives = derivatives.get(touched(row_strip)).unwrap_or(&[]);
-                for block in 0..derivatives.len().div_ceil(IN_CACHE) {
-                    let (derivatives, phi) = (in_cache(derivatives, block), in_cache(phi, block));
-                    for pair in 0..2 * N {
-                        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-                        for ([by_displacement, by_input], phi) in derivatives.iter().zip(phi) {
-                            let row = if index == 0 { by_displacement } else { by_input };
-                            let phi = phi.as_flattened();
-                            add_scaled(&mut one, phi[2 * pair], row);
-                            add_scaled(&mut two, phi[2 * pair + 1], row);
-                        }
-                        for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
-                            if let Some(place) = columns.get_mut(column * strips + row_strip) {
-                                add_scaled(place, 1.0, &sums);
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Touched samples whose rows stay in the first cache.
-const IN_CACHE: usize = 32;
-
-/// A block of [`IN_CACHE`] values, or what is left of them.
-#[inline(always)]
-fn in_cache<T>(values: &[T], block: usize) -> &[T] {
-    let rest = values.get(block * IN_CACHE..).unwrap_or(&[]);
-    rest.get(..IN_CACHE).unwrap_or(rest)
 }
 
 /// Boundaries of the slip zones, packed: S, N and f.
@@ -343,18 +197,13 @@ pub(super) struct Cuts<'c> {
 struct Gathering<'c, const N: usize> {
     context: &'c Context<'c>,
     cuts: &'c Cuts<'c>,
-    /// Whether the strips hold the constant.
-    is_first: bool,
-    rows: &'c [Strip<N>],
-    antiderivatives: &'c [Strip<N>],
+    rows: RowStrips<'c, N>,
     /// Piece k ends at knot k: pieces are counted from the centre.
     pieces: &'c mut [[f64; PIECE]],
     depth: usize,
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
-    touched: usize,
-    derivatives: &'c mut [[Strip<N>; 2]],
-    touched_rows: &'c mut [Strip<N>],
+    terms: Terms<'c, N, 2>,
 }
 
 impl<const N: usize> Gathering<'_, N> {
@@ -462,13 +311,7 @@ impl<const N: usize> Gathering<'_, N> {
         if now <= since {
             return;
         }
-        let row = |step| self.antiderivatives.get(self.context.sample_at(step));
-        let (Some(to), Some(from)) = (row(now), row(since)) else { return };
-        let mut covered = *to;
-        add_scaled(&mut covered, -1.0, from);
-        if let (true, Some([constant, ..])) = (self.is_first, covered.first_mut()) {
-            *constant = (now - since) as f64;
-        }
+        let covered = self.rows.sum_between(self.context.sample_at(since), self.context.sample_at(now), now - since);
         let [constant, linear] = sums;
         add_scaled(constant, weights[0], &covered);
         add_scaled(linear, weights[1], &covered);
@@ -488,7 +331,7 @@ impl<const N: usize> Gathering<'_, N> {
         }
         self.add_covered(&mut sums, piece.weights, piece.since, step);
         let first = self.context.sample_at(step);
-        let rows = self.rows.get(first..first + count).unwrap_or(&[]);
+        let rows = self.rows.phi.get(first..first + count).unwrap_or(&[]);
         let packed = packed..packed + count;
         let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
         let [constant, linear] = &mut sums;
@@ -573,27 +416,16 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
         let Some(place) = self.places.get_mut(sample) else { return };
-        let is_new = *place < 0.0;
-        if is_new {
-            *place = self.touched as f64;
-        }
-        let index = *place as usize;
-        let Some(derivatives) = self.derivatives.get_mut(index) else { return };
-        if !is_new {
-            let [mut u_row, mut input_row] = *derivatives;
+        if *place < 0.0 {
+            *place = self.terms.count() as f64;
+            if let Some(phi) = self.rows.phi.get(sample) {
+                self.terms.push([scaled(by_u, row), scaled(by_input, row)], phi);
+            }
+        } else if let Some(y) = self.terms.y(*place as usize) {
+            let [mut u_row, mut input_row] = *y;
             add_scaled(&mut u_row, by_u, row);
             add_scaled(&mut input_row, by_input, row);
-            *derivatives = [u_row, input_row];
-        } else if let (Some(phi), Some(own)) = (self.touched_rows.get_mut(index), self.rows.get(sample)) {
-            (*derivatives, *phi) = ([scaled(by_u, row), scaled(by_input, row)], *own);
-            self.touched += 1;
+            *y = [u_row, input_row];
         }
     }
-}
-
-#[inline(always)]
-fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
-    let mut scaled = *row;
-    scaled.as_flattened_mut().iter_mut().for_each(|value| *value *= scale);
-    scaled
 }

@@ -1,8 +1,8 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::varying_load::element::Element;
+use crate::varying_load::harmonic_force::periodic_path::{Kind, Place, Run, Runs};
 use crate::varying_load::harmonic_force::samples::{Samples, at};
-use crate::varying_load::harmonic_force::walk::{Kind, Place, Run, Runs};
 use core::ops::Range;
 
 /// Arrays of the tangential forces.

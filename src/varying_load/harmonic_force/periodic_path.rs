@@ -80,7 +80,7 @@ impl Run {
     }
 }
 
-/// The runs of a walk.
+/// The runs of a path.
 #[derive(Debug, Clone)]
 pub(super) struct Runs<'a> {
     encoded: core::slice::Iter<'a, [f64; RUN]>,
@@ -144,9 +144,9 @@ impl Knot {
     }
 }
 
-/// Memory of a walk.
+/// Memory of the diagram and the runs along a periodic path.
 #[derive(Debug)]
-pub(super) struct Walk<'a> {
+pub(super) struct PeriodicPath<'a> {
     pub knots: &'a mut [[f64; KNOT]],
     pub runs: &'a mut [[f64; RUN]],
     /// S at the boundaries of the slip zones.
@@ -203,7 +203,7 @@ struct Span<'a> {
     inputs: &'a [f64],
 }
 
-impl Walk<'_> {
+impl PeriodicPath<'_> {
     /// The memory of the knots, for a diagram with forces.
     pub fn diagram(&mut self) -> &mut [[f64; 4]] {
         self.knots
@@ -214,7 +214,7 @@ impl Walk<'_> {
         self.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[])
     }
 
-    /// The runs of a walk along a part of the period.
+    /// The runs along a part of the period.
     pub fn runs(&self, extent: Extent, part: &Part, samples: usize) -> Runs<'_> {
         let encoded = self.runs.get(..extent.runs).unwrap_or(&[]).iter();
         Runs { encoded, first: part.start, packed: 0, samples }

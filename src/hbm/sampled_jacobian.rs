@@ -1,4 +1,4 @@
-//! The Jacobian from Fourier sums of weights, and from the derivatives gathered by pieces.
+//! The Jacobian of a force at uniformly spaced samples: Fourier sums of weights, `Σ w φ ⊗ φ`, and outer products `Σ Y_j ⊗ φ_j`.
 //!
 //! A product of two harmonics is composed of the sum and the difference of their orders. With the pairs `Z_k = Σ w (cos kt, sin kt)` and
 //! `W_k = Σ w (sin kt, -cos kt)` for all orders k of either sign, the rows of the pair p of `Σ w φ ⊗ φ` are
@@ -7,9 +7,9 @@
 //! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (W_{p+q} - W_{p-q})/2
 //! ```
 
+use super::rows::{OuterProducts, plus, row_blocks};
+use super::workspace::{Blocks, Parts, Size, padded};
 use crate::error::Error;
-use crate::hbm::workspace::{Blocks, Parts, Size, padded};
-use crate::varying_load::harmonic_force::sensitivity::{Sensitivity, plus, row_blocks};
 
 /// Doubles for the pairs of the orders from -H to 2H.
 fn pairs_length(harmonics: usize) -> usize {
@@ -17,18 +17,18 @@ fn pairs_length(harmonics: usize) -> usize {
 }
 
 /// Doubles of an [`Assembly`].
-pub(super) fn memory_length(harmonics: usize) -> usize {
+pub(crate) fn memory_length(harmonics: usize) -> usize {
     padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 2)
 }
 
 #[derive(Debug)]
-pub(super) struct Assembly<'a> {
+pub(crate) struct Assembly<'a> {
     size: Size,
     /// Fourier sums of the weights up to the order 2H.
     pub sums: &'a mut [f64],
     /// Z and W over the number of samples.
     pairs: [&'a mut [f64]; 2],
-    /// Columns of the derivatives gathered by pieces, with respect to u or to the input.
+    /// Columns of the outer products.
     products: &'a mut Blocks,
 }
 
@@ -91,20 +91,19 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Adds the derivatives gathered by pieces, with respect to u (0) or to the input (1). Under half-wave symmetry they are those of
-    /// half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
+    /// Adds the outer products with the rows Y of an index. Under half-wave symmetry they are those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
-    pub fn add_products<'c>(
+    pub fn add_products<'c, const D: usize>(
         &mut self,
-        sensitivity: &Sensitivity,
+        outer: &OuterProducts<D>,
         index: usize,
         symmetry: Option<f64>,
         columns: impl Iterator<Item = &'c mut [f64]>,
     ) {
-        if sensitivity.touched == 0 {
+        if outer.is_empty() {
             return;
         }
-        sensitivity.products(index, self.products);
+        outer.products(index, self.products);
         let weight = 1.0 / self.size.samples as f64;
         let length = row_blocks(self.size.harmonics).max(1);
         for (c, column) in columns.enumerate() {
