@@ -37,14 +37,27 @@ impl Branch {
     }
 }
 
-impl Evaluator for BranchEvaluator<'_> {
+impl BranchEvaluator<'_> {
+    /// The displacement on the monotonic curve.
     #[inline(always)]
-    fn at(&self, displacement: f64) -> Response {
-        let BranchEvaluator { branch, factor, limit, curve } = self;
-        let Response { force, stiffness } = curve.at(branch.distance(curve.slip_displacement, displacement));
+    fn distance(&self, displacement: f64) -> f64 {
+        self.branch.distance(self.curve.slip_displacement, displacement)
+    }
+
+    /// The response on the branch, from that of the monotonic curve.
+    #[inline(always)]
+    fn on_branch(&self, Response { force, stiffness }: Response) -> Response {
+        let BranchEvaluator { branch, factor, limit, .. } = self;
         let force = branch.start.force + factor * force;
         let force = if force > *limit { *limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
+    }
+}
+
+impl Evaluator for BranchEvaluator<'_> {
+    #[inline(always)]
+    fn at(&self, displacement: f64) -> Response {
+        self.on_branch(self.curve.at(self.distance(displacement)))
     }
 }
 
@@ -71,6 +84,15 @@ pub struct Step {
 pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
     state::check_header(state)?;
     check_displacement(displacement)
+}
+
+/// Force and stiffness after a step that only advances the present point: it continues the branch, does not reach its end, and needs
+/// no iteration. `None` for every other step. State and displacement are checked.
+#[inline(always)]
+pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
+    let evaluator = state::memory(state).branch_ahead(contact, displacement)?.evaluator(contact);
+    let response = evaluator.curve.interpolated(evaluator.distance(displacement))?;
+    Some(evaluator.on_branch(response))
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
@@ -209,6 +231,13 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         }
     };
     for (i, &displacement) in path.iter().enumerate() {
+        let continued = if dissipated.is_none() { continued(contact, state, displacement) } else { None };
+        if let Some(response) = continued {
+            state::set_point(state, Point { displacement, force: response.force });
+            set(&mut force, i, response.force);
+            set(&mut stiffness, i, response.stiffness);
+            continue;
+        }
         let (values, energy) = if dissipated.is_none() && !state::is_full(state) {
             let step = step_with_room(contact, state, displacement);
             step.write(state);

@@ -123,6 +123,28 @@ pub(crate) fn write_header(state: &mut [f64], depth: usize, initial: InitialCurv
     }
 }
 
+/// Sets displacement and force in the header.
+#[inline(always)]
+pub(crate) fn set_point(state: &mut [f64], now: Point) {
+    if let Some([_, displacement, _, force, _]) = state.first_chunk_mut::<HEADER>() {
+        (*displacement, *force) = (now.displacement, now.force);
+    }
+}
+
+/// Copies what is in use of a state whose header was checked to one of the same length.
+#[inline(always)]
+pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
+    let (used, mut places) = (HEADER + PER_REVERSAL * memory(from).depth(), to.iter_mut());
+    from.iter().take(used).zip(&mut places).for_each(|(value, place)| *place = *value);
+}
+
+/// Copies what is in use of a state whose header was checked, with another present point.
+#[inline(never)]
+pub(crate) fn copy_with_point(from: &[f64], to: &mut [f64], now: Point) {
+    copy_used(from, to);
+    set_point(to, now);
+}
+
 /// Validates a state in full: all values are finite, and the reversals are nested. For states from outside the process.
 ///
 /// # Errors

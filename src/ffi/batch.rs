@@ -174,10 +174,12 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
             |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
         for (i, contact, target) in items.with(displacement, 1) {
             let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
-            let outputs = [at(force, i), at(stiffness, i), at(dissipated, i)];
+            let [force, stiffness, dissipated] = [at(force, i), at(stiffness, i), at(dissipated, i)];
             for &target in target {
                 // SAFETY: checked, aligned; those of item i are valid by the function's contract.
-                unsafe { history::update(contact, state_length, state_old, target, state_new, outputs) };
+                unsafe {
+                    history::update(contact, state_length, state_old, target, state_new, force, stiffness, dissipated)
+                };
             }
         }
         Ok(())

@@ -1,12 +1,14 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
+use super::MSLIP_OK;
 use super::contact::check_positions;
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, check_length, input, output, outputs, requested, set, status};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput, Step};
+use crate::constant_load::masing::{self, PathOutput};
 use crate::constant_load::state;
 use crate::error::Error;
+use crate::law::Point;
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -81,7 +83,8 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
-/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
+/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise
+/// both states to store or compare whole arrays.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -99,41 +102,109 @@ pub unsafe extern "C" fn mslip_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let checked_update = || {
-        // SAFETY: by the function's contract.
-        let contact = unsafe { pointers::contact(contact) }?;
-        [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        {
-            // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-            masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
-        }
-        // SAFETY: checked, aligned; valid by the function's contract.
-        unsafe {
-            update(contact, state_length, state_old, displacement, state_new, [force, stiffness, dissipated]);
-        }
-        Ok(())
+    let outputs = [state_new, force, stiffness, dissipated];
+    // SAFETY: by the function's contract.
+    let contact = match unsafe { check_update(contact, state_length, state_old, displacement, outputs) } {
+        Ok(contact) => contact,
+        Err(error) => return error.code(),
     };
-    status(checked_update())
+    // SAFETY: checked; valid by the function's contract.
+    unsafe { update(contact, state_length, state_old, displacement, state_new, force, stiffness, dissipated) }
+}
+
+/// Checks the arguments of an update.
+///
+/// # Safety
+/// As for [`mslip_masing_update`].
+#[inline(always)]
+unsafe fn check_update<'a>(
+    contact: *const mslip_contact,
+    state_length: size_t,
+    state_old: *const f64,
+    displacement: f64,
+    outputs: [*mut f64; 4],
+) -> Result<&'a Contact, Error> {
+    // SAFETY: by the function's contract.
+    let contact = unsafe { pointers::contact(contact) }?;
+    outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+    masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
+    Ok(contact)
+}
+
+/// Advances the present point of a state, if the step does no more; returns `false`, and has written nothing, if it does.
+///
+/// # Safety
+/// `state_old` is valid for state_length doubles, and checked; `state_new` is NULL, equal to it, or valid for as many doubles without
+/// overlap; the outputs are NULL, or aligned and valid for one double.
+#[inline(always)]
+pub(super) unsafe fn continue_branch(
+    contact: &Contact,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: f64,
+    state_new: *mut f64,
+    [force, stiffness]: [*mut f64; 2],
+) -> bool {
+    // SAFETY: by the function's contract.
+    unsafe {
+        let state = slice::from_raw_parts(state_old, state_length);
+        let Some(response) = masing::continued(contact, state, displacement) else { return false };
+        write(force, response.force);
+        write(stiffness, response.stiffness);
+        let now = Point { displacement, force: response.force };
+        if ptr::eq(state_old, state_new) {
+            state::set_point(slice::from_raw_parts_mut(state_new, state_length), now);
+        } else if !state_new.is_null() {
+            state::copy_with_point(state, slice::from_raw_parts_mut(state_new, state_length), now);
+        }
+    }
+    true
 }
 
 /// One update with checked inputs: evaluates the step, then writes.
 ///
 /// # Safety
-/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the
-/// outputs are NULL, or aligned and valid for one double.
-#[inline(never)]
+/// As for [`continue_branch`].
+#[inline(always)]
 pub(super) unsafe fn update(
     contact: &Contact,
     state_length: usize,
     state_old: *const f64,
     displacement: f64,
     state_new: *mut f64,
-    outputs: [*mut f64; 3],
-) {
-    let [_, _, dissipated] = outputs;
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
+    // SAFETY: by the function's contract.
+    unsafe {
+        if dissipated.is_null()
+            && continue_branch(contact, state_length, state_old, displacement, state_new, [force, stiffness])
+        {
+            return MSLIP_OK;
+        }
+        general_update(contact, state_length, state_old, displacement, state_new, force, stiffness, dissipated)
+    }
+}
+
+/// # Safety
+/// As for [`continue_branch`].
+#[inline(never)]
+unsafe fn general_update(
+    contact: &Contact,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: f64,
+    state_new: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
     // SAFETY: by the function's contract.
     unsafe {
         let state = slice::from_raw_parts(state_old, state_length);
+        let outputs = [force, stiffness, dissipated];
         if dissipated.is_null() && !state::is_full(state) {
             let step = masing::step_with_room(contact, state, displacement);
             write_step(&step, state_length, state_old, state_new, outputs);
@@ -141,39 +212,21 @@ pub(super) unsafe fn update(
             let step = masing::step_in_full_state(contact, state, displacement);
             write_step(&step, state_length, state_old, state_new, outputs);
         } else {
-            update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
+            let (step, energy) = masing::step_with_energy(contact, state, displacement);
+            write_step(&step, state_length, state_old, state_new, outputs);
+            write(dissipated, energy);
         }
     }
-}
-
-/// # Safety
-/// As for [`update`].
-#[inline(never)]
-unsafe fn update_with_energy(
-    contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
-    displacement: f64,
-    state_new: *mut f64,
-    outputs: [*mut f64; 3],
-) {
-    // SAFETY: by the function's contract.
-    unsafe {
-        let state = slice::from_raw_parts(state_old, state_length);
-        let (step, energy) = masing::step_with_energy(contact, state, displacement);
-        write_step(&step, state_length, state_old, state_new, outputs);
-        let [_, _, dissipated] = outputs;
-        write(dissipated, energy);
-    }
+    MSLIP_OK
 }
 
 /// Writes a step: the state and the outputs force and stiffness.
 ///
 /// # Safety
-/// As for [`update`].
+/// As for [`continue_branch`].
 #[inline(always)]
 unsafe fn write_step(
-    step: &Step,
+    step: &masing::Step,
     state_length: usize,
     state_old: *const f64,
     state_new: *mut f64,
@@ -181,14 +234,30 @@ unsafe fn write_step(
 ) {
     // SAFETY: by the function's contract.
     unsafe {
-        if !state_new.is_null() {
-            if !ptr::eq(state_old, state_new) {
-                ptr::copy(state_old, state_new, state_length);
-            }
-            step.write(slice::from_raw_parts_mut(state_new, state_length));
+        if let Some(state) = new_state(state_length, state_old, state_new) {
+            step.write(state);
         }
         write(force, step.force());
         write(stiffness, step.stiffness());
+    }
+}
+
+/// The new state, with the content of the old one; `None` if it is not requested.
+///
+/// # Safety
+/// As for [`continue_branch`].
+#[inline(always)]
+unsafe fn new_state<'a>(state_length: usize, state_old: *const f64, state_new: *mut f64) -> Option<&'a mut [f64]> {
+    if state_new.is_null() {
+        return None;
+    }
+    // SAFETY: by the function's contract; the states are different memory if one is copied.
+    unsafe {
+        let state = slice::from_raw_parts_mut(state_new, state_length);
+        if !ptr::eq(state_old, state_new) {
+            state::copy_used(slice::from_raw_parts(state_old, state_length), state);
+        }
+        Some(state)
     }
 }
 
