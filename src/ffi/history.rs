@@ -3,9 +3,11 @@
 use super::MSLIP_OK;
 use super::contact::check_positions;
 use super::mslip_contact;
-use super::pointers::{self, check_alignment, check_length, input, output, outputs, requested, set, status};
+use super::pointers::{
+    self, check_alignment, check_length, input, output, outputs, requested, set, state_input, status,
+};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput};
+use crate::constant_load::masing::{self, PathOutput, Step};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::law::Point;
@@ -36,19 +38,6 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
         state::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
     };
     status(init())
-}
-
-/// A state as an input; not NULL.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
-#[inline(always)]
-unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
-    if state.is_null() {
-        return Err(Error::NullPointer);
-    }
-    // SAFETY: by the function's contract.
-    unsafe { input(state, state_length) }
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
@@ -102,75 +91,34 @@ pub unsafe extern "C" fn mslip_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let outputs = [state_new, force, stiffness, dissipated];
-    // SAFETY: by the function's contract.
-    let contact = match unsafe { check_update(contact, state_length, state_old, displacement, outputs) } {
-        Ok(contact) => contact,
-        Err(error) => return error.code(),
+    let checked = || {
+        // SAFETY: by the function's contract.
+        let contact = unsafe { pointers::contact(contact) }?;
+        [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
+        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+        masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
+        Ok(contact)
     };
-    // SAFETY: checked; valid by the function's contract.
-    unsafe { update(contact, state_length, state_old, displacement, state_new, force, stiffness, dissipated) }
-}
-
-/// Checks the arguments of an update.
-///
-/// # Safety
-/// As for [`mslip_masing_update`].
-#[inline(always)]
-unsafe fn check_update<'a>(
-    contact: *const mslip_contact,
-    state_length: size_t,
-    state_old: *const f64,
-    displacement: f64,
-    outputs: [*mut f64; 4],
-) -> Result<&'a Contact, Error> {
-    // SAFETY: by the function's contract.
-    let contact = unsafe { pointers::contact(contact) }?;
-    outputs.iter().try_for_each(|output| check_alignment(*output))?;
-    // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-    masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
-    Ok(contact)
-}
-
-/// Advances the present point of a state, if the step does no more; returns `false`, and has written nothing, if it does.
-///
-/// # Safety
-/// `state_old` is valid for state_length doubles, and checked; `state_new` is NULL, equal to it, or valid for as many doubles without
-/// overlap; the outputs are NULL, or aligned and valid for one double.
-#[inline(always)]
-pub(super) unsafe fn continue_branch(
-    contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
-    displacement: f64,
-    state_new: *mut f64,
-    [force, stiffness]: [*mut f64; 2],
-) -> bool {
-    // SAFETY: by the function's contract.
-    unsafe {
-        let state = slice::from_raw_parts(state_old, state_length);
-        let Some(response) = masing::continued(contact, state, displacement) else { return false };
-        write(force, response.force);
-        write(stiffness, response.stiffness);
-        let now = Point { displacement, force: response.force };
-        if ptr::eq(state_old, state_new) {
-            state::set_point(slice::from_raw_parts_mut(state_new, state_length), now);
-        } else if !state_new.is_null() {
-            state::copy_with_point(state, slice::from_raw_parts_mut(state_new, state_length), now);
-        }
+    match checked() {
+        // SAFETY: checked, aligned; valid by the function's contract.
+        Ok(contact) => unsafe {
+            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
+            update(contact, state_old, displacement, state_new, force, stiffness, dissipated)
+        },
+        Err::<_, Error>(error) => error.code(),
     }
-    true
 }
 
-/// One update with checked inputs: evaluates the step, then writes.
+/// One update with checked inputs: evaluates the step, then writes. A step that continues its branch is inlined, and calls no other
+/// function before its results are written; all others are left to [`general_update`]. Returns `MSLIP_OK`.
 ///
 /// # Safety
-/// As for [`continue_branch`].
+/// `state_old` is valid; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the outputs are NULL, or aligned
+/// and valid for one double.
 #[inline(always)]
 pub(super) unsafe fn update(
     contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
+    state_old: *const [f64],
     displacement: f64,
     state_new: *mut f64,
     force: *mut f64,
@@ -179,22 +127,28 @@ pub(super) unsafe fn update(
 ) -> i32 {
     // SAFETY: by the function's contract.
     unsafe {
-        if dissipated.is_null()
-            && continue_branch(contact, state_length, state_old, displacement, state_new, [force, stiffness])
-        {
-            return MSLIP_OK;
+        let continued = if dissipated.is_null() { masing::continued(contact, &*state_old, displacement) } else { None };
+        let Some(response) = continued else {
+            return general_update(contact, state_old, displacement, state_new, force, stiffness, dissipated);
+        };
+        write(force, response.force);
+        write(stiffness, response.stiffness);
+        let now = Point { displacement, force: response.force };
+        if ptr::eq(state_old.cast(), state_new) {
+            state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
+        } else if !state_new.is_null() {
+            state::copy_with_point(&*state_old, slice::from_raw_parts_mut(state_new, state_old.len()), now);
         }
-        general_update(contact, state_length, state_old, displacement, state_new, force, stiffness, dissipated)
     }
+    MSLIP_OK
 }
 
 /// # Safety
-/// As for [`continue_branch`].
+/// As for [`update`].
 #[inline(never)]
 unsafe fn general_update(
     contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
+    state_old: *const [f64],
     displacement: f64,
     state_new: *mut f64,
     force: *mut f64,
@@ -203,61 +157,38 @@ unsafe fn general_update(
 ) -> i32 {
     // SAFETY: by the function's contract.
     unsafe {
-        let state = slice::from_raw_parts(state_old, state_length);
-        let outputs = [force, stiffness, dissipated];
+        let state = &*state_old;
+        let results = [force, stiffness];
         if dissipated.is_null() && !state::is_full(state) {
-            let step = masing::step_with_room(contact, state, displacement);
-            write_step(&step, state_length, state_old, state_new, outputs);
+            write_step(&masing::step_with_room(contact, state, displacement), state_old, state_new, results);
         } else if dissipated.is_null() {
-            let step = masing::step_in_full_state(contact, state, displacement);
-            write_step(&step, state_length, state_old, state_new, outputs);
+            write_step(&masing::step_in_full_state(contact, state, displacement), state_old, state_new, results);
         } else {
             let (step, energy) = masing::step_with_energy(contact, state, displacement);
-            write_step(&step, state_length, state_old, state_new, outputs);
+            write_step(&step, state_old, state_new, results);
             write(dissipated, energy);
         }
     }
     MSLIP_OK
 }
 
-/// Writes a step: the state and the outputs force and stiffness.
+/// Writes a step: the new state, and force and stiffness.
 ///
 /// # Safety
-/// As for [`continue_branch`].
+/// As for [`update`].
 #[inline(always)]
-unsafe fn write_step(
-    step: &masing::Step,
-    state_length: usize,
-    state_old: *const f64,
-    state_new: *mut f64,
-    [force, stiffness, _]: [*mut f64; 3],
-) {
-    // SAFETY: by the function's contract.
+unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, [force, stiffness]: [*mut f64; 2]) {
+    // SAFETY: by the function's contract; the states are different memory if one is copied.
     unsafe {
-        if let Some(state) = new_state(state_length, state_old, state_new) {
+        if !state_new.is_null() {
+            let state = slice::from_raw_parts_mut(state_new, state_old.len());
+            if !ptr::eq(state_old.cast(), state_new) {
+                state::copy_used(&*state_old, state);
+            }
             step.write(state);
         }
         write(force, step.force());
         write(stiffness, step.stiffness());
-    }
-}
-
-/// The new state, with the content of the old one; `None` if it is not requested.
-///
-/// # Safety
-/// As for [`continue_branch`].
-#[inline(always)]
-unsafe fn new_state<'a>(state_length: usize, state_old: *const f64, state_new: *mut f64) -> Option<&'a mut [f64]> {
-    if state_new.is_null() {
-        return None;
-    }
-    // SAFETY: by the function's contract; the states are different memory if one is copied.
-    unsafe {
-        let state = slice::from_raw_parts_mut(state_new, state_length);
-        if !ptr::eq(state_old, state_new) {
-            state::copy_used(slice::from_raw_parts(state_old, state_length), state);
-        }
-        Some(state)
     }
 }
 

@@ -70,6 +70,19 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
     unsafe { input(pointer, n) }.map(Some)
 }
 
+/// A state as an input; not NULL.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles.
+#[inline(always)]
+pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
+    if state.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: by the function's contract.
+    unsafe { input(state, state_length) }
+}
+
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
 ///
 /// # Safety
