@@ -231,13 +231,6 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         }
     };
     for (i, &displacement) in path.iter().enumerate() {
-        let continued = if dissipated.is_none() { continued(contact, state, displacement) } else { None };
-        if let Some(response) = continued {
-            state::set_point(state, Point { displacement, force: response.force });
-            set(&mut force, i, response.force);
-            set(&mut stiffness, i, response.stiffness);
-            continue;
-        }
         let (values, energy) = if dissipated.is_none() && !state::is_full(state) {
             let step = step_with_room(contact, state, displacement);
             step.write(state);

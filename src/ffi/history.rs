@@ -183,7 +183,7 @@ unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, 
         if !state_new.is_null() {
             let state = slice::from_raw_parts_mut(state_new, state_old.len());
             if !ptr::eq(state_old.cast(), state_new) {
-                state::copy_used(&*state_old, state);
+                state::write_reversals(state, state::memory(&*state_old).reversals);
             }
             step.write(state);
         }
