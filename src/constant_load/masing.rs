@@ -341,6 +341,37 @@ mod tests {
     }
 
     #[test]
+    fn continued_steps_have_the_bits_of_general_ones() {
+        let contacts = FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]);
+        for (contact, size) in contacts.flat_map(|contact| [0.3, 0.9, 1.3].map(|size| (contact, size))) {
+            let (mut state, mut continued_steps) = (unloaded(4), 0);
+            let mut displacement = 0.0;
+            for value in pseudo_random(3000, 5) {
+                // Small increments continue a branch, large ones do not.
+                displacement = (displacement + 0.2 * value * value * value).clamp(-size, size);
+                let target = displacement * contact.slip_displacement;
+                let step = step(&contact, &state, target);
+                let response = continued(&contact, &state, target);
+                let mut advanced = state.clone();
+                step.write(&mut state);
+                let Some(response) = response else { continue };
+                continued_steps += 1;
+                state::set_point(&mut advanced, Point { displacement: target, force: response.force });
+                assert_eq!(
+                    [response.force, response.stiffness],
+                    [step.force(), step.stiffness()],
+                    "{size} {displacement}"
+                );
+                assert_eq!(advanced.clone(), state, "{size} {displacement}");
+                let mut copy = advanced.clone();
+                state::copy_with_point(&state, &mut copy, Point { displacement: target, force: response.force });
+                assert_eq!(copy, state);
+            }
+            assert!(continued_steps > 1000, "{size} {continued_steps}");
+        }
+    }
+
+    #[test]
     fn memory_without_a_tag_is_rejected() {
         let contact = contact(50e-6);
         let mut valid = unloaded(3);

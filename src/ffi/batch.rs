@@ -206,7 +206,7 @@ unsafe fn update<L: Law>(
     }
     let [force, tangent, dissipated] = outputs;
     for (i, law, displacement) in items.with(|i| displacement.get(i)) {
-        prefetch::<3>(states_old.wrapping_add((i + AHEAD) * state_length));
+        prefetch::<4>(states_old.wrapping_add((i + AHEAD) * state_length));
         let outputs = [
             item_of(force.cast::<L::Vector>(), i).cast(),
             item_of(tangent.cast::<L::Tangent>(), i).cast(),
@@ -227,7 +227,7 @@ fn item_of<T>(output: *mut T, i: usize) -> *mut T {
 
 /// Items from the one that is computed, and from the one that is checked, to the one whose state is fetched from main memory: about
 /// as many as an access takes.
-const AHEAD: usize = 8;
+const AHEAD: usize = 16;
 const CHECKED_AHEAD: usize = 32;
 
 /// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states are

@@ -3,9 +3,7 @@
 use super::MSLIP_OK;
 use super::contact::check_positions;
 use super::mslip_contact;
-use super::pointers::{
-    self, check_alignment, check_length, input, output, outputs, requested, set, state_input, status,
-};
+use super::pointers::{self, check_alignment, input, memory, output, outputs, requested, set, state_input, status};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing::{self, PathOutput, Step};
 use crate::constant_load::state;
@@ -29,15 +27,8 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
-    let init = || {
-        check_length::<f64>(state_length)?;
-        if state.is_null() {
-            return Err(Error::NullPointer);
-        }
-        // SAFETY: by the function's contract.
-        state::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
-    };
-    status(init())
+    // SAFETY: by the function's contract.
+    status(unsafe { memory(state_length, state) }.and_then(state::state_init))
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only

@@ -95,6 +95,19 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
     Ok(unsafe { requested(pointer, n) })
 }
 
+/// Memory of the given number of doubles to be initialised; not NULL.
+///
+/// # Safety
+/// As for [`output`].
+pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f64], Error> {
+    check_length::<f64>(length)?;
+    if pointer.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: by the function's contract.
+    Ok(unsafe { output(pointer, length) }?.unwrap_or(&mut []))
+}
+
 /// Outputs of n doubles each.
 ///
 /// # Safety
