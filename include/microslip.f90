@@ -102,6 +102,10 @@ module microslip
     !! invalid element: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
     !! workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
+  integer(mslip_int), parameter, public :: MSLIP_BAD_TABLE = 26
+    !! invalid table: uninitialised, of another shape than the contact, or created by an incompatible version of the
+    !! library
+  integer(mslip_int), parameter, public :: MSLIP_TABLE_TOO_SHORT = 27  !! table_length must be at least mslip_stiffness_table_length
   integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! a force must be finite
   integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! a force must not exceed mu N in magnitude
   integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32
@@ -434,6 +438,29 @@ module microslip
       type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
       integer(c_int32_t) :: c_complex_stiffness
     end function c_complex_stiffness
+
+    pure function c_stiffness_table_length() bind(c, name='mslip_stiffness_table_length')
+      import
+      integer(c_size_t) :: c_stiffness_table_length
+    end function c_stiffness_table_length
+
+    function c_stiffness_table_init(contact, table_length, table) bind(c, name='mslip_stiffness_table_init')
+      import
+      type(mslip_contact), intent(in) :: contact
+      integer(c_size_t), value :: table_length
+      type(c_ptr), value :: table
+      integer(c_int32_t) :: c_stiffness_table_init
+    end function c_stiffness_table_init
+
+    function c_complex_stiffness_tabulated(contact, table, n, amplitude, k_real, k_imag, dk_real, dk_imag) &
+      bind(c, name='mslip_complex_stiffness_tabulated')
+      import
+      type(mslip_contact), intent(in) :: contact
+      real(c_double), intent(in) :: table(*), amplitude(*)
+      integer(c_size_t), value :: n
+      type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
+      integer(c_int32_t) :: c_complex_stiffness_tabulated
+    end function c_complex_stiffness_tabulated
 
     function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
       bind(c, name='mslip_jenkins_equivalent')

@@ -88,6 +88,12 @@
 // workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
 #define MSLIP_WORKSPACE_TOO_SHORT 25
 
+// invalid table: uninitialised, of another shape than the contact, or created by an incompatible version of the library
+#define MSLIP_BAD_TABLE 26
+
+// table_length must be at least mslip_stiffness_table_length
+#define MSLIP_TABLE_TOO_SHORT 27
+
 // a force must be finite
 #define MSLIP_BAD_FORCE 30
 
@@ -463,6 +469,35 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *k_imag,
                                 double *dk_real,
                                 double *dk_imag);
+
+// Number of doubles in a table of the complex stiffness.
+size_t mslip_stiffness_table_length(void);
+
+// Initialises a table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or scale
+// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
+//
+// Memory: `contact` is NULL or valid for one item, `table` NULL or valid for table_length doubles.
+int32_t mslip_stiffness_table_init(const struct mslip_contact *contact,
+                                   size_t table_length,
+                                   double *table);
+
+// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
+// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
+//
+// Memory: Each pointer is NULL or valid for n doubles, `contact` for one item, `table` for mslip_stiffness_table_length() doubles; outputs
+// must not alias any other argument.
+int32_t mslip_complex_stiffness_tabulated(const struct mslip_contact *contact,
+                                          const double *table,
+                                          size_t n,
+                                          const double *amplitude,
+                                          double *k_real,
+                                          double *k_imag,
+                                          double *dk_real,
+                                          double *dk_imag);
 
 // Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip
 // force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.

@@ -15,3 +15,4 @@ pub mod masing;
 pub(crate) mod memory;
 pub mod state;
 pub(crate) mod steady_state;
+pub(crate) mod stiffness_table;

@@ -2,7 +2,7 @@
 //! classification of floating-point values.
 
 pub(crate) mod chebyshev;
-mod const_math;
+pub(crate) mod const_math;
 pub(crate) mod fp_class;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;

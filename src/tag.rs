@@ -16,6 +16,7 @@ pub(crate) enum Kind {
     EventDriven = 0x4d3a,
     ElementSampling = 0x4d46,
     Samples = 0x4d4e,
+    StiffnessTable = 0x4d54,
 }
 
 const COUNT_BITS: u32 = 40;
@@ -44,13 +45,14 @@ impl Kind {
 mod tests {
     use super::*;
 
-    const KINDS: [Kind; 6] = [
+    const KINDS: [Kind; 7] = [
         Kind::State,
         Kind::ElementState,
         Kind::UniformSampling,
         Kind::EventDriven,
         Kind::ElementSampling,
         Kind::Samples,
+        Kind::StiffnessTable,
     ];
 
     #[test]

@@ -35,6 +35,7 @@ use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
 use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
 use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
+use core::array::from_fn;
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
@@ -70,7 +71,16 @@ pub(crate) fn gross_slip_quadrature(zones: &dyn StickZones) -> GrossSlipQuadratu
 /// Fraction of the displacement of gross slip from which the rule stored in the contact is accurate.
 const GROSS_SLIP_RULE_FROM: f64 = 1.05;
 
+/// Nodes of rules in the time in which a table is made.
+pub(crate) const NODES_OF_TABLE: usize = 1500;
+
 impl Contact {
+    /// Tangent stiffness at the onset of gross slip over the initial one.
+    pub(crate) fn stiffness_at_slip(&self) -> f64 {
+        let zone = self.stick_zones().at_shift_remaining(0.0);
+        self.stick_zones().small_load().compliance / self.stick_zones().compliance(&zone)
+    }
+
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors
@@ -182,8 +192,24 @@ impl ComplexStiffness<'_> {
                 return self.real_in_gross_slip();
             }
         }
-        let slope = contact.stiffness_scale / contact.displacement_scale * self.integrated_d_real();
-        (contact.stiffness_scale * self.integrated_real(), slope)
+        self.real_by_tanh_sinh()
+    }
+
+    /// An estimate of the nodes at which the curve is evaluated for K'.
+    pub(crate) fn nodes(&self) -> usize {
+        let contact = self.contact;
+        if self.is_linear() || self.amplitude * contact.inner_scale <= 1.0 {
+            return 0;
+        }
+        let fraction = self.amplitude * contact.per_slip_displacement();
+        if contact.has_singularity_within(0.75) {
+            return NODES_OF_TABLE;
+        }
+        match RULES.iter().find(|rule| fraction <= rule.largest) {
+            Some(rule) => rule.nodes.len(),
+            None if fraction < GROSS_SLIP_RULE_FROM => NODES_OF_TABLE,
+            None => GAUSS.len() / 8,
+        }
     }
 
     /// Both by a rule adapted to the singularity at gross slip.
@@ -244,55 +270,55 @@ impl ComplexStiffness<'_> {
         }
     }
 
-    /// K' by the tanh-sinh rule, in units of the stiffness scale.
-    fn integrated_real(&self) -> f64 {
-        let shift = self.shift();
-        let sum = match &self.stick_zone() {
-            Some(zone) if zone.load.consumed <= 0.5 => self.integrate_small_tau(zone, |x, y, _| (x * y).sqrt()),
-            zone => self.integrate_sigma(zone.as_ref(), |x, y, point| (x * y).sqrt() * point.dload_dsigma),
+    /// Both by the tanh-sinh rule.
+    #[inline(never)]
+    fn real_by_tanh_sinh(&self) -> (f64, f64) {
+        let (contact, shift) = (self.contact, self.shift());
+        let [real, slope] = match &self.stick_zone() {
+            None => {
+                let [roots, quotients] = self.integrate_sigma(None, |x, y, point| {
+                    let root = (x * y).sqrt() * point.dload_dsigma;
+                    [root, root / y]
+                });
+                [roots, (0.5 * quotients - 2.0 * roots) / shift]
+            }
+            Some(zone) if zone.load.consumed <= 0.5 => self.integrate_small_tau(zone, |x, y, point| {
+                let root = (x * y).sqrt();
+                [root, -root * x * point.curvature / (point.compliance * point.compliance)]
+            }),
+            zone => self.integrate_sigma(zone.as_ref(), |x, y, point| {
+                let root = (x * y).sqrt();
+                let slope = -root * x * point.dcompliance_dsigma / (point.compliance * point.compliance);
+                [root * point.dload_dsigma, slope]
+            }),
         };
-        8.0 / PI / shift * sum
-    }
-
-    /// dK'/dδ0 by the tanh-sinh rule, in units of the stiffness scale over that of the displacement.
-    fn integrated_d_real(&self) -> f64 {
-        let shift = self.shift();
-        let Some(zone) = &self.stick_zone() else {
-            let roots = self.integrate_sigma(None, |x, y, point| (x / y).sqrt() * point.dload_dsigma);
-            return ((4.0 / PI / shift * roots - 2.0 * self.integrated_real()) / shift).min(0.0);
-        };
-        let sum = if zone.load.consumed <= 0.5 {
-            self.integrate_small_tau(zone, |x, y, point| {
-                x * (x * y).sqrt() * point.curvature / (point.compliance * point.compliance)
-            })
-        } else {
-            self.integrate_sigma(Some(zone), |x, y, point| {
-                x * (x * y).sqrt() * point.dcompliance_dsigma / (point.compliance * point.compliance)
-            })
-        };
-        -8.0 / PI / shift * sum
+        let (unit, slope) = (8.0 / PI / shift * contact.stiffness_scale, slope.min(0.0));
+        (unit * real, unit / contact.displacement_scale * slope)
     }
 
     /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ of a stick zone, τ <= 1/2.
-    fn integrate_small_tau(&self, zone: &StickZone, f: impl Fn(f64, f64, &SmallLoadPoint) -> f64) -> f64 {
+    fn integrate_small_tau(&self, zone: &StickZone, f: impl Fn(f64, f64, &SmallLoadPoint) -> [f64; 2]) -> [f64; 2] {
         let series = self.zones().small_load();
         let (shift, top) = (self.shift(), zone.load.consumed);
-        let sum: f64 = TANH_SINH
-            .iter()
-            .map(|node| {
-                let tau = top * node.from_0;
-                let values = series.evaluate(tau);
-                let x = ((series.compliance * tau + values.shift) / shift).min(1.0);
-                let point =
-                    SmallLoadPoint { compliance: series.compliance + values.compliance, curvature: values.curvature };
-                node.weight * f(x, 1.0 - x, &point)
-            })
-            .sum();
-        sum * top
+        let mut sums = [0.0; 2];
+        for node in &TANH_SINH {
+            let tau = top * node.from_0;
+            let values = series.evaluate(tau);
+            let x = ((series.compliance * tau + values.shift) / shift).min(1.0);
+            let point =
+                SmallLoadPoint { compliance: series.compliance + values.compliance, curvature: values.curvature };
+            let values = f(x, 1.0 - x, &point);
+            sums = from_fn(|k| sums[k] + node.weight * values[k]);
+        }
+        sums.map(|sum| sum * top)
     }
 
     /// `∫ f(X, 1-X, point) dσ` from the stick zone, or from the smallest one in gross slip, to b.
-    fn integrate_sigma(&self, zone: Option<&StickZone>, f: impl Fn(f64, f64, &QuadraturePoint) -> f64) -> f64 {
+    fn integrate_sigma(
+        &self,
+        zone: Option<&StickZone>,
+        f: impl Fn(f64, f64, &QuadraturePoint) -> [f64; 2],
+    ) -> [f64; 2] {
         let (zones, shift) = (self.zones(), self.shift());
         let (from, remaining) = match zone {
             Some(zone) => (zones.size_parameter(zone), zone.shift.remaining),
@@ -312,7 +338,8 @@ impl ComplexStiffness<'_> {
         let excess = (-remaining).min(zones.slip_shift() - zones.small_load().half_shift);
         if excess > 0.0 {
             let middle = zones.size_parameter(&zones.at_shift_remaining(excess));
-            integrate(zones, 0.0, middle, integrand) + integrate(zones, middle, 1.0, integrand)
+            let [one, other] = [[0.0, middle], [middle, 1.0]].map(|[from, to]| integrate(zones, from, to, integrand));
+            from_fn(|k| one[k] + other[k])
         } else {
             integrate(zones, from, 1.0, integrand)
         }

@@ -25,7 +25,7 @@ pub(crate) const INNER_FRACTION: f64 = 0.4;
 const PIECES: usize = 5;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
-static CYCLE_WEIGHTS: Polynomial = {
+pub(crate) static CYCLE_WEIGHTS: Polynomial = {
     let mut weights = [1.0; TERMS];
     let mut integral = 1.0;
     let mut n = 1;

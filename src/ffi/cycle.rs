@@ -3,9 +3,10 @@
 use super::mslip_contact;
 use super::pointers::{self, input, output, outputs, set, status};
 use super::simd_dispatch::dispatch_simd;
-use crate::constant_load::complex_stiffness::{ComplexStiffness, check_amplitude};
+use crate::constant_load::complex_stiffness::{ComplexStiffness, NODES_OF_TABLE, check_amplitude};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
+use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use libc::size_t;
 
@@ -87,7 +88,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
-        let (contact, amplitude, mut outputs) = unsafe {
+        let (contact, amplitude, outputs) = unsafe {
             let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
             (pointers::contact(contact)?, input(amplitude, n)?, outputs?)
         };
@@ -95,12 +96,134 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
         if outputs.iter().all(Option::is_none) {
             return Ok(());
         }
-        for (i, &amplitude) in amplitude.iter().enumerate() {
-            write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
-        }
-        Ok(())
+        write_untabulated(contact, amplitude, outputs)
     };
     status(compute())
+}
+
+/// Number of doubles in a table of the complex stiffness.
+#[unsafe(no_mangle)]
+pub extern "C" fn mslip_stiffness_table_length() -> size_t {
+    TABLE_LENGTH
+}
+
+/// Initialises a table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or scale
+/// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
+///
+/// # Safety
+/// `contact` is NULL or valid for one item, `table` NULL or valid for table_length doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_stiffness_table_init(
+    contact: *const mslip_contact,
+    table_length: size_t,
+    table: *mut f64,
+) -> i32 {
+    let init = || {
+        // SAFETY: by the function's contract.
+        let (contact, table) =
+            unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
+        table.write(stiffness_table(contact));
+        Ok(())
+    };
+    status(init())
+}
+
+fn stiffness_table(contact: &Contact) -> StiffnessTable {
+    dispatch_simd!(StiffnessTable::of, contact: &Contact => StiffnessTable)
+}
+
+/// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
+/// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles, `contact` for one item, `table` for mslip_stiffness_table_length() doubles; outputs
+/// must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
+    contact: *const mslip_contact,
+    table: *const f64,
+    n: size_t,
+    amplitude: *const f64,
+    k_real: *mut f64,
+    k_imag: *mut f64,
+    dk_real: *mut f64,
+    dk_imag: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, table, amplitude, outputs) = unsafe {
+            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
+            (pointers::contact(contact)?, pointers::stiffness_table(table)?, input(amplitude, n)?, outputs?)
+        };
+        if !table.is_of(contact) {
+            return Err(Error::BadTable);
+        }
+        amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
+        if table.has_polynomials() && !contact.is_frictionless() {
+            write_tabulated(contact, table, amplitude, outputs);
+            return Ok(());
+        }
+        write_untabulated(contact, amplitude, outputs)
+    };
+    status(compute())
+}
+
+type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
+
+fn write_tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs) {
+    dispatch_simd!(
+        tabulated,
+        contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs => ()
+    );
+}
+
+/// Complex stiffness from a table, the requested parts only.
+#[inline(always)]
+fn tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64], mut outputs: StiffnessOutputs) {
+    let real = outputs[0].is_some() || outputs[2].is_some();
+    let imaginary = outputs[1].is_some() || outputs[3].is_some();
+    let (fours, rest) = amplitude.as_chunks::<4>();
+    for (i, four) in fours.iter().enumerate() {
+        write_values(table.parts(contact, four, real, imaginary), 4 * i, &mut outputs);
+    }
+    for (i, one) in rest.as_chunks::<1>().0.iter().enumerate() {
+        write_values(table.parts(contact, one, real, imaginary), 4 * fours.len() + i, &mut outputs);
+    }
+}
+
+#[inline(always)]
+fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outputs: &mut StiffnessOutputs) {
+    let [k_real, k_imag, dk_real, dk_imag] = outputs;
+    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
+        set(k_real, first + i, || real);
+        set(dk_real, first + i, || d_real);
+        set(k_imag, first + i, || imaginary);
+        set(dk_imag, first + i, || d_imaginary);
+    }
+}
+
+/// Without a table of the caller, with one on the stack if that is cheaper.
+fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) -> Result<(), Error> {
+    let real = outputs[0].is_some() || outputs[2].is_some();
+    let mut nodes = 0;
+    for &one in amplitude {
+        nodes += contact.complex_stiffness(one)?.nodes();
+        if real && nodes > NODES_OF_TABLE {
+            let table = stiffness_table(contact);
+            if table.has_polynomials() {
+                write_tabulated(contact, &table, amplitude, outputs);
+                return Ok(());
+            }
+        }
+    }
+    for (i, &amplitude) in amplitude.iter().enumerate() {
+        write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
+    }
+    Ok(())
 }
 
 /// Writes the requested outputs of `mslip_complex_stiffness`, in its order.

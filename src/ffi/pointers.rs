@@ -2,11 +2,13 @@
 
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
+use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::hbm::{self, Workspace};
 use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force;
-use core::{mem, ptr, slice};
+use core::mem::{self, MaybeUninit};
+use core::{ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
     match result {
@@ -193,6 +195,39 @@ pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, 
     // SAFETY: by the function's contract; both types consist of the same doubles and integers, for which all bit patterns are valid.
     let element = unsafe { item(pointer.cast::<Element>()) }?;
     if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
+}
+
+/// An initialised table of the complex stiffness.
+///
+/// # Safety
+/// `pointer` is NULL or valid for a table if the first double is the tag of one.
+pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTable, Error> {
+    // SAFETY: by the function's contract.
+    if !StiffnessTable::is_tag(*unsafe { item(pointer) }?) {
+        return Err(Error::BadTable);
+    }
+    // SAFETY: a table consists of doubles; valid by the function's contract.
+    unsafe { item(pointer.cast()) }
+}
+
+/// Memory for a table of the complex stiffness.
+///
+/// # Safety
+/// `pointer` is NULL or valid for `length` doubles.
+pub unsafe fn stiffness_table_output<'a>(
+    length: usize,
+    pointer: *mut f64,
+) -> Result<&'a mut MaybeUninit<StiffnessTable>, Error> {
+    check_length::<f64>(length)?;
+    check_alignment(pointer)?;
+    if pointer.is_null() {
+        return Err(Error::NullPointer);
+    }
+    if length < TABLE_LENGTH {
+        return Err(Error::TableTooShort);
+    }
+    // SAFETY: aligned, not NULL; long enough by the function's contract.
+    Ok(unsafe { &mut *pointer.cast() })
 }
 
 /// Sets element i of an output, if requested.

@@ -10,13 +10,13 @@ pub(crate) const TERMS: usize = 20;
 pub(crate) type Polynomial = Rows<{ TERMS / 4 }>;
 
 /// Coefficients of the powers of z in T_n(shift + scale z), at `[n][power]`: integers below 2⁵³.
-const fn powers_in(shift: f64, scale: f64) -> [[f64; TERMS]; TERMS] {
-    let mut table = [[0.0; TERMS]; TERMS];
+const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
+    let mut table = [[0.0; N]; N];
     table[0][0] = 1.0;
     table[1][0] = shift;
     table[1][1] = scale;
     let mut n = 2;
-    while n < TERMS {
+    while n < N {
         let mut k = 0;
         while k <= n {
             let below = if k > 0 { table[n - 1][k - 1] } else { 0.0 };
@@ -32,6 +32,14 @@ const fn powers_in(shift: f64, scale: f64) -> [[f64; TERMS]; TERMS] {
 static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
+
+/// Expansion of 32 terms about the middle.
+static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
+
+/// Powers of z in T_n, at `[n][power]`.
+pub(crate) fn middle_powers() -> &'static [[f64; 32]; 32] {
+    &MORE_AROUND_MIDDLE
+}
 
 /// A Chebyshev series: the coefficients of T_0, T_1, ...
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +58,7 @@ impl<const N: usize> Interpolant<N> {
     };
 
     /// T_n at point j, at `[j][n]`.
-    const AT_POINTS: [[f64; N]; N] = {
+    pub const AT_POINTS: [[f64; N]; N] = {
         let mut table = [[0.0; N]; N];
         let mut j = 0;
         while j < N {
@@ -74,6 +82,11 @@ impl<const N: usize> Interpolant<N> {
         if let Some(first) = coefficients.first_mut() {
             *first *= 0.5;
         }
+        Interpolant(coefficients)
+    }
+
+    /// Of given coefficients.
+    pub fn of(coefficients: [f64; N]) -> Interpolant<N> {
         Interpolant(coefficients)
     }
 
@@ -166,7 +179,7 @@ mod tests {
     #[test]
     fn powers_in_sums_to_chebyshev_polynomials() {
         for (shift, scale) in [(0.0, 1.0), (-1.0, 2.0)] {
-            for (n, row) in powers_in(shift, scale).iter().enumerate() {
+            for (n, row) in powers_in::<TERMS>(shift, scale).iter().enumerate() {
                 for z in [-1.0, -0.4, 0.3, 0.9_f64] {
                     let x = (z - shift) / scale;
                     let value = row.iter().rev().fold(0.0, |sum, power| sum * x + power);

@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, LN_2};
 
 /// `cos(π/2 m/quarter)`: Taylor series on the first octant, symmetry elsewhere.
-pub(super) const fn cosine(m: usize, quarter: usize) -> f64 {
+pub(crate) const fn cosine(m: usize, quarter: usize) -> f64 {
     let m = m % (4 * quarter);
     if m > 2 * quarter {
         return cosine(4 * quarter - m, quarter);
@@ -25,7 +25,7 @@ pub(super) const fn cosine(m: usize, quarter: usize) -> f64 {
 }
 
 /// `exp(x)`: Taylor series after reduction of the argument by multiples of ln 2.
-pub(super) const fn exp(x: f64) -> f64 {
+pub(crate) const fn exp(x: f64) -> f64 {
     let exponent = (x / LN_2) as i32;
     let reduced = x - exponent as f64 * LN_2;
     let mut sum = 1.0;
@@ -42,9 +42,30 @@ pub(super) const fn exp(x: f64) -> f64 {
     sum
 }
 
+/// `sqrt(x)` of a normal number, or 0: Newton's method from half the exponent.
+pub(crate) const fn square_root(x: f64) -> f64 {
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let mut root = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
+    let mut rounds = 0;
+    while rounds < 5 {
+        root = 0.5 * (root + x / root);
+        rounds += 1;
+    }
+    root
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn square_root_agrees_with_the_standard_library() {
+        for x in [0.0, 1e-300, 1e-9, 0.5, 1.0, 2.0, 3.7, 1e200f64] {
+            assert!((square_root(x) - x.sqrt()).abs() <= f64::EPSILON * x.sqrt(), "{x}");
+        }
+    }
 
     #[test]
     fn cosine_agrees_with_the_standard_library_beyond_two_periods() {

@@ -42,9 +42,15 @@ static GAUSS_RULES: [[[f64; 4]; 2]; MAX_GAUSS_BLOCKS * (MAX_GAUSS_BLOCKS + 1) / 
 
 /// Gauss-Legendre rule of 1 to [`MAX_GAUSS_BLOCKS`] blocks of four nodes; each block is [nodes, weights].
 #[inline(always)]
-pub(crate) fn gauss_rule(blocks: usize) -> &'static [[[f64; 4]; 2]] {
+pub(crate) const fn gauss_rule(blocks: usize) -> &'static [[[f64; 4]; 2]] {
     let start = blocks * blocks.saturating_sub(1) / 2;
-    GAUSS_RULES.get(start..start + blocks).unwrap_or(&[])
+    match GAUSS_RULES.split_at_checked(start) {
+        Some((_, rules)) => match rules.split_at_checked(blocks) {
+            Some((rule, _)) => rule,
+            None => &[],
+        },
+        None => &[],
+    }
 }
 
 /// Nodes and weights of a [`gauss_rule`], one after the other.

@@ -24,6 +24,7 @@ pub(crate) mod rounded_flat;
 pub(crate) mod small_load;
 
 use crate::numerics::quadrature::TANH_SINH;
+use core::array::from_fn;
 use small_load::SmallLoadSeries;
 
 /// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
@@ -152,9 +153,16 @@ pub(crate) trait StickZones {
 
 /// `∫ f dσ` between two size parameters, for f with at worst a square root at each end. No node lies beyond `to`, even with rounding
 /// upward: the compliance of a size above b could vanish.
-pub(crate) fn integrate(zones: &dyn StickZones, from: f64, to: f64, mut f: impl FnMut(&QuadraturePoint) -> f64) -> f64 {
-    let length = to - from;
-    let values =
-        TANH_SINH.iter().map(|node| node.weight * f(&zones.quadrature_point((from + length * node.from_0).min(to))));
-    length * values.sum::<f64>()
+pub(crate) fn integrate(
+    zones: &dyn StickZones,
+    from: f64,
+    to: f64,
+    f: impl Fn(&QuadraturePoint) -> [f64; 2],
+) -> [f64; 2] {
+    let (length, mut sums) = (to - from, [0.0; 2]);
+    for node in &TANH_SINH {
+        let values = f(&zones.quadrature_point((from + length * node.from_0).min(to)));
+        sums = from_fn(|k| sums[k] + node.weight * values[k]);
+    }
+    sums.map(|sum| length * sum)
 }

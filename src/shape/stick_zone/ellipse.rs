@@ -170,10 +170,10 @@ mod tests {
         assert!((zones.dissipation(&high) - zones.dissipation(&low) - 1e-12 * slope).abs() < 2e-15);
         // The energy at gross slip, and its integral over all stick zones: e = 4 ∫ t (τ - t) h'' dt with τ = 1.
         let gross_slip = zones.dissipation(&zones.at_load_remaining(0.0));
-        let sum = integrate(&zones, 0.0, 1.0, |point| {
+        let [sum, _] = integrate(&zones, 0.0, 1.0, |point| {
             let size = (point.shift.remaining / SLIP_SHIFT).sqrt();
             let remaining = size * size * size;
-            4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma
+            [4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma, 0.0]
         });
         assert!((gross_slip - 1.2).abs() < 4e-16 && (sum - 1.2).abs() < 4e-15, "{gross_slip} {sum}");
     }

@@ -338,10 +338,10 @@ mod tests {
             }
             // Gross slip: e = 4 ∫ t (1 - t) h'' dt over all stick zones.
             let gross_slip = zones.dissipation(&zones.at_load_remaining(0.0));
-            let sum = integrate(&zones, 0.0, 1.0, |point| {
+            let [sum, _] = integrate(&zones, 0.0, 1.0, |point| {
                 let distance = (zones.slip_shift() - point.shift.consumed).max(0.0);
                 let remaining = zones.at_shift_remaining(distance).load.remaining;
-                4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma
+                [4.0 * (1.0 - remaining) * remaining * point.dcompliance_dsigma, 0.0]
             });
             assert!((gross_slip / sum - 1.0).abs() < 1e-9, "{gross_slip} {sum}");
         }
