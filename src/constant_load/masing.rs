@@ -362,10 +362,11 @@ mod tests {
                     [step.force(), step.stiffness()],
                     "{size} {displacement}"
                 );
-                assert_eq!(advanced.clone(), state, "{size} {displacement}");
-                let mut copy = advanced.clone();
+                assert_eq!(advanced, state, "{size} {displacement}");
+                let mut copy = vec![f64::NAN; state.len()];
                 state::copy_with_point(&state, &mut copy, Point { displacement: target, force: response.force });
-                assert_eq!(copy, state);
+                let in_use = 5 + 3 * depth_and_offset(&state).0;
+                assert_eq!(copy[..in_use], state[..in_use]);
             }
             assert!(continued_steps > 1000, "{size} {continued_steps}");
         }
