@@ -31,7 +31,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
-use crate::shape::stick_zone::Complement;
+use crate::shape::stick_zone::{Complement, StickZones};
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -45,8 +45,11 @@ use operators::{
 const PIECES: usize = 7;
 /// Terms of G beyond gross slip on all pieces but the first.
 const FEWER_TERMS: usize = 16;
-/// Largest amplitude of the pieces beyond gross slip.
-const FAR_FROM: f64 = 1.0 + TOP;
+/// Smallest ξ of the last polynomial.
+const FAR: f64 = 1.0 + TOP;
+/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
+/// derivative is least accurate.
+const OVERLAP: f64 = 0.02;
 
 /// The polynomials of one shape.
 #[repr(C)]
@@ -218,7 +221,7 @@ impl StiffnessTable {
     /// At ξ = 1 - e, in units of the initial stiffness.
     #[inline(always)]
     fn at_fraction<const REAL: bool, const IMAGINARY: bool>(&self, xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
-        if xi <= 1.0 - TOP {
+        if xi <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
                 if !requested {
@@ -239,10 +242,10 @@ impl StiffnessTable {
     /// K' beyond the first polynomial.
     #[inline(always)]
     fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: Option<&Place>) -> ValueAndSlope {
-        if xi > FAR_FROM {
-            let (value, slope) = value_and_slope(&self.far, FAR_FROM * per_xi);
+        if xi > FAR {
+            let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
-            return (factor * value, -factor * per_xi * (1.5 * value + FAR_FROM * per_xi * slope));
+            return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
         }
         let (value, rate) = match place {
             Some(place) => {
@@ -344,14 +347,19 @@ impl Curve {
             return None;
         }
         let [compliance, slip_shift] = shape_of(contact);
-        let mut zones = contact.rounded_flat_zones().sequence();
+        let zones = contact.rounded_flat_zones();
+        let (series, mut sequence) = (StickZones::small_load(zones), zones.sequence());
         // 1 - k where x and ρ are given.
         let mut decrease_at = |consumed: f64, remaining: f64| {
             if contact.is_elliptic() {
                 return consumed / (1.0 + remaining.sqrt());
             }
             let shift = Complement { consumed: slip_shift * consumed, remaining: slip_shift * remaining };
-            let increase = zones(shift).compliance_increase;
+            let increase = if shift.consumed <= series.half_shift {
+                series.at_shift(shift).compliance_increase
+            } else {
+                sequence(shift.remaining).compliance_increase
+            };
             increase / (compliance + increase)
         };
         let decrease = Interpolant::<TERMS>::through(|z| {
