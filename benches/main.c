@@ -14,7 +14,7 @@ static const double quick_shapes[] = { 0.3, 0.9 }, quick_amplitudes[] = { 0.95 }
 static const int orders[] = { 1, 5, 9 };
 
 static const extent full = { .shapes = 4, .amplitudes = 4, .orders = 3, .shape = shapes, .amplitude = amplitudes,
-    .order = orders, .least_samples = 16, .most_samples = 1024, .most_sliders = 4096, .most_contacts = 100000 };
+    .order = orders, .least_samples = 16, .most_samples = 1024, .most_sliders = 4096, .most_contacts = 1000000 };
 static const extent quick = { .shapes = 2, .amplitudes = 1, .orders = 3, .shape = quick_shapes, .amplitude = quick_amplitudes,
     .order = orders, .least_samples = 64, .most_samples = 128, .most_sliders = 1024, .most_contacts = 10000 };
 

@@ -259,6 +259,74 @@ static void write_element_table(FILE *file)
             cell(&s->own), sizeof(mslip_element) / 1e3, ratios("normal force", logarithm, 0, 0, 0, 0, 2.5));
 }
 
+/* Median of a method of batches of that size, or a negative number. */
+static double time_of_batch(const char *method, double n)
+{
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (!strcmp(e->task, "batch") && !strcmp(e->method, method) && e->parameter == n) {
+            return e->median;
+        }
+    }
+    return -1.0;
+}
+
+/* A number, bold above its goal. */
+static const char *marked(double value, double goal)
+{
+    static char text[8][32];
+    static int next;
+    char *t = text[next++ % 8];
+    snprintf(t, sizeof text[0], value > goal ? "**%.2f**" : "%.2f", value);
+    return t;
+}
+
+static void write_step_tables(FILE *file)
+{
+    const double goal = 5.5;
+    static const char *const steps[] = { "microslip", "microslip, new state" };
+    fputs("\nA step of a time integration over one logarithm, median over shapes and amplitudes", file);
+    for (int k = 0; k < 2; ++k) {
+        sample s = { .n = 0 };
+        for (const entry *e = entries; e < entries + entry_count; ++e) {
+            for (const entry *o = entries; o < entries + entry_count; ++o) {
+                if (!strcmp(e->task, "time step") && !strcmp(e->method, steps[k]) && !strcmp(o->method, "logarithm")
+                    && same_call(e, o)) {
+                    put(&s, e->median / o->median);
+                }
+            }
+        }
+        fprintf(file, "%s: %s", k ? "; to a new state" : ", in place", s.n ? marked(median_of(s.value, s.n), goal) : "–");
+    }
+    fprintf(file, " (goal %g).\n", goal);
+
+    static const char *const methods[] = { "mslip_batch_complex_stiffness", "mslip_batch_harmonic_force",
+        "mslip_batch_masing_update", "logarithm", "mslip_batch_element_update", "spring-slider, one step" };
+    enum { CONTACT_STEP = 2, LOGARITHM, ELEMENT_STEP, METHODS = 6 };
+    double least[METHODS], largest[METHODS] = { 0.0 };
+    fputs("\nOne item of a batch, a/b = 0.3, at 0.7 of gross slip: contacts of 64 different loads, and elements of one kind (harmonic "
+          "force and Jacobian\nof one harmonic with 64 samples; a step of 16 in a period, with its stiffness):\n\n"
+          "| items | complex stiffness | harmonic force | step | step over one logarithm | step of an element | step of one "
+          "spring-slider |\n|---:|---:|---:|---:|---:|---:|---:|\n", file);
+    for (double n = 100.0; n <= 1e6; n *= 10.0) {
+        double t[METHODS];
+        for (int k = 0; k < METHODS; ++k) {
+            t[k] = time_of_batch(methods[k], n);
+        }
+        for (int k = 0; k < METHODS; ++k) {
+            const double logarithms = t[k] / t[LOGARITHM];
+            least[k] = n == 100.0 || (t[k] >= 0.0 && logarithms < least[k]) ? logarithms : least[k];
+            largest[k] = t[k] >= 0.0 ? fmax(largest[k], logarithms) : largest[k];
+        }
+        if (t[0] >= 0.0) {
+            fprintf(file, "| %.0f | %s | %s | %s | %s | %s | %s |\n", n, text_of(t[0]), text_of(t[1]), text_of(t[CONTACT_STEP]),
+                    marked(t[CONTACT_STEP] / t[LOGARITHM], goal), t[ELEMENT_STEP] < 0.0 ? "–" : text_of(t[ELEMENT_STEP]),
+                    text_of(t[METHODS - 1]));
+        }
+    }
+    fprintf(file, "\nLargest over least time of a step over these sizes: contacts %s, elements %s (goals 1.3).\n",
+            marked(largest[CONTACT_STEP] / least[CONTACT_STEP], 1.3), marked(largest[ELEMENT_STEP] / least[ELEMENT_STEP], 1.3));
+}
+
 void write_tables(FILE *file, const char *machine)
 {
     char title[96];
@@ -294,23 +362,7 @@ void write_tables(FILE *file, const char *machine)
         }
     }
 
-    fputs("\nOne item of a batch of contacts with different loads, a/b = 0.3, at 0.7 of gross slip (harmonic force and Jacobian "
-          "of one harmonic\nwith 64 samples; force and stiffness of a time step):\n\n"
-          "| contacts | complex stiffness | harmonic force | time step | time step of one spring-slider |\n"
-          "|---:|---:|---:|---:|---:|\n", file);
-    for (double n = 1.0; n <= 1e6; n *= 10.0) {
-        static const char *const methods[] = { "mslip_batch_complex_stiffness", "mslip_batch_harmonic_force",
-                                               "mslip_batch_masing_update", "spring-slider, one step" };
-        sample s[4] = { { .n = 0 } };
-        for (const entry *e = entries; e < entries + entry_count; ++e) {
-            for (int k = 0; k < 4; ++k) {
-                put(&s[k], !strcmp(e->task, "batch") && !strcmp(e->method, methods[k]) && e->parameter == n ? e->median : -1.0);
-            }
-        }
-        if (s[0].n) {
-            fprintf(file, "| %g | %s | %s | %s | %s |\n", n, cell(&s[0]), cell(&s[1]), cell(&s[2]), cell(&s[3]));
-        }
-    }
+    write_step_tables(file);
     write_harmonic_table(file);
     write_element_table(file);
 }

@@ -1,52 +1,81 @@
-/* task_batch.c: one item of a batch of 1 to 100,000 contacts, which differ in load: from cache-resident to memory-bound. */
+/* task_batch.c: one item of a batch of 100 to 1,000,000 contacts of different loads that share 64 initialised ones, and of elements
+   that share one: from cache-resident to memory-bound. A step is one of a period. */
 #include "cases.h"
 
+#include <math.h>
 
-enum { KINDS = 64, REVERSALS = 8, HARMONICS = 1, SAMPLES = 64, N = 2 * HARMONICS + 1 };
+enum { KINDS = 64, REVERSALS = 8, PIECES = 16, MOST_ELEMENTS = 100000, HARMONICS = 1, SAMPLES = 64, N = 2 * HARMONICS + 1,
+       STEPS = 16, /* of a period */
+       LOGARITHMS = 1000 };
 
-typedef struct { double stiffness, slip, force, tangent; } element;
+typedef struct { double stiffness, slip, force, tangent; } slider;
 typedef struct {
-    size_t items, state_length;
-    int back; /* every run reverses every contact */
-    mslip_contact *contacts;
-    element *elements;
-    double *amplitude, *states, *displacement[2], *coefficients, *workspace, *forces, *jacobians, *out[4];
+    size_t items, elements, state_length, element_state_length;
+    mslip_contact contacts[KINDS];
+    mslip_element element;
+    int32_t *kind, *first; /* indices of contacts, and of the element */
+    slider *sliders;
+    double *amplitude, *states, *element_states, *displacement[STEPS], *element_displacement[STEPS], *coefficients, *workspace;
+    double *forces, *jacobians, *out[4], logarithms[LOGARITHMS];
 } job;
 
 static double complex_stiffness(void *context)
 {
     const job *j = context;
-    mslip_batch_complex_stiffness(j->items, j->items, j->contacts, NULL, NULL, j->amplitude, j->out[0], j->out[1], j->out[2],
-                                  j->out[3]);
+    require(mslip_batch_complex_stiffness(j->items, KINDS, j->contacts, j->kind, NULL, j->amplitude, j->out[0], j->out[1],
+                                          j->out[2], j->out[3]));
     return j->out[0][j->items - 1];
 }
 
 static double masing_update(void *context)
 {
-    job *j = context;
-    j->back = !j->back;
-    mslip_batch_masing_update(j->items, j->items, j->contacts, NULL, NULL, j->state_length, j->states,
-                              j->displacement[j->back], j->states, j->out[0], j->out[1], NULL);
+    const job *j = context;
+    for (int k = 0; k < STEPS; ++k) {
+        require(mslip_batch_masing_update(j->items, KINDS, j->contacts, j->kind, NULL, j->state_length, j->states,
+                                          j->displacement[k], j->states, j->out[0], j->out[1], NULL));
+    }
     return j->out[0][j->items - 1];
+}
+
+static double element_update(void *context)
+{
+    const job *j = context;
+    for (int k = 0; k < STEPS; ++k) {
+        require(mslip_batch_element_update(j->elements, 1, &j->element, j->first, NULL, j->element_state_length, j->element_states,
+                                           j->element_displacement[k], j->element_states, j->forces, j->jacobians, NULL));
+    }
+    return j->forces[0];
 }
 
 static double harmonic_force(void *context)
 {
     const job *j = context;
-    mslip_batch_harmonic_force(j->items, j->items, j->contacts, NULL, NULL, j->workspace, j->coefficients, j->forces,
-                               j->jacobians, NULL);
+    require(mslip_batch_harmonic_force(j->items, KINDS, j->contacts, j->kind, NULL, j->workspace, j->coefficients, j->forces,
+                                       j->jacobians, NULL));
     return j->forces[N * j->items - 1];
 }
 
 static double jenkins(void *context)
 {
     job *j = context;
-    j->back = !j->back;
-    for (size_t i = 0; i < j->items; ++i) {
-        const double du = j->displacement[j->back][i] - j->displacement[!j->back][i];
-        jenkins_step(j->elements[i].stiffness, j->elements[i].slip, &j->elements[i].force, du, &j->elements[i].tangent);
+    for (int k = 0; k < STEPS; ++k) {
+        const double *from = j->displacement[(k + STEPS - 1) % STEPS], *to = j->displacement[k];
+        for (size_t i = 0; i < j->items; ++i) {
+            slider *s = &j->sliders[i];
+            jenkins_step(s->stiffness, s->slip, &s->force, to[i] - from[i], &s->tangent);
+        }
     }
-    return j->elements[j->items - 1].force;
+    return j->sliders[j->items - 1].force;
+}
+
+static double logarithm(void *context)
+{
+    const job *j = context;
+    double sum = 0.0;
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        sum += log(j->logarithms[i]);
+    }
+    return sum;
 }
 
 static double *doubles(size_t n)
@@ -54,46 +83,69 @@ static double *doubles(size_t n)
     return allocate(n * sizeof(double));
 }
 
-static job job_of(const test_case *c, size_t n)
+static job *job_of(const test_case *c, size_t n)
 {
     const size_t length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
-    const size_t state = mslip_state_length(REVERSALS);
-    job j = { .items = n, .state_length = state, .contacts = allocate(n * sizeof(mslip_contact)),
-              .elements = allocate(n * sizeof(element)), .amplitude = doubles(n), .states = doubles(n * state),
-              .displacement = { doubles(n), doubles(n) }, .coefficients = doubles(n * N), .workspace = doubles(length),
-              .forces = doubles(n * N), .jacobians = doubles(n * N * N),
-              .out = { doubles(n), doubles(n), doubles(n), doubles(n) } };
-    require(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, j.workspace));
-    for (size_t i = 0; i < n; ++i) {
+    job *j = allocate(sizeof *j);
+    *j = (job) { .items = n, .elements = n < MOST_ELEMENTS ? n : MOST_ELEMENTS, .state_length = mslip_state_length(REVERSALS),
+                 .element_state_length = mslip_element_state_length(1, PIECES), .kind = allocate(n * sizeof(int32_t)),
+                 .first = allocate(n * sizeof(int32_t)), .sliders = allocate(n * sizeof(slider)), .amplitude = doubles(n),
+                 .coefficients = doubles(n * N), .workspace = doubles(length), .forces = doubles(n * N),
+                 .jacobians = doubles(n * N * N), .out = { doubles(n), doubles(n), doubles(n), doubles(n) } };
+    j->states = doubles(n * j->state_length);
+    j->element_states = doubles(j->elements * j->element_state_length);
+    require(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, j->workspace));
+    require(mslip_element_init(&c->parameters, 1, MSLIP_APPROACH, &j->element));
+    for (int i = 0; i < KINDS; ++i) {
         mslip_parameters p = c->parameters;
-        p.normal_force *= 0.5 + (double)(i % KINDS) / KINDS;
-        if (i < KINDS) {
-            require(mslip_contact_init(&p, &j.contacts[i]));
-        } else {
-            j.contacts[i] = j.contacts[i % KINDS];
+        p.normal_force *= 0.5 + (double)i / KINDS;
+        require(mslip_contact_init(&p, &j->contacts[i]));
+    }
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        j->logarithms[i] = i + 1.0;
+    }
+    for (int k = 0; k < STEPS; ++k) {
+        j->displacement[k] = doubles(n);
+        j->element_displacement[k] = doubles(2 * j->elements);
+        const double t = 2.0 * PI * k / STEPS;
+        for (size_t i = 0; i < n; ++i) {
+            j->displacement[k][i] = 0.7 * j->contacts[i % KINDS].slip_displacement * cos(t);
         }
-        const mslip_contact *contact = &j.contacts[i];
-        j.amplitude[i] = j.displacement[0][i] = 0.7 * contact->slip_displacement;
-        j.displacement[1][i] = -0.5 * contact->slip_displacement;
-        j.elements[i] = (element) { .stiffness = contact->initial_stiffness, .slip = 0.5 * contact->slip_force };
-        j.coefficients[N * i + 1] = j.amplitude[i];
-        require(mslip_state_init(state, j.states + state * i));
+        for (size_t i = 0; i < j->elements; ++i) {
+            j->element_displacement[k][2 * i] = 0.15 * j->element.approach * sin(t);
+            j->element_displacement[k][2 * i + 1] = j->element.approach * (0.6 + 0.3 * cos(t + 0.7));
+        }
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const mslip_contact *contact = &j->contacts[i % KINDS];
+        j->kind[i] = (int32_t)(i % KINDS);
+        j->amplitude[i] = 0.7 * contact->slip_displacement;
+        j->sliders[i] = (slider) { .stiffness = contact->initial_stiffness, .slip = 0.5 * contact->slip_force };
+        j->coefficients[N * i + 1] = j->amplitude[i];
+        require(mslip_state_init(j->state_length, j->states + j->state_length * i));
+    }
+    for (size_t i = 0; i < j->elements; ++i) {
+        require(mslip_element_state_init(1, j->element_state_length, j->element_states + j->element_state_length * i));
     }
     return j;
 }
 
 void task_batch(const test_case *c, const extent *x)
 {
-    static const struct { const char *method; work *run; } functions[] = {
-        { "mslip_batch_complex_stiffness", complex_stiffness }, { "mslip_batch_masing_update", masing_update },
-        { "mslip_batch_harmonic_force", harmonic_force }, { "spring-slider, one step", jenkins } };
-    for (int n = 1; n <= x->most_contacts; n *= 10) {
+    static const struct { const char *method; work *run; int steps; } functions[] = {
+        { "mslip_batch_complex_stiffness", complex_stiffness, 1 }, { "mslip_batch_masing_update", masing_update, STEPS },
+        { "mslip_batch_element_update", element_update, STEPS }, { "mslip_batch_harmonic_force", harmonic_force, 1 },
+        { "spring-slider, one step", jenkins, STEPS } };
+    for (int n = 100; n <= x->most_contacts; n *= 10) {
+        const size_t first = entry_count, mark = memory_mark();
+        job *j = job_of(c, (size_t)n);
         for (size_t k = 0; k < sizeof functions / sizeof *functions; ++k) {
-            const size_t first = entry_count, mark = memory_mark();
-            job *j = allocate(sizeof *j);
-            *j = job_of(c, (size_t)n);
-            entry_add("batch", functions[k].method, functions[k].run, j, n)->parameter = n;
-            measure(first, c->shape, 0.7, mark);
+            if (functions[k].run != element_update || n <= MOST_ELEMENTS) {
+                const double items = (double)n * functions[k].steps;
+                entry_add("batch", functions[k].method, functions[k].run, j, items)->parameter = n;
+            }
         }
+        entry_add("batch", "logarithm", logarithm, j, LOGARITHMS)->parameter = n;
+        measure(first, c->shape, 0.7, mark);
     }
 }

@@ -129,24 +129,29 @@ impl CurveEvaluator<'_> {
     /// At a displacement >= 0.
     #[inline(always)]
     pub fn at(&self, displacement: f64) -> Response {
+        self.interpolated(displacement).unwrap_or_else(|| self.contact.solved_response(displacement))
+    }
+
+    /// The same; `None` if there is no interpolant at this displacement.
+    #[inline(always)]
+    pub fn interpolated(&self, displacement: f64) -> Option<Response> {
         let remaining = self.slip_displacement - displacement;
         if remaining < 0.0 {
-            return Response { force: self.slip_force, stiffness: 0.0 };
+            return Some(Response { force: self.slip_force, stiffness: 0.0 });
         }
         if self.elliptic {
-            return self.elliptic_at(displacement, remaining);
+            return Some(self.elliptic_at(displacement, remaining));
         }
         let y = displacement * self.inner_scale;
         if y <= 1.0 {
-            if let Some((secant, tangent)) = self.interpolant.secant_and_tangent(y) {
-                let initial = self.initial_stiffness;
-                return Response { force: initial * displacement * secant, stiffness: initial * tangent };
-            }
-        } else if let Some((complement, slope)) = self.interpolant.complement_and_slope(remaining * self.outer_scale) {
+            let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
+            let initial = self.initial_stiffness;
+            Some(Response { force: initial * displacement * secant, stiffness: initial * tangent })
+        } else {
+            let (complement, slope) = self.interpolant.complement_and_slope(remaining * self.outer_scale)?;
             let force = self.slip_force - self.slip_force * complement;
-            return Response { force, stiffness: self.outer_stiffness * slope };
+            Some(Response { force, stiffness: self.outer_stiffness * slope })
         }
-        self.contact.solved_response(displacement)
     }
 
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are

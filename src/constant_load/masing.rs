@@ -37,14 +37,27 @@ impl Branch {
     }
 }
 
-impl Evaluator for BranchEvaluator<'_> {
+impl BranchEvaluator<'_> {
+    /// The displacement on the monotonic curve.
     #[inline(always)]
-    fn at(&self, displacement: f64) -> Response {
-        let BranchEvaluator { branch, factor, limit, curve } = self;
-        let Response { force, stiffness } = curve.at(branch.distance(curve.slip_displacement, displacement));
+    fn distance(&self, displacement: f64) -> f64 {
+        self.branch.distance(self.curve.slip_displacement, displacement)
+    }
+
+    /// The response on the branch, from that of the monotonic curve.
+    #[inline(always)]
+    fn on_branch(&self, Response { force, stiffness }: Response) -> Response {
+        let BranchEvaluator { branch, factor, limit, .. } = self;
         let force = branch.start.force + factor * force;
         let force = if force > *limit { *limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
+    }
+}
+
+impl Evaluator for BranchEvaluator<'_> {
+    #[inline(always)]
+    fn at(&self, displacement: f64) -> Response {
+        self.on_branch(self.curve.at(self.distance(displacement)))
     }
 
     #[inline(always)]
@@ -106,6 +119,15 @@ pub struct Step {
 pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
     state::check_header(state)?;
     check_displacement(displacement)
+}
+
+/// Force and stiffness after a step that only advances the present point: it continues the branch, does not reach its end, and needs
+/// no iteration. `None` for every other step. State and displacement are checked.
+#[inline(always)]
+pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
+    let evaluator = state::memory(state).branch_ahead(contact, displacement)?.evaluator(contact);
+    let response = evaluator.curve.interpolated(evaluator.distance(displacement))?;
+    Some(evaluator.on_branch(response))
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
@@ -351,6 +373,38 @@ mod tests {
     fn depth_and_offset(state: &[f64]) -> (usize, f64) {
         let memory = state::read(state).unwrap();
         (memory.reversals.len(), memory.initial.offset)
+    }
+
+    #[test]
+    fn continued_steps_have_the_bits_of_general_ones() {
+        let contacts = FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]);
+        for (contact, size) in contacts.flat_map(|contact| [0.3, 0.9, 1.3].map(|size| (contact, size))) {
+            let (mut state, mut continued_steps) = (unloaded(4), 0);
+            let mut displacement = 0.0;
+            for value in pseudo_random(3000, 5) {
+                // Small increments continue a branch, large ones do not.
+                displacement = (displacement + 0.2 * value * value * value).clamp(-size, size);
+                let target = displacement * contact.slip_displacement;
+                let step = step(&contact, &state, target);
+                let response = continued(&contact, &state, target);
+                let mut advanced = state.clone();
+                step.write(&mut state);
+                let Some(response) = response else { continue };
+                continued_steps += 1;
+                state::set_point(&mut advanced, Point { displacement: target, force: response.force });
+                assert_eq!(
+                    [response.force, response.stiffness],
+                    [step.force(), step.stiffness()],
+                    "{size} {displacement}"
+                );
+                assert_eq!(advanced, state, "{size} {displacement}");
+                let mut copy = vec![f64::NAN; state.len()];
+                state::copy_with_point(&state, &mut copy, Point { displacement: target, force: response.force });
+                let in_use = 5 + 3 * depth_and_offset(&state).0;
+                assert_eq!(copy[..in_use], state[..in_use]);
+            }
+            assert!(continued_steps > 1000, "{size} {continued_steps}");
+        }
     }
 
     #[test]

@@ -182,6 +182,17 @@ impl Memory<'_> {
         }
     }
 
+    /// The branch of the present point, if a displacement lies on it ahead of that point and before its end, without gross slip;
+    /// `None` without friction. What [`Memory::locate`] finds then.
+    #[inline(always)]
+    pub fn branch_ahead(&self, contact: &Contact, target: f64) -> Option<Branch> {
+        let heading = self.heading();
+        let branch = self.branch(contact, self.depth(), if heading < 0.0 { -1.0 } else { 1.0 });
+        let advance = target - self.now.displacement;
+        let continues = heading * advance > 0.0 && (branch.end - target) * advance > 0.0;
+        (continues && !branch.gross_slip && !contact.is_frictionless()).then_some(branch)
+    }
+
     /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.
     /// A step of zero continues the present branch. Without friction there is nothing to remember.
     #[inline(always)]

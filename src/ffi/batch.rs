@@ -1,35 +1,109 @@
-//! Batches of contacts: all items are checked before the first output is written.
+//! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::cycle::write_complex_stiffness;
 use super::hbm::{element_harmonic_force_dispatched, harmonic_force_dispatched};
-use super::history;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
-use super::{element, mslip_contact, mslip_element};
+use super::{element, history, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput};
 use crate::varying_load::element::Element;
+use crate::varying_load::harmonic_force;
 use crate::varying_load::state as element_state;
+use core::ptr;
 use libc::size_t;
 
 /// A contact or an element.
-trait Law {
+trait Law: Sized {
+    /// A displacement; a force has as many components.
+    type Vector;
+    /// Derivative of the force by the displacement.
+    type Tangent;
+    /// The least length of a state.
+    const STATE_LENGTH: usize;
+
     fn check(&self) -> Result<(), Error>;
+
+    /// Checks the tag of a state, and a displacement.
+    fn check_step(&self, tag: f64, state_length: usize, displacement: &Self::Vector) -> Result<(), Error>;
+
+    /// Evaluates and writes one step.
+    ///
+    /// # Safety
+    /// Tag and displacement are checked; `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for
+    /// as many doubles without overlap; the outputs, force, tangent and energy, are NULL, or aligned and valid.
+    unsafe fn update(
+        &self,
+        state_length: usize,
+        state_old: *const f64,
+        displacement: &Self::Vector,
+        state_new: *mut f64,
+        outputs: [*mut f64; 3],
+    );
 }
 
 impl Law for Contact {
+    type Vector = f64;
+    type Tangent = f64;
+    const STATE_LENGTH: usize = state::state_length(0);
+
     #[inline(always)]
     fn check(&self) -> Result<(), Error> {
         if self.is_initialised() { Ok(()) } else { Err(Error::BadContact) }
     }
+
+    #[inline(always)]
+    fn check_step(&self, tag: f64, state_length: usize, displacement: &f64) -> Result<(), Error> {
+        state::check_tag(tag, state_length)?;
+        check_displacement(*displacement)
+    }
+
+    #[inline(always)]
+    unsafe fn update(
+        &self,
+        state_length: usize,
+        state_old: *const f64,
+        displacement: &f64,
+        state_new: *mut f64,
+        [force, stiffness, dissipated]: [*mut f64; 3],
+    ) {
+        // SAFETY: by the function's contract.
+        unsafe {
+            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
+            history::update(self, state_old, *displacement, state_new, force, stiffness, dissipated);
+        }
+    }
 }
 
 impl Law for Element {
+    type Vector = [f64; 2];
+    type Tangent = [f64; 4];
+    const STATE_LENGTH: usize = element_state::state_length(0);
+
     #[inline(always)]
     fn check(&self) -> Result<(), Error> {
         if self.is_initialised() { Ok(()) } else { Err(Error::BadElement) }
+    }
+
+    #[inline(always)]
+    fn check_step(&self, tag: f64, state_length: usize, displacement: &[f64; 2]) -> Result<(), Error> {
+        element_state::check_tag(tag, state_length)?;
+        element_state::check_step(self, displacement)
+    }
+
+    #[inline(always)]
+    unsafe fn update(
+        &self,
+        state_length: usize,
+        state_old: *const f64,
+        displacement: &[f64; 2],
+        state_new: *mut f64,
+        outputs: [*mut f64; 3],
+    ) {
+        // SAFETY: by the function's contract.
+        unsafe { element::update(self, state_length, state_old, displacement, state_new, outputs) };
     }
 }
 
@@ -50,8 +124,6 @@ impl<L> Clone for Items<'_, L> {
 impl<L> Copy for Items<'_, L> {}
 
 impl<'a, L: Law> Items<'a, L> {
-    /// Checks the contacts or elements of all active items.
-    ///
     /// # Safety
     /// `laws` is NULL or valid for n_laws of them, which any bytes are; `index` and `active` are NULL or valid for n integers.
     #[inline(never)]
@@ -66,9 +138,17 @@ impl<'a, L: Law> Items<'a, L> {
         let (laws, index, active) =
             unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
         check_length::<f64>(n)?;
-        let items = Items { n, laws, index, active };
-        items.active().try_for_each(|i| items.law(i).ok_or(Error::BadIndex)?.check())?;
-        Ok(items)
+        Ok(Items { n, laws, index, active })
+    }
+
+    /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
+    #[inline(always)]
+    fn check(self, mut item: impl FnMut(usize, &L) -> Result<(), Error>) -> Result<(), Error> {
+        self.active().try_for_each(|i| {
+            let law = self.law(i).ok_or(Error::BadIndex)?;
+            law.check()?;
+            item(i, law)
+        })
     }
 
     /// Indices of the active items.
@@ -85,11 +165,132 @@ impl<'a, L: Law> Items<'a, L> {
         }
     }
 
-    /// Active items: index, contact or element, and the part of an input of `length` values per item.
+    /// Active items that were checked: index, contact or element, and what `value` finds for an index.
     #[inline(always)]
-    fn with<'d>(self, values: &'d [f64], length: usize) -> impl Iterator<Item = (usize, &'a L, &'d [f64])> {
-        self.active().filter_map(move |i| Some((i, self.law(i)?, values.get(i * length..(i + 1) * length)?)))
+    fn with<T>(self, value: impl Fn(usize) -> Option<T>) -> impl Iterator<Item = (usize, &'a L, T)> {
+        self.active().filter_map(move |i| Some((i, self.law(i)?, value(i)?)))
     }
+}
+
+/// Advances the states of all active items.
+///
+/// # Safety
+/// As for [`mslip_batch_masing_update`].
+#[inline(never)]
+unsafe fn update<L: Law>(
+    items: Items<L>,
+    state_length: usize,
+    states_old: *const f64,
+    displacement: *const f64,
+    states_new: *mut f64,
+    outputs: [*mut f64; 3],
+) -> Result<(), Error> {
+    let length = items.n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
+    check_length::<L::Tangent>(items.n)?;
+    // SAFETY: by the function's contract; vectors are doubles, or arrays of them.
+    let displacement = unsafe { input(displacement.cast::<L::Vector>(), items.n) }?;
+    check_alignment(states_new)?;
+    outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    if items.n > 0 && state_length < L::STATE_LENGTH {
+        return Err(Error::StateTooShort);
+    }
+    {
+        // SAFETY: by the function's contract; the reference ends before the new states, which may be the same memory, are written.
+        let states = unsafe { input(states_old, length) }?;
+        items.check(|i, law| {
+            prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
+            let (tag, displacement) = (states.get(i * state_length), displacement.get(i));
+            let (tag, displacement) = tag.zip(displacement).ok_or(Error::BadArraySize)?;
+            law.check_step(*tag, state_length, displacement)
+        })?;
+    }
+    let [force, tangent, dissipated] = outputs;
+    for (i, law, displacement) in items.with(|i| displacement.get(i)) {
+        prefetch::<4>(states_old.wrapping_add((i + AHEAD) * state_length));
+        let outputs = [
+            item_of(force.cast::<L::Vector>(), i).cast(),
+            item_of(tangent.cast::<L::Tangent>(), i).cast(),
+            item_of(dissipated, i),
+        ];
+        let (state_old, state_new) = (states_old.wrapping_add(i * state_length), item_of(states_new, i * state_length));
+        // SAFETY: checked, aligned; those of item i are valid by the function's contract.
+        unsafe { law.update(state_length, state_old, displacement, state_new, outputs) };
+    }
+    Ok(())
+}
+
+/// Item i of an output; NULL if that is.
+#[inline(always)]
+fn item_of<T>(output: *mut T, i: usize) -> *mut T {
+    if output.is_null() { output } else { output.wrapping_add(i) }
+}
+
+/// Items from the one that is computed, and from the one that is checked, to the one whose state is fetched from main memory: about
+/// as many as an access takes.
+const AHEAD: usize = 16;
+const CHECKED_AHEAD: usize = 32;
+
+/// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states are
+/// read in part only.
+#[inline(always)]
+fn prefetch<const LINES: usize>(state: *const f64) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..LINES {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: every x86-64 processor has the instruction, and any address is allowed.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(state.wrapping_add(8 * line).cast()) };
+    }
+}
+
+/// Harmonic forces of all active items, with displacements of `one` coefficients.
+///
+/// # Safety
+/// As for [`mslip_batch_harmonic_force`].
+unsafe fn harmonic_forces<L: Law, W>(
+    items: Items<L>,
+    workspace: &mut W,
+    one: usize,
+    displacement: *const f64,
+    [force, jacobian, dissipated]: [*mut f64; 3],
+    check: impl Fn(&mut W, &L, &[f64]) -> Result<(), Error>,
+    compute: impl Fn(&L, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
+    let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
+    // SAFETY: by the function's contract.
+    let (displacement, mut outputs) = unsafe {
+        let (force, jacobian) = (output(force, all)?, output(jacobian, square)?);
+        (input(displacement, all)?, Outputs { force, jacobian, dissipated: output(dissipated, items.n)? })
+    };
+    let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
+    items.check(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
+    let mut active = items.with(displacement_of);
+    active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
+}
+
+/// Outputs of a batch of harmonic forces.
+struct Outputs<'a> {
+    force: Option<&'a mut [f64]>,
+    jacobian: Option<&'a mut [f64]>,
+    dissipated: Option<&'a mut [f64]>,
+}
+
+impl Outputs<'_> {
+    /// Outputs of item i. Not inlined, to keep the loop over the items small.
+    #[inline(never)]
+    fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
+        let Outputs { force, jacobian, dissipated } = self;
+        HarmonicOutput {
+            force: part(force, i, coefficients),
+            jacobian: part(jacobian, i, coefficients * coefficients),
+            dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
+        }
+    }
+}
+
+/// Part of item i of an output of `length` values per item.
+fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Option<&'a mut [f64]> {
+    output.as_mut()?.get_mut(i * length..(i + 1) * length)
 }
 
 /// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
@@ -119,11 +320,10 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
             let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
             (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(amplitude, n)?, outputs?)
         };
-        items.with(amplitude, 1).flat_map(|(_, _, amplitude)| amplitude).try_for_each(|a| check_amplitude(*a))?;
-        for (i, contact, amplitude) in items.with(amplitude, 1) {
-            amplitude.iter().try_for_each(|a| write_complex_stiffness(contact, *a, i, &mut outputs))?;
-        }
-        Ok(())
+        items.check(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
+        items
+            .with(|i| amplitude.get(i))
+            .try_for_each(|(i, contact, amplitude)| write_complex_stiffness(contact, *amplitude, i, &mut outputs))
     };
     status(compute())
 }
@@ -154,33 +354,10 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 ) -> i32 {
     let update = || {
         // SAFETY: by the function's contract.
-        let (items, displacement) =
-            unsafe { (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(displacement, n)?) };
-        [states_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
-        if n > 0 && state_length < state::state_length(0) {
-            return Err(Error::StateTooShort);
+        unsafe {
+            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+            update(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
         }
-        {
-            // SAFETY: by the function's contract.
-            let states = unsafe { input(states_old, length) }?;
-            for i in items.active() {
-                let tag = states.get(i * state_length).ok_or(Error::BadArraySize)?;
-                state::check_tag(*tag, state_length)?;
-                check_displacement(displacement.get(i).copied().unwrap_or(0.0))?;
-            }
-        }
-        let at =
-            |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
-        for (i, contact, target) in items.with(displacement, 1) {
-            let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
-            let outputs = [at(force, i), at(stiffness, i), at(dissipated, i)];
-            for &target in target {
-                // SAFETY: checked, aligned; those of item i are valid by the function's contract.
-                unsafe { history::update(contact, state_length, state_old, target, state_new, outputs) };
-            }
-        }
-        Ok(())
     };
     status(update())
 }
@@ -209,26 +386,12 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
-        let (items, mut workspace) = unsafe {
-            (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, pointers::workspace(workspace)?)
-        };
-        let one = workspace.coefficients();
-        let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
-        let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-        // SAFETY: by the function's contract.
-        let (displacement, mut outputs) = unsafe {
-            let outputs = Outputs {
-                force: output(force, all)?,
-                jacobian: output(jacobian, square)?,
-                dissipated: output(dissipated, n)?,
-            };
-            (input(displacement, all)?, outputs)
-        };
-        items.with(displacement, one).try_for_each(|(_, _, displacement)| hbm::check_coefficients(displacement))?;
-        for (i, contact, displacement) in items.with(displacement, one) {
-            harmonic_force_dispatched(contact, &mut workspace, displacement, outputs.of_item(i, one))?;
+        unsafe {
+            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+            let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
+            let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| hbm::check_coefficients(u));
+            harmonic_forces(items, &mut workspace, one, displacement, outputs, check, harmonic_force_dispatched)
         }
-        Ok(())
     };
     status(compute())
 }
@@ -258,39 +421,11 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     dissipated: *mut f64,
 ) -> i32 {
     let update = || {
-        let length = n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
-        let components = n.checked_mul(2).ok_or(Error::BadArraySize)?;
-        check_length::<[f64; 4]>(n)?;
         // SAFETY: by the function's contract; an element consists of doubles and integers.
-        let (items, displacement) = unsafe {
+        unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            (items, input(displacement, components)?)
-        };
-        [states_new, force, tangent, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        if n > 0 && state_length < element_state::state_length(0) {
-            return Err(Error::StateTooShort);
+            update(items, state_length, states_old, displacement, states_new, [force, tangent, dissipated])
         }
-        {
-            // SAFETY: by the function's contract.
-            let states = unsafe { input(states_old, length) }?;
-            for (i, element, displacement) in items.with(displacement, 2) {
-                let tag = states.get(i * state_length).ok_or(Error::BadArraySize)?;
-                element_state::check_tag(*tag, state_length)?;
-                element_state::check_step(element, displacement.first_chunk().ok_or(Error::BadArraySize)?)?;
-            }
-        }
-        let at =
-            |pointer: *mut f64, offset: usize| if pointer.is_null() { pointer } else { pointer.wrapping_add(offset) };
-        for (i, element, displacement) in items.with(displacement, 2) {
-            let (state_old, state_new) = (states_old.wrapping_add(i * state_length), at(states_new, i * state_length));
-            prefetch(state_old.wrapping_add(AHEAD * state_length));
-            let outputs = [at(force, 2 * i), at(tangent, 4 * i), at(dissipated, i)];
-            if let Some(displacement) = displacement.first_chunk() {
-                // SAFETY: checked, aligned; those of item i are valid by the function's contract.
-                unsafe { element::update(element, state_length, state_old, displacement, state_new, outputs) };
-            }
-        }
-        Ok(())
     };
     status(update())
 }
@@ -319,68 +454,12 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
-        let (items, mut workspace) = unsafe {
+        unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            (items, pointers::element_workspace(workspace)?)
-        };
-        let one = 2 * workspace.coefficients();
-        let (all, square) = (n.checked_mul(one), n.checked_mul(one * one));
-        let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-        // SAFETY: by the function's contract.
-        let (displacement, mut outputs) = unsafe {
-            let outputs = Outputs {
-                force: output(force, all)?,
-                jacobian: output(jacobian, square)?,
-                dissipated: output(dissipated, n)?,
-            };
-            (input(displacement, all)?, outputs)
-        };
-        for (_, element, displacement) in items.with(displacement, one) {
-            workspace.check(element, displacement)?;
+            let (mut workspace, outputs) = (pointers::element_workspace(workspace)?, [force, jacobian, dissipated]);
+            let (one, check) = (2 * workspace.coefficients(), harmonic_force::Workspace::check);
+            harmonic_forces(items, &mut workspace, one, displacement, outputs, check, element_harmonic_force_dispatched)
         }
-        for (i, element, displacement) in items.with(displacement, one) {
-            element_harmonic_force_dispatched(element, &mut workspace, displacement, outputs.of_item(i, one))?;
-        }
-        Ok(())
     };
     status(compute())
-}
-
-/// Items between the one that is computed and the one whose state is fetched from main memory.
-const AHEAD: usize = 8;
-
-/// Fetches the header and the first knots of a state into the cache: the hardware does not, because states are read in part only.
-#[inline(always)]
-fn prefetch(state: *const f64) {
-    #[cfg(target_arch = "x86_64")]
-    for line in 0..3 {
-        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: every x86-64 processor has the instruction, and any address is allowed.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(state.wrapping_add(8 * line).cast()) };
-    }
-}
-
-/// Outputs of a batch of harmonic forces.
-struct Outputs<'a> {
-    force: Option<&'a mut [f64]>,
-    jacobian: Option<&'a mut [f64]>,
-    dissipated: Option<&'a mut [f64]>,
-}
-
-impl Outputs<'_> {
-    /// Outputs of item i. Not inlined, to keep the loop over the items small.
-    #[inline(never)]
-    fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
-        let Outputs { force, jacobian, dissipated } = self;
-        HarmonicOutput {
-            force: part(force, i, coefficients),
-            jacobian: part(jacobian, i, coefficients * coefficients),
-            dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
-        }
-    }
-}
-
-/// Part of item i of an output of `length` values per item.
-fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Option<&'a mut [f64]> {
-    output.as_mut()?.get_mut(i * length..(i + 1) * length)
 }

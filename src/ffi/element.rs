@@ -1,6 +1,8 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::pointers::{self, check_alignment, check_length, input, item, output, outputs, requested, set, status};
+use super::pointers::{
+    self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status,
+};
 use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -219,27 +221,10 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
     let init = || {
         check_directions(directions)?;
-        check_length::<f64>(state_length)?;
-        if state.is_null() {
-            return Err(Error::NullPointer);
-        }
         // SAFETY: by the function's contract.
-        state::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
+        state::state_init(unsafe { memory(state_length, state) }?)
     };
     status(init())
-}
-
-/// A state as an input; not NULL.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
-#[inline(always)]
-unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
-    if state.is_null() {
-        return Err(Error::NullPointer);
-    }
-    // SAFETY: by the function's contract.
-    unsafe { input(state, state_length) }
 }
 
 /// Validates the state of an element that was read from a file or a message: all values must be finite and the pieces nested. Other

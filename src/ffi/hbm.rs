@@ -1,7 +1,7 @@
 //! Harmonic balance: workspaces and harmonic force.
 
 use super::element::check_directions;
-use super::pointers::{self, check_alignment, check_length, input, output, status};
+use super::pointers::{self, check_alignment, input, memory, output, status};
 use super::simd_dispatch::dispatch_simd;
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
@@ -49,13 +49,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
 ) -> i32 {
     let init = || {
         let rule = rule_of(rule)?;
-        check_length::<f64>(workspace_length)?;
-        if workspace.is_null() {
-            return Err(Error::NullPointer);
-        }
         // SAFETY: by the function's contract.
-        let memory = unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []);
-        rule.workspace_init(harmonics, samples, memory)
+        rule.workspace_init(harmonics, samples, unsafe { memory(workspace_length, workspace) }?)
     };
     status(init())
 }
@@ -134,13 +129,8 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
 ) -> i32 {
     let init = || {
         check_element_rule(directions, rule)?;
-        check_length::<f64>(workspace_length)?;
-        if workspace.is_null() {
-            return Err(Error::NullPointer);
-        }
         // SAFETY: by the function's contract.
-        let memory = unsafe { output(workspace, workspace_length) }?.unwrap_or(&mut []);
-        harmonic_force::workspace_init(harmonics, samples, memory)
+        harmonic_force::workspace_init(harmonics, samples, unsafe { memory(workspace_length, workspace) }?)
     };
     status(init())
 }

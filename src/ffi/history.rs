@@ -1,12 +1,14 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
+use super::MSLIP_OK;
 use super::contact::check_positions;
 use super::mslip_contact;
-use super::pointers::{self, check_alignment, check_length, input, output, outputs, requested, set, status};
+use super::pointers::{self, check_alignment, input, memory, output, outputs, requested, set, state_input, status};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing::{self, PathOutput, Step};
 use crate::constant_load::state;
 use crate::error::Error;
+use crate::law::Point;
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -25,28 +27,8 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
-    let init = || {
-        check_length::<f64>(state_length)?;
-        if state.is_null() {
-            return Err(Error::NullPointer);
-        }
-        // SAFETY: by the function's contract.
-        state::state_init(unsafe { output(state, state_length) }?.ok_or(Error::StateTooShort)?)
-    };
-    status(init())
-}
-
-/// A state as an input; not NULL.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
-#[inline(always)]
-unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
-    if state.is_null() {
-        return Err(Error::NullPointer);
-    }
     // SAFETY: by the function's contract.
-    unsafe { input(state, state_length) }
+    status(unsafe { memory(state_length, state) }.and_then(state::state_init))
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
@@ -81,7 +63,8 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
-/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
+/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise
+/// both states to store or compare whole arrays.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -99,93 +82,101 @@ pub unsafe extern "C" fn mslip_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let checked_update = || {
+    let checked = || {
         // SAFETY: by the function's contract.
         let contact = unsafe { pointers::contact(contact) }?;
         [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        {
-            // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-            masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
-        }
-        // SAFETY: checked, aligned; valid by the function's contract.
-        unsafe {
-            update(contact, state_length, state_old, displacement, state_new, [force, stiffness, dissipated]);
-        }
-        Ok(())
+        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+        masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
+        Ok(contact)
     };
-    status(checked_update())
+    match checked() {
+        // SAFETY: checked, aligned; valid by the function's contract.
+        Ok(contact) => unsafe {
+            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
+            update(contact, state_old, displacement, state_new, force, stiffness, dissipated)
+        },
+        Err::<_, Error>(error) => error.code(),
+    }
 }
 
-/// One update with checked inputs: evaluates the step, then writes.
+/// One update with checked inputs: evaluates the step, then writes. A step that continues its branch is inlined, and calls no other
+/// function before its results are written; all others are left to [`general_update`]. Returns `MSLIP_OK`.
 ///
 /// # Safety
-/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the
-/// outputs are NULL, or aligned and valid for one double.
-#[inline(never)]
+/// `state_old` is valid; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the outputs are NULL, or aligned
+/// and valid for one double.
+#[inline(always)]
 pub(super) unsafe fn update(
     contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
+    state_old: *const [f64],
     displacement: f64,
     state_new: *mut f64,
-    outputs: [*mut f64; 3],
-) {
-    let [_, _, dissipated] = outputs;
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
     // SAFETY: by the function's contract.
     unsafe {
-        let state = slice::from_raw_parts(state_old, state_length);
-        if dissipated.is_null() && !state::is_full(state) {
-            let step = masing::step_with_room(contact, state, displacement);
-            write_step(&step, state_length, state_old, state_new, outputs);
-        } else if dissipated.is_null() {
-            let step = masing::step_in_full_state(contact, state, displacement);
-            write_step(&step, state_length, state_old, state_new, outputs);
-        } else {
-            update_with_energy(contact, state_length, state_old, displacement, state_new, outputs);
+        let continued = if dissipated.is_null() { masing::continued(contact, &*state_old, displacement) } else { None };
+        let Some(response) = continued else {
+            return general_update(contact, state_old, displacement, state_new, force, stiffness, dissipated);
+        };
+        write(force, response.force);
+        write(stiffness, response.stiffness);
+        let now = Point { displacement, force: response.force };
+        if ptr::eq(state_old.cast(), state_new) {
+            state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
+        } else if !state_new.is_null() {
+            state::copy_with_point(&*state_old, slice::from_raw_parts_mut(state_new, state_old.len()), now);
         }
     }
+    MSLIP_OK
 }
 
 /// # Safety
 /// As for [`update`].
 #[inline(never)]
-unsafe fn update_with_energy(
+unsafe fn general_update(
     contact: &Contact,
-    state_length: usize,
-    state_old: *const f64,
+    state_old: *const [f64],
     displacement: f64,
     state_new: *mut f64,
-    outputs: [*mut f64; 3],
-) {
+    force: *mut f64,
+    stiffness: *mut f64,
+    dissipated: *mut f64,
+) -> i32 {
     // SAFETY: by the function's contract.
     unsafe {
-        let state = slice::from_raw_parts(state_old, state_length);
-        let (step, energy) = masing::step_with_energy(contact, state, displacement);
-        write_step(&step, state_length, state_old, state_new, outputs);
-        let [_, _, dissipated] = outputs;
-        write(dissipated, energy);
+        let state = &*state_old;
+        let results = [force, stiffness];
+        if dissipated.is_null() && !state::is_full(state) {
+            write_step(&masing::step_with_room(contact, state, displacement), state_old, state_new, results);
+        } else if dissipated.is_null() {
+            write_step(&masing::step_in_full_state(contact, state, displacement), state_old, state_new, results);
+        } else {
+            let (step, energy) = masing::step_with_energy(contact, state, displacement);
+            write_step(&step, state_old, state_new, results);
+            write(dissipated, energy);
+        }
     }
+    MSLIP_OK
 }
 
-/// Writes a step: the state and the outputs force and stiffness.
+/// Writes a step: the new state, and force and stiffness.
 ///
 /// # Safety
 /// As for [`update`].
 #[inline(always)]
-unsafe fn write_step(
-    step: &Step,
-    state_length: usize,
-    state_old: *const f64,
-    state_new: *mut f64,
-    [force, stiffness, _]: [*mut f64; 3],
-) {
-    // SAFETY: by the function's contract.
+unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, [force, stiffness]: [*mut f64; 2]) {
+    // SAFETY: by the function's contract; the states are different memory if one is copied.
     unsafe {
         if !state_new.is_null() {
-            if !ptr::eq(state_old, state_new) {
-                ptr::copy(state_old, state_new, state_length);
+            let state = slice::from_raw_parts_mut(state_new, state_old.len());
+            if !ptr::eq(state_old.cast(), state_new) {
+                state::write_reversals(state, state::memory(&*state_old).reversals);
             }
-            step.write(slice::from_raw_parts_mut(state_new, state_length));
+            step.write(state);
         }
         write(force, step.force());
         write(stiffness, step.stiffness());

@@ -72,6 +72,19 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
     unsafe { input(pointer, n) }.map(Some)
 }
 
+/// A state as an input; not NULL.
+///
+/// # Safety
+/// `state` is NULL or valid for state_length doubles.
+#[inline(always)]
+pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
+    if state.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: by the function's contract.
+    unsafe { input(state, state_length) }
+}
+
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
 ///
 /// # Safety
@@ -82,6 +95,19 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
     check_alignment(pointer)?;
     // SAFETY: aligned, and of admissible length; valid by the function's contract.
     Ok(unsafe { requested(pointer, n) })
+}
+
+/// Memory of the given number of doubles to be initialised; not NULL.
+///
+/// # Safety
+/// As for [`output`].
+pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f64], Error> {
+    check_length::<f64>(length)?;
+    if pointer.is_null() {
+        return Err(Error::NullPointer);
+    }
+    // SAFETY: by the function's contract.
+    Ok(unsafe { output(pointer, length) }?.unwrap_or(&mut []))
 }
 
 /// Outputs of n doubles each.

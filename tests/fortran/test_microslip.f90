@@ -481,7 +481,7 @@ contains
       start(:, i) = initial_state(4_mslip_size)
     end do
     states = start
-    updated = untouched
+    updated = start
     call mslip_batch_masing_update(contacts, states, amplitude, updated, status, force=a, stiffness=b, dissipated=c)
     call check_status('batch: step', status, MSLIP_OK)
     call check_same('batch: the states before the step are kept', [states], [start])
@@ -502,7 +502,8 @@ contains
     call mslip_batch_masing_advance(contacts, states, amplitude, status, active=active, force=d)
     call check_same('batch: step in place, one skipped', d, [a(1), untouched, a(3)])
     call check_same('batch: step in place, states', [states], [updated(:, 1), start(:, 2), updated(:, 3)])
-    states = untouched
+    states = start
+    states(:, 2) = untouched
     call mslip_batch_masing_update(contacts, start, amplitude, states, status, active=active)
     call check_same('batch: step, one skipped', [states], &
       [updated(:, 1), spread(untouched, 1, size(updated, 1)), updated(:, 3)])
@@ -544,6 +545,8 @@ contains
     call check_status('index: complex stiffness', status, MSLIP_OK)
     call mslip_batch_complex_stiffness(each, amplitude, status, k_real=b)
     call check_same('index: complex stiffness', a, b)
+    expected = start
+    states = start
     call mslip_batch_masing_update(each, start, amplitude, expected, status, force=b)
     call mslip_batch_masing_update(contacts, start, amplitude, states, status, index, force=a)
     call check_status('index: step', status, MSLIP_OK)
@@ -668,7 +671,7 @@ contains
 
     state = initial_state(2_mslip_size)
     table(1, :) = state
-    table(2, :) = untouched
+    table(2, :) = state
     call mslip_masing_advance(flat, table(1, :), 3.0e-7_wp, status, force)
     call mslip_masing_advance(flat, state, 3.0e-7_wp, status, expected)
     call check_same('strides: state', [table(1, :), force], [state, expected])
