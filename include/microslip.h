@@ -10,8 +10,8 @@
  * Aliasing    Output buffers must not alias any other argument, except where stated.
  * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
  *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
- *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the _check
- *             functions validate memory from outside the process in full.
+ *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the
+ *             _check functions validate memory from outside the process in full.
  * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts and tables are only read
  *             and may be shared; each thread needs a workspace of its own.
  * Harmonics   Coefficients of a periodic quantity are [c0, cos1, sin1, cos2, sin2, ...], 2H+1 for H harmonics.
