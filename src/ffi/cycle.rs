@@ -206,7 +206,8 @@ fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outp
     }
 }
 
-/// Without a table of the caller, with one on the stack if that is cheaper.
+/// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
+/// whether K' is requested.
 fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) -> Result<(), Error> {
     let real = outputs[0].is_some() || outputs[2].is_some();
     let mut nodes = 0;
@@ -215,9 +216,9 @@ fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: Stiffnes
         if real && nodes > NODES_OF_TABLE {
             let table = stiffness_table(contact);
             if table.has_polynomials() {
-                write_tabulated(contact, &table, amplitude, outputs);
-                return Ok(());
+                write_tabulated(contact, &table, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
             }
+            break;
         }
     }
     for (i, &amplitude) in amplitude.iter().enumerate() {
