@@ -12,11 +12,11 @@
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
 //! scale with the curvature of the curve and not with the stiffness.
 
-use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS};
+use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent};
 use crate::numerics::polynomial::{rows, value_and_slope};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
-use crate::shape::stick_zone::{Complement, StickZone, StickZones};
+use crate::shape::stick_zone::StickZones;
+use crate::shape::stick_zone::rounded_flat::{CurvePoint, RoundedFlatZones};
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -55,17 +55,19 @@ impl ForceInterpolant {
 
     /// The interpolant of the curve of a flat with rounded edges.
     pub fn of(zones: &RoundedFlatZones) -> ForceInterpolant {
-        ForceInterpolant::new(zones.slip_shift(), zones.small_load().compliance, zones.sequence())
-    }
-
-    /// The interpolant of the curve on which `at_shift` finds stick zones, with the compliance Λ + λ.
-    fn new(slip_shift: f64, compliance: f64, mut at_shift: impl FnMut(Complement) -> StickZone) -> ForceInterpolant {
+        let (slip_shift, compliance, mut at_remaining) =
+            (zones.slip_shift(), zones.small_load().compliance, zones.sequence());
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
-        let decrease = Interpolant::<TERMS>::through(|z| {
-            let consumed = 0.5 * (1.0 + z) * first;
-            let increase = at_shift(Complement { consumed, remaining: slip_shift - consumed }).compliance_increase;
-            increase / (compliance + increase)
+        let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
+            let CurvePoint { compliance_increase: increase, curvature, .. } =
+                at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
+            let stiffness = 1.0 / (compliance + increase);
+            let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
+            Tangent { value: increase * stiffness, slope }
         });
+        // From x = 0 on; the points are symmetric.
+        tangents.reverse();
+        let decrease = Interpolant::<TERMS>::osculating(&tangents);
         let mut converged = decrease.is_converged(1e-15);
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
@@ -76,16 +78,15 @@ impl ForceInterpolant {
         for (j, piece) in pieces.iter_mut().enumerate() {
             let at = |z: f64| {
                 let v = scale * (3.0 + z);
-                let left = remaining * v * v;
-                at_shift(Complement { consumed: slip_shift - left, remaining: left })
+                at_remaining(remaining * v * v)
             };
             let unit = 2.0 * remaining * scale * scale;
             // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
             let tolerance = 1e-15 * (1.0 / (16.0 * scale * scale));
             let (polynomial, piece_converged) = if j < 2 {
-                interpolate::<TERMS>(compliance, unit, at, tolerance)
+                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, at, tolerance)
             } else {
-                interpolate::<16>(compliance, unit, at, tolerance)
+                interpolate::<16, 8>(compliance, unit, at, tolerance)
             };
             *piece = polynomial;
             converged &= piece_converged;
@@ -131,34 +132,31 @@ impl ForceInterpolant {
 
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
 /// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
-fn interpolate<const N: usize>(
+fn interpolate<const N: usize, const M: usize>(
     compliance: f64,
     unit: f64,
-    mut at: impl FnMut(f64) -> StickZone,
+    mut at: impl FnMut(f64) -> CurvePoint,
     tolerance: f64,
 ) -> (Polynomial, bool) {
-    let mut values = [0.0; N];
-    let mut slots = values.iter_mut();
-    let mut first = None;
-    let decrease = Interpolant::<N>::through(|z| {
-        let zone = at(z);
-        if let Some(slot) = slots.next() {
-            *slot = zone.load.remaining;
-        }
-        let increase = zone.compliance_increase;
-        (3.0 + z) * ((increase - *first.get_or_insert(increase)) / (compliance + increase))
+    let (mut sum, mut first) = (0.0, None);
+    let tangents = Interpolant::<M>::POINTS.map(|z| {
+        let CurvePoint { remaining, compliance_increase: increase, curvature } = at(z);
+        sum += remaining;
+        let first = *first.get_or_insert(increase);
+        let stiffness = 1.0 / (compliance + increase);
+        let (r, ratio) = (3.0 + z, (increase - first) * stiffness);
+        let slope = (compliance + first) * curvature * stiffness * stiffness * stiffness;
+        Tangent { value: r * ratio, slope: ratio - r * r * unit * slope }
     });
+    let decrease = Interpolant::<N>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
-    let mut integral = decrease.integral().map(|row| row.map(|coefficient| -stiffness * coefficient));
-    if let Some([_, linear, square, _]) = integral.first_mut() {
+    let mut integral =
+        decrease.integral().powers_from_middle().map(|row| row.map(|coefficient| -stiffness * coefficient));
+    if let Some([constant, linear, square, _]) = integral.first_mut() {
+        // The mean of z²/2 over the points is 1/4.
+        *constant += sum * (1.0 / M as f64) - 0.25 * stiffness;
         *linear += 3.0 * stiffness;
         *square += 0.5 * stiffness;
-    }
-    let points = const { &Interpolant::<N>::POINTS };
-    let differences = points.iter().zip(values).map(|(&z, value)| value - value_and_slope(&integral, z).0);
-    let constant = differences.sum::<f64>() / N as f64;
-    if let Some([first, ..]) = integral.first_mut() {
-        *first = constant;
     }
     (integral, decrease.is_converged(tolerance * (3.0 - decrease.mean())))
 }

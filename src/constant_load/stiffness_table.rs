@@ -31,7 +31,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
-use crate::shape::stick_zone::Complement;
+use crate::shape::stick_zone::{Complement, StickZones};
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -43,10 +43,14 @@ use operators::{
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
 const PIECES: usize = 7;
-/// Terms of G on all pieces but the first.
-const OTHER_TERMS: usize = 16;
-/// Largest amplitude of the pieces beyond gross slip.
-const FAR_FROM: f64 = 1.0 + TOP;
+/// Rows of G below and beyond gross slip on all pieces but the first, on which it is nearly constant.
+const ROWS_BELOW: usize = 5;
+const ROWS_ABOVE: usize = 4;
+/// Smallest ξ of the last polynomial.
+const FAR: f64 = 1.0 + TOP;
+/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
+/// derivative is least accurate.
+const OVERLAP: f64 = 0.02;
 
 /// The polynomials of one shape.
 #[repr(C)]
@@ -68,10 +72,10 @@ pub(crate) struct StiffnessTable {
     /// K' ξ^(3/2) over 1.6/ξ.
     far: Polynomial,
     /// (8/π) G over z = 4 2ʲ u - 3.
-    below: Pieces<{ OTHER_TERMS / 4 }>,
-    above: Pieces<{ OTHER_TERMS / 4 }>,
+    below: Pieces<ROWS_BELOW>,
+    above: Pieces<ROWS_ABOVE>,
     /// R/π.
-    energy: Pieces<5>,
+    energy: Pieces<{ POINTS / 4 }>,
 }
 
 /// Length of a table in doubles.
@@ -218,7 +222,7 @@ impl StiffnessTable {
     /// At ξ = 1 - e, in units of the initial stiffness.
     #[inline(always)]
     fn at_fraction<const REAL: bool, const IMAGINARY: bool>(&self, xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
-        if xi <= 1.0 - TOP {
+        if xi <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
                 if !requested {
@@ -239,10 +243,10 @@ impl StiffnessTable {
     /// K' beyond the first polynomial.
     #[inline(always)]
     fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: Option<&Place>) -> ValueAndSlope {
-        if xi > FAR_FROM {
-            let (value, slope) = value_and_slope(&self.far, FAR_FROM * per_xi);
+        if xi > FAR {
+            let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
-            return (factor * value, -factor * per_xi * (1.5 * value + FAR_FROM * per_xi * slope));
+            return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
         }
         let (value, rate) = match place {
             Some(place) => {
@@ -344,14 +348,19 @@ impl Curve {
             return None;
         }
         let [compliance, slip_shift] = shape_of(contact);
-        let mut zones = contact.rounded_flat_zones().sequence();
+        let zones = contact.rounded_flat_zones();
+        let (series, mut sequence) = (StickZones::small_load(zones), zones.sequence());
         // 1 - k where x and ρ are given.
         let mut decrease_at = |consumed: f64, remaining: f64| {
             if contact.is_elliptic() {
                 return consumed / (1.0 + remaining.sqrt());
             }
             let shift = Complement { consumed: slip_shift * consumed, remaining: slip_shift * remaining };
-            let increase = zones(shift).compliance_increase;
+            let increase = if shift.consumed <= series.half_shift {
+                series.at_shift(shift).compliance_increase
+            } else {
+                sequence(shift.remaining).compliance_increase
+            };
             increase / (compliance + increase)
         };
         let decrease = Interpolant::<TERMS>::through(|z| {
@@ -439,16 +448,16 @@ impl StiffnessTable {
         inner[1].iter_mut().zip(n).for_each(|(power, n)| *power *= -4.0 / PI * n / (n + 2.0));
         self.inner = inner.each_ref().map(rows);
 
-        let mut moments = [first.moments(&OF_FIRST); PIECES + 1];
+        // Those of the first piece, of the others, and of what remains, where the stiffness is constant.
+        let mut moments = [first.moments(&OF_FIRST); PIECES + 2];
         moments.iter_mut().skip(1).zip(others).for_each(|(moments, other)| *moments = other.moments(&OF_OTHERS));
-        // What remains of the curve is constant.
-        if let (Some(last), [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }]) =
-            (moments.last_mut(), others)
         {
-            let rest = scale * (1.0 / 256.0);
-            last.powers[0][0] += rest * phi;
-            last.powers[0][1] += rest * decrease;
-            last.roots[0] += 2.0 * rest.sqrt() * phi;
+            let [.., rest] = &mut moments;
+            let [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }] = others;
+            let size = scale * (1.0 / 256.0);
+            *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; 2]; _] };
+            rest.roots[0] = 2.0 * size.sqrt() * phi;
+            rest.powers[0] = [size * phi, size * decrease];
         }
         // From the smallest piece on.
         let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| moments.iter().skip(from).rev().map(of).sum::<f64>();
@@ -472,7 +481,7 @@ impl StiffnessTable {
         self.far = rows(&Interpolant::of(far.map(|term| 8.0 / PI * term)).powers_from_end());
 
         let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
-        let ([mut below, mut above], energy) =
+        let (mut below, mut above, energy) =
             own_terms::<FIRST, FIRST>(first, second, &TO_FIRST, closer_than(0), decrease);
         apply(&mut below, 1.0, &OUTER_BELOW, &tangent);
         apply(&mut above, 1.0, &OUTER_ABOVE, &tangent);
@@ -490,8 +499,8 @@ impl StiffnessTable {
                 _ => None,
             })
         {
-            let ([mut below, mut above], energy) =
-                own_terms::<POINTS, OTHER_TERMS>(own, before, &TO_OTHERS, closer_than(j), decrease);
+            let (mut below, mut above, energy) =
+                own_terms::<POINTS, { 4 * ROWS_ABOVE }>(own, before, &TO_OTHERS, closer_than(j), decrease);
             match next {
                 None => {
                     apply(&mut below, first.root, &OF_FIRST.below_next, &first.phi);
@@ -528,10 +537,10 @@ fn own_terms<const N: usize, const M: usize>(
     operators: &Operators<N>,
     closer: &[Moments],
     total_decrease: f64,
-) -> ([[f64; M]; 2], [f64; N]) {
+) -> ([f64; N], [f64; M], [f64; N]) {
     let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| closer.iter().skip(from).rev().map(of).sum::<f64>();
     let per_scale = 1.0 / own.scale;
-    let ([mut below, mut above], mut energy) = ([[0.0; M]; 2], [0.0; N]);
+    let (mut below, mut above, mut energy) = ([0.0; N], [0.0; M], [0.0; N]);
     apply(&mut below, own.root, &operators.below, &own.phi);
     add(&mut below, per_scale * sum(0, &|of| of.root), &operators.inverse);
 
@@ -551,7 +560,7 @@ fn own_terms<const N: usize, const M: usize>(
     if let Some(constant) = energy.first_mut() {
         *constant += zeroth - total_decrease;
     }
-    ([below, above], energy)
+    (below, above, energy)
 }
 
 #[cfg(test)]
@@ -607,8 +616,8 @@ mod tests {
             check(&table.above);
             check(&table.energy);
             // G is continuous at gross slip.
-            let [below, above] =
-                [&table.below, &table.above].map(|side| side.value_and_slope(&Place { piece: PIECES - 1, z: -1.0 }).0);
+            let last = Place { piece: PIECES - 1, z: -1.0 };
+            let (below, above) = (table.below.value_and_slope(&last).0, table.above.value_and_slope(&last).0);
             assert!((below - table.slope_at_slip).abs() < 1e-8 && (above - table.slope_at_slip).abs() < 1e-8);
         }
     }

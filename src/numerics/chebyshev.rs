@@ -1,4 +1,4 @@
-//! Interpolation at Chebyshev points. For a smooth function the trailing coefficients estimate the error.
+//! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
 
 use super::const_math::cosine;
 use crate::numerics::polynomial::{Rows, rows};
@@ -41,6 +41,24 @@ pub(crate) fn middle_powers() -> &'static [[f64; 32]; 32] {
     &MORE_AROUND_MIDDLE
 }
 
+/// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
+static PER_TWICE: [f64; TERMS] = {
+    let mut table = [0.5; TERMS];
+    let mut n = 1;
+    while n < TERMS {
+        table[n] = 0.5 / (n as f64 + 1.0);
+        n += 1;
+    }
+    table
+};
+
+/// Value and slope of a function at a point.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Tangent {
+    pub value: f64,
+    pub slope: f64,
+}
+
 /// A Chebyshev series: the coefficients of T_0, T_1, ...
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Interpolant<const N: usize>([f64; N]);
@@ -72,6 +90,23 @@ impl<const N: usize> Interpolant<N> {
         table
     };
 
+    /// sin θ sin (N-m)θ at `[j][m]`, with point j at cos θ.
+    const SINES: [[f64; N]; N] = {
+        let mut table = [[0.0; N]; N];
+        let mut j = 0;
+        while j < N {
+            let mut m = 0;
+            while m < N {
+                // sin θ = cos(θ - π/2), in N parts of a quarter of a period.
+                let (first, all) = (2 * j + 1, (N - m) * (2 * j + 1));
+                table[j][m] = cosine(first + 3 * N, N) * cosine(all + 3 * N, N);
+                m += 1;
+            }
+            j += 1;
+        }
+        table
+    };
+
     /// The interpolant of a function.
     pub fn through(value: impl FnMut(f64) -> f64) -> Interpolant<N> {
         let mut coefficients = [0.0; N];
@@ -81,6 +116,31 @@ impl<const N: usize> Interpolant<N> {
         coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
         if let Some(first) = coefficients.first_mut() {
             *first *= 0.5;
+        }
+        Interpolant(coefficients)
+    }
+
+    /// The interpolant of values and slopes at N/2 Chebyshev points.
+    ///
+    /// At the M points T_M+k = -T_M-k, and sin θ dT_n/dz = n sin nθ has the same value for both. So the transforms
+    /// `a_m = 2/M Σ f cos mθ` and `b_m = 2/M Σ f' sin θ sin mθ` equal `c_m - c_2M-m` and `m c_m + (2M-m) c_2M-m`.
+    pub fn osculating<const M: usize>(tangents: &[Tangent; M]) -> Interpolant<N> {
+        const { assert!(N == 2 * M) };
+        let mut coefficients = [0.0; N];
+        let (values, slopes) = coefficients.split_at_mut(M);
+        let tables = const { &Interpolant::<M>::AT_POINTS }.iter().zip(const { &Interpolant::<M>::SINES });
+        for (tangent, (cosines, sines)) in tangents.iter().zip(tables) {
+            values.iter_mut().zip(cosines).for_each(|(sum, cosine)| *sum += tangent.value * cosine);
+            slopes.iter_mut().zip(sines).for_each(|(sum, sine)| *sum += tangent.slope * sine);
+        }
+        values.iter_mut().for_each(|sum| *sum *= 2.0 / M as f64);
+        slopes.iter_mut().for_each(|sum| *sum *= 1.0 / (M * M) as f64);
+        if let [mean, ..] = values {
+            *mean *= 0.5;
+        }
+        for ((value, slope), m) in values.iter_mut().skip(1).zip(slopes.iter_mut().skip(1).rev()).zip(1..) {
+            *slope -= *value * (f64::from(m) / N as f64);
+            *value += *slope;
         }
         Interpolant(coefficients)
     }
@@ -101,29 +161,44 @@ impl<const N: usize> Interpolant<N> {
         self.0.first().copied().unwrap_or(0.0)
     }
 
-    /// Conversion of the first `used` terms to powers of the variable of `table`.
-    fn powers(&self, table: &[[f64; TERMS]; TERMS], used: usize) -> [f64; TERMS] {
+    /// Conversion to powers of the variable of `table`.
+    fn powers(&self, table: &[[f64; TERMS]; TERMS]) -> [f64; TERMS] {
         let mut powers = [0.0; TERMS];
-        for (coefficient, row) in self.0.iter().zip(table).take(used) {
+        for (coefficient, row) in self.0.iter().zip(table) {
             powers.iter_mut().zip(row).for_each(|(sum, power)| *sum += coefficient * power);
         }
         powers
     }
 
-    /// Integral over z from the middle of (-1, 1), as a polynomial in z. The twentieth coefficient is dropped: its integral would
-    /// exceed the degree.
-    pub fn integral(&self) -> Polynomial {
-        let powers = self.powers(&AROUND_MIDDLE, TERMS - 1);
-        let mut integral = [0.0; TERMS];
-        for ((target, power), n) in integral.iter_mut().skip(1).zip(powers).zip(1..) {
-            *target = power / n as f64;
+    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is dropped: its integral would exceed the
+    /// degree.
+    pub fn integral(&self) -> Interpolant<TERMS> {
+        let mut padded = [0.0; TERMS + 1];
+        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
+        if let Some(first) = padded.first_mut() {
+            *first *= 2.0;
         }
-        rows(&integral)
+        let mut integral = [0.0; TERMS];
+        let differences = padded.iter().zip(padded.iter().skip(2)).zip(&PER_TWICE);
+        for (target, ((below, above), factor)) in integral.iter_mut().skip(1).zip(differences) {
+            *target = factor * (below - above);
+        }
+        // T_N is -1 at all those points.
+        let mean = integral.get(N).copied();
+        if let Some((first, mean)) = integral.first_mut().zip(mean) {
+            *first = mean;
+        }
+        Interpolant(integral)
+    }
+
+    /// Coefficients of the powers of z.
+    pub fn powers_from_middle(&self) -> Polynomial {
+        rows(&self.powers(&AROUND_MIDDLE))
     }
 
     /// Coefficients of the powers of y = (1+z)/2.
     pub fn powers_from_end(&self) -> [f64; TERMS] {
-        self.powers(&FROM_END, TERMS)
+        self.powers(&FROM_END)
     }
 
     /// Mean over (0, y), as a polynomial in y = (1+z)/2.
@@ -148,6 +223,10 @@ mod tests {
                 // The argument of `exact` is rounded by up to 60 units of rounding.
                 assert!((value - exact).abs() < 2e-14);
             }
+            let theta = core::f64::consts::PI * (2 * j + 1) as f64 / (2 * N) as f64;
+            for (m, value) in Interpolant::<N>::SINES[j].iter().enumerate() {
+                assert!((value - theta.sin() * ((N - m) as f64 * theta).sin()).abs() < 2e-14);
+            }
             // T_2 = 2 T_1² - 1, up to the rounding of both sides.
             assert!((row[2] - (2.0 * row[1] * row[1] - 1.0)).abs() < 4e-16);
         }
@@ -155,25 +234,49 @@ mod tests {
 
     #[test]
     fn values_at_the_points_are_cosines() {
+        check_values::<8>();
+        check_values::<10>();
         check_values::<16>();
         check_values::<20>();
     }
 
+    fn osculating<const N: usize, const M: usize>(tangent: impl FnMut(f64) -> (f64, f64)) -> Interpolant<N> {
+        Interpolant::osculating(&Interpolant::<M>::POINTS.map(tangent).map(|(value, slope)| Tangent { value, slope }))
+    }
+
+    #[test]
+    fn chebyshev_polynomials_are_reproduced() {
+        for n in 0..20 {
+            // T_n and its derivative at cos θ; the arguments are rounded, multiplied by up to n².
+            let found = osculating::<20, 10>(|z| {
+                let (theta, n) = (z.acos(), f64::from(n));
+                ((n * theta).cos(), n * (n * theta).sin() / theta.sin())
+            });
+            for (k, coefficient) in found.0.iter().enumerate() {
+                assert!((coefficient - if k == n as usize { 1.0 } else { 0.0 }).abs() < 1e-14, "{n} {k} {coefficient}");
+            }
+        }
+    }
+
     #[test]
     fn the_exponential_is_interpolated_integrated_and_averaged() {
-        let interpolant = Interpolant::<20>::through(f64::exp);
+        let interpolant = osculating::<20, 10>(|z| (z.exp(), z.exp()));
         assert!(interpolant.is_converged(1e-15));
         for z in [-1.0, -0.3, 0.0, 0.77, 1.0_f64] {
-            let (integral, slope) = value_and_slope(&interpolant.integral(), z);
+            let integral = interpolant.integral().powers_from_middle();
+            let (value, slope) = value_and_slope(&integral, z);
+            let mean = Interpolant::<10>::POINTS.iter().map(|z| value_and_slope(&integral, *z).0).sum::<f64>() / 10.0;
+            assert!(mean.abs() < 1e-15);
             // A few units of rounding of e; the derivative multiplies twenty terms by up to nineteen.
-            assert!((integral - (z.exp() - 1.0)).abs() < 2e-15, "{z}");
+            assert!((value - (z.exp() - interpolant.mean())).abs() < 2e-15, "{z}");
             assert!((slope - z.exp()).abs() < 8e-15, "{z} {slope}");
             let y: f64 = 0.5 * (1.0 + z);
             let mean = sum(interpolant.mean_from_end().iter().copied(), y);
             let exact = if y > 0.0 { 0.5 * (z.exp() - (-1f64).exp()) / y } else { (-1f64).exp() };
             assert!((mean / exact - 1.0).abs() < 2e-15, "{z}");
         }
-        assert!(!Interpolant::<20>::through(f64::abs).is_converged(1e-15));
+        assert!(!osculating::<20, 10>(|z| (z.abs(), z.signum())).is_converged(1e-15));
+        assert!(Interpolant::<20>::through(f64::exp).is_converged(1e-15));
     }
 
     #[test]

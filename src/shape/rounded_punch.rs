@@ -80,7 +80,8 @@ static BETA: Table = mean_over_ln_c(1.0);
 static GAMMA: Table = mean_over_ln_c(2.0);
 
 fn sum(table: &Table, chi: f64) -> f64 {
-    polynomial::sum(table.iter().copied().take(polynomial::rows_for(chi, TERMS / 4)), chi)
+    let used = table.get(..polynomial::rows_for(chi, TERMS / 4)).unwrap_or(table);
+    polynomial::sum(used.iter().copied(), chi)
 }
 
 /// A contact, given by the half-width a of the flat and by w; lengths in any one unit.
@@ -150,27 +151,52 @@ impl RoundedPunch {
         }
     }
 
-    /// The contact that carries a load: the inverse of g (Eq. 1).
-    ///
-    /// Halley's iteration, with cubic convergence, from an initial guess with an error of at most 3 %.
+    /// The contact that carries a load: the inverse of g (Eq. 1), from an initial guess with an error of at most 3 %.
     pub fn from_load(flat: f64, load: f64) -> RoundedPunch {
-        RoundedPunch::refine_from(RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load)), load)
+        let start = RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load));
+        RoundedPunch::new(flat, RoundedPunch::refine_from(start, load).0.w)
     }
 
-    /// The contact that carries a load, by Halley's iteration from one close to it.
-    pub fn refine_from(start: RoundedPunch, load: f64) -> RoundedPunch {
+    /// The contact that carries a load, by iteration from one close to it, and the inverse of the load close to both: each iteration
+    /// raises the error to its fourth power.
+    pub fn refine_from(start: RoundedPunch, load: f64) -> (RoundedPunch, InversePower) {
         let mut now = start;
-        for _ in 0..4 {
-            let slope = (4.0 * now.w * now.psi).max(TINY);
-            let newton = (now.load() - load) / slope;
-            let second_derivative = now.second_derivative() / slope;
-            let step = newton / (1.0 - 0.5 * newton * second_derivative).max(0.5);
-            now = RoundedPunch::new(now.flat, now.w - step);
-            if step.abs() <= 1e-6 * now.w {
-                break;
+        let mut iterations_left = 4;
+        loop {
+            let found = now.load();
+            let inverse = now.inverse(found, 4.0 * now.w * now.w * now.psi / found.max(TINY), 0.0);
+            let step = inverse.step(load);
+            iterations_left -= 1;
+            if step.abs() <= 2e-5 * now.w || iterations_left == 0 {
+                return (now.moved(step), inverse);
             }
+            now = RoundedPunch::new(now.flat, now.w + step);
         }
-        now
+    }
+
+    /// The contact after a step of w: third powers of `step/w` are below rounding.
+    pub fn moved(&self, step: f64) -> RoundedPunch {
+        let RoundedPunch { flat, w, half_width, psi } = *self;
+        // The tangent of the change of ψ.
+        let change = flat * step / (half_width * half_width + w * step).max(TINY);
+        let w = w + step;
+        RoundedPunch { flat, w, half_width: (flat * flat + w * w).sqrt(), psi: psi + change }
+    }
+
+    /// The inverse close to this contact of a quantity with a derivative proportional to w ψ K, given its value, its power E
+    /// (the derivative of its logarithm with respect to ln w), and `κ = -d ln K/d ln w`.
+    pub fn inverse(&self, value: f64, power: f64, kappa: f64) -> InversePower {
+        let c2 = (self.half_width * self.half_width).max(TINY);
+        // d ln ψ/d ln w and d ln c²/d ln w.
+        let (rho, omega) = (self.flat * self.w / (c2 * self.psi).max(TINY), 2.0 * self.w * self.w / c2);
+        // First and second derivative of ln E with respect to ln w.
+        let first = 2.0 + rho - kappa - power;
+        let second = rho * (1.0 - omega - rho) - kappa * (2.0 - omega + kappa) - power * first;
+        // The lower bound keeps the third power finite.
+        let inverse = 1.0 / power.max(1e-20);
+        let square = inverse * inverse;
+        let cubic = inverse * (1.0 + square * (4.0 * first * first - 2.0 * second - 1.0)) * (1.0 / 3.0);
+        InversePower { w: self.w, value, coefficients: [inverse, -square * first, cubic] }
     }
 
     /// The contact that carries a load, by one Newton step from a contact that is nearly always within 1e-9 of it; otherwise by
@@ -193,11 +219,33 @@ impl RoundedPunch {
         let hertz = load / PI;
         (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt()
     }
+}
 
-    /// g''(w) = 4 (ψ + w a/c²).
-    pub fn second_derivative(&self) -> f64 {
-        let c = self.half_width;
-        4.0 * (self.psi + self.w * self.flat / (c * c).max(TINY))
+/// w as a function of a quantity q that scales nearly as a power of w, close to w_0: the expansion of `(w - w_0)/(w + w_0)` in powers
+/// of `(q - q_0)/(q + q_0)`, up to the third.
+///
+/// These are the hyperbolic tangents of half the logarithms of w/w_0 and q/q_0. For a constant power of 2 to 3 the error for q 20 % away
+/// is below 2e-6 of w.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InversePower {
+    w: f64,
+    value: f64,
+    coefficients: [f64; 3],
+}
+
+impl InversePower {
+    /// w - w_0.
+    pub fn step(&self, value: f64) -> f64 {
+        let [first, second, third] = self.coefficients;
+        let x = (value - self.value) / (value + self.value).max(TINY);
+        // w changes by at most a factor of 3.
+        let ratio = (x * (first + x * (second + x * third))).clamp(-0.5, 0.5);
+        2.0 * self.w * ratio / (1.0 - ratio)
+    }
+
+    /// w.
+    pub fn w(&self, value: f64) -> f64 {
+        self.w + self.step(value)
     }
 }
 

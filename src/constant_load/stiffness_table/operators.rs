@@ -13,7 +13,7 @@ use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 
 /// Interpolation points of the first piece, which is the closest to singularities beyond zero displacement, and of the others.
 pub(super) const FIRST: usize = 32;
-pub(super) const POINTS: usize = 20;
+pub(super) const POINTS: usize = 24;
 /// Largest e of the first piece.
 pub(super) const TOP: f64 = 0.6;
 /// Terms of a Taylor series in a ratio of at most 1/256.

@@ -12,8 +12,8 @@
 //! These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation and are replaced by the expansion of `small_load`. The size parameter is
 //! `σ = w_c/w_b`.
 
-use crate::numerics::chebyshev::Interpolant;
-use crate::shape::rounded_punch::{RoundedPunch, TINY};
+use crate::numerics::chebyshev::{Interpolant, Tangent};
+use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
 use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
@@ -32,6 +32,17 @@ pub(crate) struct RoundedFlatZones {
     gamma: f64,
     slip_shift: f64,
     small_load: SmallLoadSeries,
+}
+
+/// A point of the monotonic curve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CurvePoint {
+    /// 1 - τ.
+    pub remaining: f64,
+    /// λ.
+    pub compliance_increase: f64,
+    /// dλ/dτ.
+    pub curvature: f64,
 }
 
 impl RoundedFlatZones {
@@ -59,61 +70,56 @@ impl RoundedFlatZones {
             beta,
             gamma: contact.gamma(load),
             slip_shift: compliance + beta,
-            small_load: SmallLoadSeries::new(compliance, curvature(contact, load)),
+            small_load: SmallLoadSeries::new(compliance, curvature_series(contact, load)),
         }
     }
 
-    /// Finds the stick zones at a sequence of shifts. Successive ones are close: each starts from the one before.
-    pub(crate) fn sequence(&self) -> impl FnMut(Complement) -> StickZone {
-        let mut last: Option<(f64, f64, f64)> = None;
-        move |shift| {
-            if shift.consumed <= self.small_load.half_shift {
-                return self.small_load.at_shift(shift);
+    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
+    /// the expansion about the one before, so that the closed forms are nearly always evaluated once.
+    pub(crate) fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+        let mut last: Option<InversePower> = None;
+        move |remaining| {
+            let w = last.as_ref().map_or(self.w, |last| last.w(remaining));
+            let (zone, punch, inverse) = self.refine_shift_remaining(remaining, RoundedPunch::new(self.flat, w));
+            last = Some(inverse);
+            CurvePoint {
+                remaining: zone.load.remaining,
+                compliance_increase: zone.compliance_increase,
+                curvature: curvature(&punch, self.load),
             }
-            let remaining = shift.remaining;
-            let start = match last {
-                // w scales as a power of the remaining shift that changes slowly.
-                Some((before, w, power)) => {
-                    let change = power * (remaining / before - 1.0);
-                    RoundedPunch::new(self.flat, w * (1.0 + change * (1.0 + 0.5 * (change - change / power))))
-                }
-                None => self.initial_guess(remaining),
-            };
-            let (zone, w, power) = self.refine_shift_remaining(remaining, start);
-            last = Some((remaining, w, power));
-            zone
         }
     }
 
-    /// The stick zone at a remaining shift, from one close to it; its w, and the local power with which w scales with the remaining
-    /// shift.
+    /// The stick zone at a remaining shift, from one close to it; its contact, and the inverse of the remaining shift close to it.
     ///
-    /// Halley's iteration in w cubes an error of a few per cent each time. The last step is an expansion in which third powers of
-    /// 2e-5, over the square of the compliance if that is small, are below rounding.
-    fn refine_shift_remaining(&self, remaining: f64, start: RoundedPunch) -> (StickZone, f64, f64) {
+    /// The iteration raises an error to its fourth power. The last step is an expansion in which third powers of 2e-5, over the
+    /// square of the compliance if that is small, are below rounding.
+    fn refine_shift_remaining(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
         let mut punch = start;
         let mut iterations_left = 8;
         loop {
             let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
             let now = self.zone(&punch);
             let compliance = self.small_load.compliance + now.compliance_increase;
-            // Derivatives with respect to w: of the remaining shift times the load of b, and of the compliance.
-            let slope = (4.0 * w * punch.psi * compliance).max(TINY);
-            let second_derivative = punch.second_derivative() * compliance - 4.0 * w * w * punch.psi / c2;
-            let (rate, rate_change) = (-w / c2, (w - punch.flat) / c2 * ((w + punch.flat) / c2));
-            let gap = remaining - now.shift.remaining;
-            let newton = gap * self.load / slope;
-            let step = newton / (1.0 + 0.5 * newton * second_derivative / slope).max(0.5);
+            // Derivative with respect to ln w of the remaining shift times the load of b.
+            let slope = 4.0 * w * w * punch.psi * compliance;
+            let power = slope / (now.shift.remaining * self.load).max(TINY);
+            let inverse = punch.inverse(now.shift.remaining, power, w * w / (c2 * compliance));
+            let step = inverse.step(remaining);
             iterations_left -= 1;
             if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
-                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * newton * rate / compliance);
+                let gap = remaining - now.shift.remaining;
+                // Relative change of c², and -½ ln(1 + change).
+                let change = step * (2.0 * w + step) / c2;
+                let increase = -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0)));
+                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * increase / compliance);
                 let zone = StickZone {
                     load: Complement { consumed: 1.0 - load, remaining: load },
                     shift: Complement { consumed: self.slip_shift - remaining, remaining },
-                    compliance_increase: now.compliance_increase + step * (rate + 0.5 * step * rate_change),
+                    compliance_increase: now.compliance_increase + increase,
                     size_parameter: Some((w + step) / self.w),
                 };
-                return (zone, w + step, (remaining * self.load / slope) / w.max(TINY));
+                return (zone, punch.moved(step), inverse);
             }
             punch = RoundedPunch::new(self.flat, (w + step).max(0.0));
         }
@@ -271,14 +277,29 @@ impl StickZones for RoundedFlatZones {
     }
 }
 
-/// `h'' = g_b/(4 c² ψ_c)` as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
-fn curvature(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
-    let mut punch = *contact;
-    let mut scale = 1.0;
-    let interpolant = Interpolant::<RETAINED_TERMS>::through(|z| {
-        punch = RoundedPunch::refine_from(punch, (0.75 - 0.25 * z) * load);
-        load / (4.0 * punch.half_width * punch.half_width * punch.psi)
+/// `h'' = dλ/dτ = g_b/(4 c² ψ_c)` of a stick zone.
+fn curvature(punch: &RoundedPunch, load: f64) -> f64 {
+    load / (4.0 * punch.half_width * punch.half_width * punch.psi).max(TINY)
+}
+
+/// h'' as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
+fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
+    let mut last: Option<InversePower> = None;
+    let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
+        let remaining = (0.75 + 0.25 * z) * load;
+        let w = last.as_ref().map_or(contact.w, |last| last.w(remaining));
+        let (punch, inverse) = RoundedPunch::refine_from(RoundedPunch::new(contact.flat, w), remaining);
+        last = Some(inverse);
+        let RoundedPunch { flat, w, psi, half_width } = punch;
+        let value = curvature(&punch, load);
+        // Logarithmic derivative with respect to w, and the derivative of τ.
+        let (decrease, dload) = ((2.0 * w + flat / psi) / (half_width * half_width), 4.0 * w * psi / load);
+        Tangent { value, slope: 0.25 * value * decrease / dload }
     });
+    // From τ = 0 on; the points are symmetric.
+    tangents.reverse();
+    let interpolant = Interpolant::<RETAINED_TERMS>::osculating(&tangents);
+    let mut scale = 1.0;
     interpolant.powers_from_end().map(|power| {
         let coefficient = scale * power;
         scale *= 2.0;

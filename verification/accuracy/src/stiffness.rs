@@ -21,6 +21,7 @@ fn real(case: &Case, x: &Real) -> [Real; 2] {
 /// Some amplitudes of a contact: each is a quadrature.
 pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
+    let table = call::stiffness_table(&case.contact);
     for _ in 0..5 {
         let (share, range) = match sampler.below(4) {
             0 => (sampler.between(1.0, 3.0), "beyond slip"),
@@ -29,14 +30,15 @@ pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
             _ => share_of_slip(sampler, half),
         };
         if (share - 1.0).abs() > 1e-5 {
-            at_amplitude(case, share * case.contact.slip_displacement, range, tally);
+            at_amplitude(case, &table, share * case.contact.slip_displacement, range, tally);
         }
     }
 }
 
-fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mut Tally) {
+fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
-    let got = call::complex_stiffness(contact, amplitude);
+    let plain = call::complex_stiffness(contact, amplitude);
+    let tabulated = call::tabulated(contact, table, amplitude);
     let (law, point) = reference.at_displacement(amplitude);
     let place = || format!("{} A {amplitude:e}", text(&reference.input));
     let x = law.x(amplitude);
@@ -45,18 +47,25 @@ fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mut Ta
     let soft = 1.0 / law.full_stick.f64();
     let unit = &law.stiffness_unit;
     let slope_unit = unit / &law.displacement_unit;
-    let exact = unit * &imaginary;
     // Beyond gross slip E = E_slip + 4 (x - x_s), with the promised error of x_s.
     let slips = amplitude > contact.slip_displacement;
     let slip = if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
-    tally.check(("k_imag", kind, range), got[1], &exact, 3.0 * soft + slip, place);
     let [real, real_rate] = real(case, &x);
     let scale = (real.square() + imaginary.square()).sqrt() / &x * &slope_unit;
-    tally.check_scaled(("dk_real", kind, range), got[2], &(&slope_unit * real_rate), &scale, soft, place);
-    let exact = &slope_unit * imaginary_rate;
-    tally.check_scaled(("dk_imag", kind, range), got[3], &exact, &scale, 3.0 * soft, place);
-    let exact = unit * &real;
-    tally.check(("k_real", kind, range), got[0], &exact, soft, place);
+    let exact = [unit * &real, unit * &imaginary, &slope_unit * real_rate, &slope_unit * imaginary_rate];
+    let conditions = [soft, 3.0 * soft + slip, soft, 3.0 * soft];
+    let mut check = |names: [&'static str; 4], got: [f64; 4]| {
+        for i in 0..2 {
+            tally.check((names[i], kind, range), got[i], &exact[i], conditions[i], place);
+        }
+        for i in 2..4 {
+            tally.check_scaled((names[i], kind, range), got[i], &exact[i], &scale, conditions[i], place);
+        }
+    };
+    check(["k_real", "k_imag", "dk_real", "dk_imag"], plain);
+    if soft <= 1.0 / 0.9 {
+        check(["table_k_real", "table_k_imag", "table_dk_real", "table_dk_imag"], tabulated);
+    }
     let (stiffness, force) = spring_slider(&real, &imaginary, &x);
     let got = call::jenkins(contact, amplitude);
     tally.check(("jenkins_stiffness", kind, range), got[0], &(unit * stiffness), 3.0 * soft, place);
