@@ -26,6 +26,8 @@ static const struct {
     { MSLIP_STATE_TOO_SHORT, 23, "at least mslip_state_length(0) or mslip_element_state_length(directions, 0)" },
     { MSLIP_BAD_ELEMENT, 24, "invalid element" },
     { MSLIP_WORKSPACE_TOO_SHORT, 25, "at least mslip_harmonic_workspace_length or mslip_element_workspace_length" },
+    { MSLIP_BAD_TABLE, 26, "invalid table" },
+    { MSLIP_TABLE_TOO_SHORT, 27, "at least mslip_stiffness_table_length" },
     { MSLIP_BAD_FORCE, 30, "a force must be finite" },
     { MSLIP_FORCE_EXCEEDS_SLIP, 31, "must not exceed mu N" },
     { MSLIP_BAD_DISPLACEMENT, 32, "a displacement must be finite and at most 1e150" },
@@ -456,6 +458,7 @@ static void test_pointers(const function *f)
         { "contacts", offsetof(arguments, contacts), 8, 1 }, { "elements", offsetof(arguments, elements), 8, 1 },
         { "input", offsetof(arguments, input), 8, 1 },
         { "state", offsetof(arguments, state), 8, 1 },       { "workspace", offsetof(arguments, workspace), 8, 1 },
+        { "table", offsetof(arguments, table), 8, 1 },
         { "index", offsetof(arguments, index), 4, 0 },       { "active", offsetof(arguments, active), 4, 0 },
         { "new state", offsetof(arguments, out[0]), 8, 0 },  { "output 1", offsetof(arguments, out[1]), 8, 0 },
         { "output 2", offsetof(arguments, out[2]), 8, 0 },   { "output 3", offsetof(arguments, out[3]), 8, 0 },
@@ -525,7 +528,7 @@ static void test_counts(const function *f)
     set_up(f);
 }
 
-/* Contacts, elements, states and workspaces that were never initialised. */
+/* Contacts, elements, states, workspaces and tables that were never initialised. */
 static void test_uninitialised(const function *f)
 {
     for (int fill = 0; fill < 256; fill += 51) {
@@ -540,6 +543,11 @@ static void test_uninitialised(const function *f)
         if (f->takes & TAKES_WORKSPACE) {
             memset(call.workspace, fill, workspace_length(f) * sizeof(double));
             rejected(f, MSLIP_BAD_WORKSPACE, "an uninitialised workspace");
+            set_up(f);
+        }
+        if (f->takes & TAKES_TABLE) {
+            memset(call.table, fill, mslip_stiffness_table_length() * sizeof(double));
+            rejected(f, MSLIP_BAD_TABLE, "an uninitialised table");
             set_up(f);
         }
     }
@@ -919,6 +927,50 @@ static void test_normal_motions(const function *f)
     set_up(f);
 }
 
+/* Tables of other shapes, for which nothing but friction coefficient and scale may differ; invalid arguments of the initialisation. */
+static void test_table(void)
+{
+    static const char name[] = "mslip_stiffness_table_init";
+    const function *f = find("mslip_complex_stiffness_tabulated", 0);
+    const size_t length = mslip_stiffness_table_length();
+    for (int change = 0; change < 8; ++change) {
+        mslip_parameters p = flat_parameters();
+        mslip_contact other;
+        set_up(f);
+        switch (change) {
+            case 0: p.flat_half_width *= 1.0 + 1e-6; break;
+            case 1: p.edge_radius *= 1.0 + 1e-6; break;
+            case 2: p.length *= 1.0 + 1e-6; break;
+            case 3: p.normal_force *= 1.0 + 1e-6; break;
+            case 4: p.material[0].poisson_ratio += 1e-6; break;
+            case 5: p.displacement_reference = MSLIP_RIGID_STRIP; break;
+            default: break;
+        }
+        CHECK(mslip_contact_init(&p, &other) == MSLIP_OK);
+        other = change == 6 ? contact_of(ELLIPSE) : change == 7 ? contact_of(OPEN) : other;
+        CHECK(mslip_stiffness_table_init(&other, length, call.table) == MSLIP_OK);
+        rejected(f, MSLIP_BAD_TABLE, "the table of another shape");
+        memset(call.out, 0, sizeof call.out);
+        rejected(f, MSLIP_BAD_TABLE, "the table of another shape, without outputs");
+    }
+    set_up(f);
+    double *const table = call.table;
+    const mslip_contact *const contact = call.contacts;
+    save_regions();
+    const size_t lengths[] = { 0, 1, length - 1 }, too_many[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8 };
+    for (size_t i = 0; i < LENGTH(lengths); ++i) {
+        check_rejected(mslip_stiffness_table_init(contact, lengths[i], table), MSLIP_TABLE_TOO_SHORT, name, "table_length");
+        check_rejected(mslip_stiffness_table_init(contact, too_many[i], table), MSLIP_BAD_ARRAY_SIZE, name, "table_length");
+    }
+    check_rejected(mslip_stiffness_table_init(contact, length, NULL), MSLIP_NULL_POINTER, name, "table");
+    check_rejected(mslip_stiffness_table_init(contact, length, misaligned(table, 8)), MSLIP_BAD_ALIGNMENT, name, "table");
+    check_rejected(mslip_stiffness_table_init(NULL, length, table), MSLIP_NULL_POINTER, name, "contact");
+    check_rejected(mslip_stiffness_table_init(misaligned(contact, 8), length, table), MSLIP_BAD_ALIGNMENT, name, "contact");
+    memset(CONTACTS, 0xff, sizeof *contact);
+    save_regions();
+    check_rejected(mslip_stiffness_table_init(contact, length, table), MSLIP_BAD_CONTACT, name, "an uninitialised contact");
+}
+
 /* Slip distributions of elliptical contacts, and the state of another contact. */
 static void test_other_contacts(void)
 {
@@ -988,6 +1040,7 @@ int main(int argc, char **argv)
     test_workspace_size(MSLIP_EVENT_DRIVEN);
     test_workspace_init();
     test_element_workspace();
+    test_table();
     test_other_contacts();
     test_statuses();
     return check_report();

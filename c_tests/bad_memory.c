@@ -1,11 +1,11 @@
-/* Invalid memory. A call recognises contacts, elements, states and workspaces that are uninitialised, of another layout or too
-   short by their tags; the _check functions recognise any changed bit of a contact or an element, and states that are not finite
+/* Invalid memory. A call recognises contacts, elements, states, workspaces and tables that are uninitialised, of another layout or
+   too short by their tags; the _check functions recognise any changed bit of a contact or an element, and states that are not finite
    or not nested. Arbitrary bytes behind a valid tag neither crash nor hang a call, which writes its outputs only. Copies are
    equivalent to their originals. */
 #include "calls.h"
 
-/* 64-bit words: a contact has its tag in word 6, an element in word 8, a state in word 0, a workspace in words 0 and 1. The count
-   of a tag is in its lower 40 bits. */
+/* 64-bit words: a contact has its tag in word 6, an element in word 8, a state and a table in word 0, a workspace in words 0 and
+   1. The count of a tag is in its lower 40 bits. */
 enum { CONTACT_WORDS = sizeof(mslip_contact) / 8, CONTACT_TAG = 6, ELEMENT_WORDS = sizeof(mslip_element) / 8, ELEMENT_TAG = 8,
        COUNT_BITS = 40, HEADER = 4 };
 static const uint64_t kind_and_layout = UINT64_MAX << COUNT_BITS;
@@ -110,6 +110,12 @@ static void test_tags(const function *f)
         memmove(&call.workspace[0], &call.workspace[1], (workspace_length(f) - 1) * sizeof(double));
         rejected(f, MSLIP_BAD_WORKSPACE, "a shifted workspace");
     }
+    if (f->takes & TAKES_TABLE) {
+        set_up(f);
+        tag_bits_are_rejected(f, call.table, kind_and_layout, MSLIP_BAD_TABLE, "the tag of a table");
+        memmove(&call.table[0], &call.table[1], (mslip_stiffness_table_length() - 1) * sizeof(double));
+        rejected(f, MSLIP_BAD_TABLE, "a shifted table");
+    }
 }
 
 /* A buffer of another kind, and random bytes. */
@@ -135,6 +141,12 @@ static void test_other_buffers(const function *f)
     if (f->takes & TAKES_WORKSPACE) {
         memcpy(call.workspace, state, sizeof state);
         rejected(f, MSLIP_BAD_WORKSPACE, "a state as workspace");
+    }
+    if (f->takes & TAKES_TABLE) {
+        memcpy(call.table, state, sizeof state);
+        rejected(f, MSLIP_BAD_TABLE, "a state as table");
+        memcpy(call.table, (double *)law_at(f, 0) + tag_of_law(f), STATE * sizeof(double));
+        rejected(f, MSLIP_BAD_TABLE, "a contact as table");
     }
     set_up(f);
     for (int i = 0; i < 100; ++i) {
@@ -308,6 +320,7 @@ static void test_copies(const function *f)
     const size_t items = items_of(f), length = workspace_length(f), used = used_state(f);
     void *laws = malloc(items * law_size(f));
     double *state = malloc(items * STATE * sizeof *state), *workspace = malloc((length + 1) * sizeof *workspace);
+    double *table = malloc(mslip_stiffness_table_length() * sizeof *table);
     set_up(f);
     accepted(f, "the originals");
     save_outputs();
@@ -321,6 +334,10 @@ static void test_copies(const function *f)
     if (f->takes & TAKES_WORKSPACE) {
         memcpy(workspace, call.workspace, length * sizeof *workspace);
         call.workspace = workspace;
+    }
+    if (f->takes & TAKES_TABLE) {
+        memcpy(table, call.table, mslip_stiffness_table_length() * sizeof *table);
+        call.table = table;
     }
     accepted(f, "copies");
     CHECK(same_outputs_from(0));
@@ -363,6 +380,7 @@ static void test_copies(const function *f)
     free(laws);
     free(state);
     free(workspace);
+    free(table);
 }
 
 /* A word that may be anything: random bits, or an extreme value. */
@@ -427,6 +445,12 @@ static void test_arbitrary_bytes(const function *f, int times)
         if (f->takes & TAKES_WORKSPACE) {
             set_up(f);
             scatter(call.workspace, HEADER, workspace_length(f) - HEADER);
+            returns(f);
+        }
+        if (f->takes & TAKES_TABLE) {
+            const size_t first = random_bits() % 8 == 0 ? 1 : 3; /* with or without the shape */
+            set_up(f);
+            scatter(call.table, first, mslip_stiffness_table_length() - first);
             returns(f);
         }
     }

@@ -123,7 +123,7 @@ static inline int raised(void)
 }
 
 /* A buffer that ends at a protected page, and a copy of it. */
-enum { REGIONS = 13 };
+enum { REGIONS = 14 };
 typedef struct {
     unsigned char *start, *before;
     size_t bytes;
@@ -232,7 +232,7 @@ static inline int32_t status_of_non_finite(int kind)
 }
 
 /* Arguments besides a contact, or an element if IS_ELEMENT. The n of IS_IWAN is not the length of an input. */
-enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32 };
+enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32, TAKES_TABLE = 64 };
 enum { OUTPUTS = 5 }; /* the new state first */
 
 typedef struct {
@@ -242,7 +242,7 @@ typedef struct {
     size_t n, n_contacts, state_length;
     double scalar;
     const double *input, *state;
-    double *workspace, *out[OUTPUTS];
+    double *workspace, *table, *out[OUTPUTS];
 } arguments;
 static arguments call;
 
@@ -263,6 +263,7 @@ CALL(masing_tractions, call.contacts, call.state_length, call.state, call.n, cal
 CALL(hysteresis_loop, call.contacts, call.scalar, call.n, OUT2)
 CALL(dissipated_energy, call.contacts, call.n, call.input, OUT1)
 CALL(complex_stiffness, call.contacts, call.n, call.input, OUT4)
+CALL(complex_stiffness_tabulated, call.contacts, call.table, call.n, call.input, OUT4)
 CALL(harmonic_force, call.contacts, call.workspace, call.input, OUT3)
 CALL(jenkins_equivalent, call.contacts, call.scalar, OUT2)
 CALL(iwan_equivalent, call.contacts, call.n, OUT3)
@@ -319,6 +320,8 @@ static const function functions[] = {
     { FUNCTION(hysteresis_loop), TAKES_COUNT, 0, AMPLITUDE, NONE, 0, { 0, ITEMS, ITEMS } },
     { FUNCTION(dissipated_energy), TAKES_COUNT, 0, NONE, FORCE_AMPLITUDE, ITEMS, { 0, ITEMS } },
     { FUNCTION(complex_stiffness), TAKES_COUNT, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(complex_stiffness_tabulated), TAKES_COUNT | TAKES_TABLE, 0, NONE, AMPLITUDE, ITEMS,
+      { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
     { FUNCTION(jenkins_equivalent), 0, 0, AMPLITUDE, NONE, 0, { 0, 1, 1 } },
     { FUNCTION(iwan_equivalent), TAKES_COUNT | IS_IWAN, 0, NONE, NONE, 0, { 0, ITEMS, ITEMS, 1 } },
     { FUNCTION(batch_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
@@ -348,7 +351,7 @@ static inline size_t items_of(const function *f)
 }
 
 static region *contact_region, *element_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
-static region *out_regions[OUTPUTS];
+static region *table_region, *out_regions[OUTPUTS];
 
 /* The workspace of a function: an element has uniform sampling only. */
 static inline size_t workspace_length_of(const function *f, size_t harmonics, size_t samples)
@@ -384,6 +387,7 @@ static inline void make_regions(void)
     input_region = make_region(ITEMS * ALL_COEFFICIENTS * sizeof(double));
     state_region = make_region(ITEMS * STATE * sizeof(double));
     workspace_region = make_region(longest * sizeof(double));
+    table_region = make_region(mslip_stiffness_table_length() * sizeof(double));
     for (int i = 0; i < OUTPUTS; ++i) {
         out_regions[i] = make_region(ITEMS * (STATE + ELEMENT_SQUARE) * sizeof(double));
     }
@@ -494,6 +498,14 @@ static inline void fill_states(const function *f)
     }
 }
 
+/* Initialises the table of the shape of the contact. */
+static inline void fill_table(const function *f)
+{
+    if (f->takes & TAKES_TABLE) {
+        CHECK(mslip_stiffness_table_init(call.contacts, mslip_stiffness_table_length(), call.table) == MSLIP_OK);
+    }
+}
+
 static inline void fill_outputs(void)
 {
     for (int i = 0; i < OUTPUTS; ++i) {
@@ -557,6 +569,8 @@ static inline void set_up(const function *f)
         call.workspace = last(workspace_region, length * sizeof(double));
         init_workspace(f, HARMONICS, SAMPLES, length, call.workspace);
     }
+    call.table = f->takes & TAKES_TABLE ? last(table_region, mslip_stiffness_table_length() * sizeof(double)) : NULL;
+    fill_table(f);
     for (int i = 0; i < OUTPUTS; ++i) {
         call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
     }
@@ -590,7 +604,8 @@ static inline int is_written(const function *f, int k, size_t skipped)
 /* The call succeeds and writes its outputs only, for all items but the skipped one. */
 static inline void accepted_except(const function *f, size_t skipped, const char *what)
 {
-    const region *const inputs[] = { contact_region, element_region, index_region, active_region, input_region, state_region };
+    const region *const inputs[] = { contact_region, element_region, index_region, active_region, input_region, state_region,
+                                     table_region };
     int32_t status;
     int flags, holds;
     fill_outputs();

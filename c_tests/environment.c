@@ -137,6 +137,7 @@ static void run(int environment, int32_t *status, double *value)
                     }
                 }
                 fill_states(f);
+                fill_table(f);
                 const double slip_force = f->takes & IS_ELEMENT ? 0.0 : CONTACTS[0].slip_force;
                 for (size_t k = 0; k < f->inputs; ++k) {
                     const int quantity = kind_of_input(f, k);
@@ -381,6 +382,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                 }
             }
             fill_states(f);
+            fill_table(f);
             call.n = f->kind == NONE || f->kind == DISPLACEMENT ? call.n : 1; /* otherwise all items are equal */
             for (size_t a = 0; a < LENGTH(amplitudes); ++a) {
                 const int is_force = f->kind == FORCE || f->kind == FORCE_AMPLITUDE || f->scalar == FORCE;

@@ -122,6 +122,25 @@ static void check_energy(void)
     }
 }
 
+/* Errors of a table are relative to |K| and to |K|/amplitude. */
+static void check_tabulated_stiffness(const table *t, const reference_contact *r, double slipped)
+{
+    static double memory[1024];
+    double amplitude = t->value[1], size = hypot(t->value[2], t->value[3]), got[4];
+    accepted(t, mslip_stiffness_table_init(&r->contact, sizeof memory / sizeof *memory, memory));
+    accepted(t, mslip_complex_stiffness_tabulated(&r->contact, memory, 1, &amplitude, &got[0], &got[1], &got[2], &got[3]));
+    for (int part = 0; part < 2; ++part) {
+        double k = t->value[2 + part], derivative = t->value[4 + part];
+        compare(t, part ? "K'' of a table" : "K' of a table", got[part], k,
+                TOLERANCE * size + (part ? slipped / (PI * amplitude * amplitude) : 0.0));
+        check_that(isfinite(got[2 + part]), t->name, t->line, "the derivative of K is finite");
+        if (!isnan(derivative)) {
+            compare(t, part ? "dK'' of a table" : "dK' of a table", got[2 + part], derivative,
+                    TOLERANCE * (size / amplitude + fabs(derivative)));
+        }
+    }
+}
+
 static void check_complex_stiffness(void)
 {
     table t = open_table("complex_stiffness",
@@ -134,6 +153,7 @@ static void check_complex_stiffness(void)
         if (amplitude >= r->contact.slip_displacement * (1.0 - 4.0 * DBL_EPSILON)) {
             slipped = 4.0 * r->slip_force * 2.0 * DBL_EPSILON * r->contact.slip_displacement;
         }
+        check_tabulated_stiffness(&t, r, slipped);
         accepted(&t, mslip_complex_stiffness(&r->contact, 1, &amplitude, &got[0], &got[1], &got[2], &got[3]));
         compare(&t, "K'", got[0], k_real, TOLERANCE * k_real);
         compare(&t, "K''", got[1], k_imag,

@@ -140,6 +140,7 @@ static void test_no_tangential_force(void)
                 CONTACTS[k] = contact_of(kind);
             }
             fill_states(f);
+            fill_table(f);
             call.scalar = f->scalar == FORCE ? 0.0 : call.scalar;
             for (size_t k = 0; k < f->inputs && (f->kind == FORCE || f->kind == FORCE_AMPLITUDE); ++k) {
                 INPUT[k] = 0.0;

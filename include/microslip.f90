@@ -19,22 +19,22 @@ module microslip
   !!
   !! **Names** are those of C, except `mslip_normal_force_at`: Fortran ignores case, and `MSLIP_NORMAL_FORCE` is a constant.
   !!
-  !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states and workspaces
-  !! are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or an element
-  !! are results; do not set them. Memory that comes from outside the process is validated in full by the procedures named
-  !! `_check`. Nothing is allocated, except that a batch call copies its `index`, 4 bytes per item, because it counts from 1
-  !! and that of C from 0, and that the compiler copies sections with strides.
+  !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states, workspaces
+  !! and tables are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or
+  !! an element are results; do not set them. Memory that comes from outside the process is validated in full by the
+  !! procedures named `_check`. Nothing is allocated, except that a batch call copies its `index`, 4 bytes per item, because
+  !! it counts from 1 and that of C from 0, and that the compiler copies sections with strides.
   !!
   !! **Aliasing.** An output must not share memory with any other argument. For a step in place there are the procedures
   !! named `_advance`.
   !!
-  !! **Threads.** Any thread may call any procedure on its own data. Contacts and elements may be shared; each thread needs a
-  !! workspace of its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with options that
-  !! make local variables static (gfortran: `-fno-automatic`) if several threads call it.
+  !! **Threads.** Any thread may call any procedure on its own data. Contacts, elements and tables may be shared; each thread
+  !! needs a workspace of its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with
+  !! options that make local variables static (gfortran: `-fno-automatic`) if several threads call it.
   !!
   !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument
   !! is modified. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. Infinite values and NaN are rejected, and so is
-  !! a contact, element, state or workspace that was never initialised.
+  !! a contact, element, state, workspace or table that was never initialised.
   !!
   !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them; of an element
   !! component after component: those of the tangential one, then those of the normal one. A Jacobian
@@ -53,6 +53,7 @@ module microslip
   public :: mslip_masing_update, mslip_masing_advance, mslip_masing_path, mslip_masing_path_advance
   public :: mslip_masing_tractions
   public :: mslip_hysteresis_loop, mslip_dissipated_energy, mslip_complex_stiffness
+  public :: mslip_stiffness_table_length, mslip_stiffness_table_init, mslip_complex_stiffness_tabulated
   public :: mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_workspace_size
   public :: mslip_harmonic_force
   public :: mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance
@@ -234,6 +235,11 @@ module microslip
     !! Harmonic stiffness at an amplitude of the displacement, and its derivative.
     module procedure complex_stiffness_scalar, complex_stiffness_array
   end interface mslip_complex_stiffness
+
+  interface mslip_complex_stiffness_tabulated
+    !! `mslip_complex_stiffness` from a table of `mslip_stiffness_table_init`.
+    module procedure tabulated_scalar, tabulated_array
+  end interface mslip_complex_stiffness_tabulated
 
   interface mslip_normal_force_at
     !! Normal force at an approach. In C it is named `mslip_normal_force`, in Fortran the name of a constant.
@@ -1131,6 +1137,68 @@ contains
       address_of(k_real), address_of(k_imag), address_of(dk_real), address_of(dk_imag))
   end subroutine complex_stiffness_scalar
 
+  pure function mslip_stiffness_table_length() result(length)
+    !! Length of a table of the complex stiffness. May dimension an array.
+    integer(mslip_size) :: length  !! Length of the table.
+
+    length = c_stiffness_table_length()
+  end function mslip_stiffness_table_length
+
+  subroutine mslip_stiffness_table_init(contact, table, status)
+    !! Initialise a table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or
+    !! scale share it, and threads may. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic
+    !! contacts is the same.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(inout), target, contiguous :: table(:)
+      !! The table; at least `mslip_stiffness_table_length()` values.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_CONTACT` or `MSLIP_TABLE_TOO_SHORT`.
+
+    status = c_stiffness_table_init(contact, size(table, kind=mslip_size), address_of(table))
+  end subroutine mslip_stiffness_table_init
+
+  subroutine tabulated_array(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
+    !! `mslip_complex_stiffness` from a table: a few polynomials for each amplitude, with errors of 1e-13 of |K| and of
+    !! |K|/amplitude. If 2L/b is below about 2, it is `mslip_complex_stiffness`.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
+    real(mslip_real), intent(in) :: amplitude(:)
+      !! Amplitudes of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! K' at each amplitude [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! K'' at each amplitude [N/m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude) [N/m2].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude) [N/m2].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(4)
+
+    n = size(amplitude, kind=mslip_size)
+    ptr = c_null_ptr
+    status = table_status(table)
+    if (present(k_real)) call check_array(k_real, n, ptr(1), status)
+    if (present(k_imag)) call check_array(k_imag, n, ptr(2), status)
+    if (present(dk_real)) call check_array(dk_real, n, ptr(3), status)
+    if (present(dk_imag)) call check_array(dk_imag, n, ptr(4), status)
+    if (status == MSLIP_OK) status = c_complex_stiffness_tabulated(contact, table, n, amplitude, ptr(1), ptr(2), ptr(3), ptr(4))
+  end subroutine tabulated_array
+
+  subroutine tabulated_scalar(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
+    !! `mslip_complex_stiffness` from a table: a few polynomials, with errors of 1e-13 of |K| and of |K|/amplitude. If 2L/b is
+    !! below about 2, it is `mslip_complex_stiffness`.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
+    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target :: k_real  !! K' [N/m].
+    real(mslip_real), intent(inout), optional, target :: k_imag  !! K'' [N/m].
+    real(mslip_real), intent(inout), optional, target :: dk_real  !! dK'/d(amplitude) [N/m2].
+    real(mslip_real), intent(inout), optional, target :: dk_imag  !! dK''/d(amplitude) [N/m2].
+
+    status = table_status(table)
+    if (status == MSLIP_OK) status = c_complex_stiffness_tabulated(contact, table, 1_mslip_size, [amplitude], &
+      address_of(k_real), address_of(k_imag), address_of(dk_real), address_of(dk_imag))
+  end subroutine tabulated_scalar
+
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Several harmonics: alternating frequency/time
 
@@ -1898,6 +1966,14 @@ contains
     rule_or_default = MSLIP_UNIFORM_SAMPLING
     if (present(rule)) rule_or_default = rule
   end function rule_or_default
+
+  pure function table_status(table)
+    ! C reads a whole table.
+    real(mslip_real), intent(in), contiguous :: table(:)
+    integer(mslip_int) :: table_status
+
+    table_status = merge(MSLIP_TABLE_TOO_SHORT, MSLIP_OK, size(table, kind=mslip_size) < c_stiffness_table_length())
+  end function table_status
 
   elemental function components(element) result(m)
     ! The number of components of a displacement of an element; C rejects uninitialised elements.

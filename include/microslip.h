@@ -8,12 +8,12 @@
  *             error no output is modified. Infinite and NaN inputs are rejected.
  * Outputs     An output that is NULL is not computed.
  * Aliasing    Output buffers must not alias any other argument, except where stated.
- * Ownership   All memory is the caller's: contacts, states and workspaces are plain data that may be copied, stored in restart files
- *             and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call recognises memory that
- *             was never initialised, is too short, or belongs to another version of this interface; the _check functions validate
- *             memory from outside the process in full.
- * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts are only read and may be
- *             shared; each thread needs a workspace of its own.
+ * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
+ *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
+ *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the
+ *             _check functions validate memory from outside the process in full.
+ * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts and tables are only read
+ *             and may be shared; each thread needs a workspace of its own.
  * Harmonics   Coefficients of a periodic quantity are [c0, cos1, sin1, cos2, sin2, ...], 2H+1 for H harmonics.
  * Jacobians   Column-major: element (i, j) is at i + j * rows. A default (row-major) NumPy array holds the transpose.
  */

@@ -3,7 +3,7 @@
 //! A tag encodes the kind of the buffer, the version of its layout and one count, so that uninitialised memory and buffers of other
 //! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
 
-/// Version of the layout of contacts, states and workspaces.
+/// Version of the layout of contacts, states, workspaces and tables.
 pub(crate) const LAYOUT: u64 = 3;
 
 /// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.

@@ -497,6 +497,53 @@ fn cycles_and_equivalents() {
     }
 }
 
+#[test]
+fn stiffness_tables() {
+    let length = mslip_stiffness_table_length();
+    let init = |contact, length, table| unsafe { mslip_stiffness_table_init(contact, length, table) };
+    let tables: Vec<Memory<f64>> = contacts()
+        .iter()
+        .map(|contact| {
+            let table = Memory::new(length);
+            assert_eq!(init(contact.start, length, table.start), MSLIP_OK);
+            table
+        })
+        .collect();
+    let [rounded, ..] = contacts();
+    let start = tables[0].start;
+    for (status, contact, length, table) in [
+        (MSLIP_TABLE_TOO_SHORT, rounded.start, length - 1, start),
+        (MSLIP_TABLE_TOO_SHORT, rounded.start, 0, start),
+        (MSLIP_NULL_POINTER, rounded.start, length, null_mut()),
+        (MSLIP_NULL_POINTER, null_mut(), length, start),
+        (MSLIP_BAD_ALIGNMENT, rounded.start, length, misaligned(start)),
+        (MSLIP_BAD_ALIGNMENT, misaligned(rounded.start), length, start),
+        (MSLIP_BAD_ARRAY_SIZE, rounded.start, usize::MAX, start),
+        (MSLIP_BAD_CONTACT, bad_contacts()[0].start, length, start),
+    ] {
+        assert_eq!(init(contact, length, table), status);
+    }
+    let stiffness = |contact, table, n, x: *const f64, out: Outputs| unsafe {
+        mslip_complex_stiffness_tabulated(contact, table, n, x, out[0], out[1], out[2], out[3])
+    };
+    for (contact, table) in contacts().iter().zip(&tables) {
+        let unit = slip(contact).1;
+        let invalid = [(MSLIP_BAD_AMPLITUDE, -1.0), (MSLIP_BAD_AMPLITUDE, f64::NAN)];
+        let amplitudes = [0.0, 0.3, 0.7, 1.0, 1.01, 1.5].map(|part| part * unit);
+        check_array(contact, &[6; 4], &amplitudes, &invalid, |contact, x, out| {
+            stiffness(contact, table.start, 6, x, out)
+        });
+        check_length(4, |n, x, out| stiffness(contact.start, table.start, n, x, out));
+        let with = |table, out: Outputs| stiffness(contact.start, table, 6, amplitudes.as_ptr(), out);
+        rejected(MSLIP_NULL_POINTER, &[6; 4], |out| with(null(), out));
+        rejected(MSLIP_BAD_ALIGNMENT, &[6; 4], |out| with(misaligned(table.start), out));
+        // Nothing is read after an invalid tag.
+        rejected(MSLIP_BAD_TABLE, &[6; 4], |out| with(Memory::of([0.0]).start, out));
+    }
+    let [_, ellipse, _] = contacts();
+    rejected(MSLIP_BAD_TABLE, &[1; 4], |out| stiffness(ellipse.start, start, 1, [0.0].as_ptr(), out));
+}
+
 const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
 
 fn workspace(harmonics: usize, samples: usize, rule: i32) -> Memory<f64> {

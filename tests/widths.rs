@@ -6,8 +6,9 @@ mod common;
 use common::{harmonic, unloaded};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::ffi::{
-    MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_complex_stiffness, mslip_contact, mslip_element_harmonic_force,
-    mslip_harmonic_force, mslip_harmonic_workspace_init, mslip_masing_path, mslip_monotonic_force,
+    MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_complex_stiffness, mslip_complex_stiffness_tabulated,
+    mslip_contact, mslip_element_harmonic_force, mslip_harmonic_force, mslip_harmonic_workspace_init,
+    mslip_masing_path, mslip_monotonic_force, mslip_stiffness_table_init, mslip_stiffness_table_length,
 };
 use microslip::hbm::Rule;
 use microslip::varying_load::element::{Element, NormalInput};
@@ -74,6 +75,33 @@ fn the_complex_stiffness_has_the_same_bits() {
             assert_eq!(unsafe { mslip_complex_stiffness(&raw const in_c, 1, &raw const amplitude, a, b, c, d) }, 0);
             let k = contact.complex_stiffness(amplitude).unwrap();
             assert_eq!(bits(&[k.real(), k.imaginary(), k.d_real(), k.d_imag()]), bits(&outputs), "{part}");
+        }
+    }
+}
+
+/// Four amplitudes at once, and one.
+#[test]
+fn a_stiffness_table_has_the_same_bits() {
+    for (contact, in_c) in contacts() {
+        let length = mslip_stiffness_table_length();
+        let mut table = vec![0.0; length];
+        // SAFETY: an array of the given length.
+        assert_eq!(unsafe { mslip_stiffness_table_init(&raw const in_c, length, table.as_mut_ptr()) }, 0);
+        let parts = [1e-3, 0.2, 0.399, 0.41, 0.75, 0.98, 0.9999, 1.0, 1.0001, 1.2, 1.7, 30.0];
+        let amplitude = parts.map(|part| part * contact.slip_displacement);
+        let run = |amplitude: &[f64]| {
+            let mut outputs = [(); 4].map(|()| vec![0.0; amplitude.len()]);
+            let [a, b, c, d] = outputs.each_mut().map(|output| output.as_mut_ptr());
+            let (x, n, table) = (amplitude.as_ptr(), amplitude.len(), table.as_ptr());
+            // SAFETY: arrays of the given lengths.
+            let status = unsafe { mslip_complex_stiffness_tabulated(&raw const in_c, table, n, x, a, b, c, d) };
+            assert_eq!(status, 0);
+            outputs
+        };
+        let all = run(&amplitude);
+        for i in 0..parts.len() {
+            let one = run(&amplitude[i..=i]);
+            assert!(all.iter().zip(one).all(|(all, one)| all[i].to_bits() == one[0].to_bits()), "{}", parts[i]);
         }
     }
 }

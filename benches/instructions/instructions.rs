@@ -12,10 +12,15 @@ use std::mem::MaybeUninit;
 use std::ptr::{self, null_mut};
 
 /// The first count is below this ratio times the second, and why.
-const RELATIONS: [(&str, f64, &str, &str); 31] = [
+const RELATIONS: [(&str, f64, &str, &str); 36] = [
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
+    ("tabulated_near_slip", 0.3, "plain_near_slip", "a table needs no quadrature"),
+    ("tabulated_near_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
+    ("tabulated_beyond_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
+    ("tabulated_gross_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
+    ("tabulated_small", 1.0, "tabulated_microslip", "small amplitudes take one polynomial"),
     ("update_force", 0.9, "update", "the force does not need the energy"),
     ("harmonics_force", 0.9, "harmonics", "the force does not need the Jacobian"),
     ("event_driven_force", 0.9, "event_driven", "the force does not need the Jacobian"),
@@ -101,6 +106,33 @@ fn stiffness(imaginary_alone: bool) -> Call {
     let amplitude = array(|i| c.slip_displacement * (i as f64 + 0.5) / POINTS as f64);
     let [imaginary, real, d_real, d_imaginary] = outputs(if imaginary_alone { 1 } else { 4 });
     prepared(move || unsafe { mslip_complex_stiffness(&c, POINTS, amplitude, real, imaginary, d_real, d_imaginary) })
+}
+
+/// One amplitude, a fraction of that of gross slip.
+fn plain(fraction: f64) -> Call {
+    let c = contact(200.0);
+    let amplitude = array(|_| c.slip_displacement * fraction);
+    let [real, imaginary, d_real, d_imaginary] = outputs(4);
+    prepared(move || unsafe { mslip_complex_stiffness(&c, 1, amplitude, real, imaginary, d_real, d_imaginary) })
+}
+
+fn tabulated(fraction: f64) -> Call {
+    let c = contact(200.0);
+    let length = mslip_stiffness_table_length();
+    let table = vec![0.0; length].leak().as_mut_ptr();
+    let amplitude = array(|_| c.slip_displacement * fraction);
+    let [real, imaginary, d_real, d_imaginary] = outputs(4);
+    unsafe { assert_eq!(mslip_stiffness_table_init(&c, length, table), MSLIP_OK) };
+    prepared(move || unsafe {
+        mslip_complex_stiffness_tabulated(&c, table, 1, amplitude, real, imaginary, d_real, d_imaginary)
+    })
+}
+
+fn table() -> Call {
+    let c = contact(200.0);
+    let length = mslip_stiffness_table_length();
+    let table = vec![0.0; length].leak().as_mut_ptr();
+    prepared(move || unsafe { mslip_stiffness_table_init(&c, length, table) })
 }
 
 fn update(requested: usize) -> Call {
@@ -318,6 +350,13 @@ const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.
 #[bench::curve_gross_slip(curve(2.0, 9.0, 3))]
 #[bench::stiffness(stiffness(false))]
 #[bench::stiffness_imaginary(stiffness(true))]
+#[bench::plain_near_slip(plain(0.999))]
+#[bench::tabulated_small(tabulated(0.2))]
+#[bench::tabulated_microslip(tabulated(0.7))]
+#[bench::tabulated_near_slip(tabulated(0.999))]
+#[bench::tabulated_beyond_slip(tabulated(1.02))]
+#[bench::tabulated_gross_slip(tabulated(3.0))]
+#[bench::table(table())]
 #[bench::update(update(3))]
 #[bench::update_force(update(2))]
 #[bench::path(path(|t| 0.8 * (2.0 * TAU * t).sin()))]

@@ -206,7 +206,8 @@ fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outp
     }
 }
 
-/// Without a table of the caller, with one on the stack if that is cheaper.
+/// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
+/// whether K' is requested.
 fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) -> Result<(), Error> {
     let real = outputs[0].is_some() || outputs[2].is_some();
     let mut nodes = 0;
@@ -215,9 +216,9 @@ fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: Stiffnes
         if real && nodes > NODES_OF_TABLE {
             let table = stiffness_table(contact);
             if table.has_polynomials() {
-                write_tabulated(contact, &table, amplitude, outputs);
-                return Ok(());
+                write_tabulated(contact, &table, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
             }
+            break;
         }
     }
     for (i, &amplitude) in amplitude.iter().enumerate() {
@@ -322,4 +323,39 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         Ok(())
     };
     status(compute())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+
+    /// The tests are compiled for the baseline; the C interface dispatches.
+    #[test]
+    fn a_table_and_its_values_have_the_same_bits_for_all_processors() {
+        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<std::vec::Vec<_>>();
+        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
+            let expected = StiffnessTable::of(&contact);
+            let in_c = mslip_contact::from(contact);
+            let mut table = [0.0; TABLE_LENGTH];
+            // SAFETY: arrays of the given lengths.
+            assert_eq!(unsafe { mslip_stiffness_table_init(&in_c, TABLE_LENGTH, table.as_mut_ptr()) }, 0);
+            // SAFETY: a table consists of doubles.
+            let expected_values = unsafe { &*(&raw const expected).cast::<[f64; TABLE_LENGTH]>() };
+            assert_eq!(bits(&table), bits(expected_values));
+            let amplitude = [1e-3, 0.2, 0.399, 0.41, 0.75, 0.98, 0.9999, 1.0, 1.0001, 1.2, 1.7, 30.0]
+                .map(|part| part * contact.slip_displacement);
+            let [mut k_real, mut k_imag, mut dk_real, mut dk_imag] = [[0.0; 12]; 4];
+            let [a, b, c, d] = [&mut k_real, &mut k_imag, &mut dk_real, &mut dk_imag].map(|output| output.as_mut_ptr());
+            // SAFETY: arrays of the given lengths.
+            let status =
+                unsafe { mslip_complex_stiffness_tabulated(&in_c, table.as_ptr(), 12, amplitude.as_ptr(), a, b, c, d) };
+            assert_eq!(status, 0);
+            for (i, amplitude) in amplitude.into_iter().enumerate() {
+                let [[(real, d_real), (imaginary, d_imaginary)]] = expected.parts(&contact, &[amplitude], true, true);
+                let values = [k_real[i], k_imag[i], dk_real[i], dk_imag[i]];
+                assert_eq!(bits(&values), bits(&[real, imaginary, d_real, d_imaginary]), "{i}");
+            }
+        }
+    }
 }

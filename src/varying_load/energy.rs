@@ -199,7 +199,8 @@ fn is_wide(low: f64, high: f64) -> bool {
 fn quadrature(element: &Element, low: f64, high: f64, integrand: impl Fn(f64) -> f64) -> f64 {
     let (mut sum, mut from) = (0.0, low);
     while from < high {
-        let reach = high.min(1.007 * element.largest_shift - from);
+        // Not less than 0.007 high, unless the element is corrupted: the loop ends.
+        let reach = high.min((1.007 * element.largest_shift - from).max(0.007 * high));
         let width = (high - from).min(0.25 * reach);
         let nodes = gauss_nodes(if width < 0.0625 * reach { 1 } else { 2 });
         sum += width * nodes.map(|(node, part)| part * integrand(from + node * width)).sum::<f64>();

@@ -17,14 +17,14 @@ program bad_input
     load = MSLIP_BAD_NORMAL_FORCE
 
   type :: procedure_info
-    character(len=28) :: name
+    character(len=32) :: name
     integer(mslip_int) :: scalar, array  ! Status of an invalid scalar, and of an invalid element of the input array.
     character(len=5) :: outputs          ! Four outputs and the new state: shapes as in `set_up`, upper case if required.
-    character :: memory = ' '            ! s: state, w: workspace.
+    character :: memory = ' '            ! s: state, w: workspace, t: table.
     logical :: batch = .false., element = .false.
   end type procedure_info
 
-  type(procedure_info), parameter :: procedures(36) = [ &
+  type(procedure_info), parameter :: procedures(38) = [ &
     procedure_info('tractions', force, position, 'vv'), &
     procedure_info('slip', force, position, 'vv'), &
     procedure_info('monotonic_displacement', none, force, 'vvv'), &
@@ -60,7 +60,9 @@ program bad_input
     procedure_info('element_harmonic_force', none, shift, 'des', 'w', element=.true.), &
     procedure_info('batch_element_update', none, shift, 'abv B', 's', .true., .true.), &
     procedure_info('batch_element_advance', none, shift, 'abv', 's', .true., .true.), &
-    procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.)]
+    procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.), &
+    procedure_info('complex_stiffness_tabulated', none, amplitude, 'vvvv', 't'), &
+    procedure_info('complex_stiffness_tabulated, one', amplitude, none, 'ssss', 't')]
 
   ! One component is allocated; if none is, the argument is absent.
   type :: output
@@ -70,7 +72,7 @@ program bad_input
   type(mslip_contact), allocatable :: contacts(:)
   type(mslip_element), allocatable :: elements(:)
   type(output) :: out(5)
-  real(wp), allocatable :: x(:), u(:, :), state(:), states(:, :), workspace(:)
+  real(wp), allocatable :: x(:), u(:, :), state(:), states(:, :), workspace(:), table(:)
   real(wp), allocatable :: pair(:), pairs(:, :)  ! Displacements of an element.
   integer(mslip_int), allocatable :: index(:), active(:)
   real(wp) :: scalar, bad(bad_values)
@@ -95,6 +97,7 @@ program bad_input
   call test_elements()
   call test_element_state()
   call test_element_workspace()
+  call test_table()
   call check('every status is returned, but for NULL pointers and misaligned ones', &
     all([(was_returned(int(p, mslip_int)) .or. mslip_status_text(int(p, mslip_int)) == mslip_status_text(-1_mslip_int) &
     .or. p == MSLIP_NULL_POINTER .or. p == MSLIP_BAD_ALIGNMENT, p = 1, 127)]))
@@ -145,6 +148,8 @@ contains
     call mslip_masing_path_advance(contacts(1), state, [2.0e-7_wp, 0.5e-7_wp, 1.5e-7_wp], ok)
     workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
     call mslip_harmonic_workspace_init(h, samples, workspace, ok)
+    table = spread(0.0_wp, 1, int(mslip_stiffness_table_length()))
+    call mslip_stiffness_table_init(contacts(1), table, ok)
     if (procedures(p)%element) then
       state = spread(0.0_wp, 1, int(mslip_element_state_length(one, pieces)))
       call mslip_element_state_init(one, state, ok)
@@ -222,6 +227,10 @@ contains
     case (35); call mslip_batch_element_advance(elements, states, pairs, status, index, active, out(1)%m, out(2)%t, out(3)%v)
     case (36)
       call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    case (37)
+      call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
+    case (38)
+      call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
     end select
   end subroutine perform
 
@@ -395,7 +404,7 @@ contains
   end subroutine test_normal_value
 
   subroutine test_memory()
-    ! Contacts, elements, states and workspaces that were never initialised, hold other values, or are truncated.
+    ! Contacts, elements, states, workspaces and tables that were never initialised, hold other values, or are truncated.
     integer :: k
 
     call set_up()
@@ -414,12 +423,15 @@ contains
       states(:, n) = state
       workspace = spread(state(1), 1, size(workspace))
       if (procedures(p)%memory == 's') call rejected('an uninitialised state', MSLIP_BAD_STATE)
+      table = spread(state(1), 1, size(table))
       if (procedures(p)%memory == 'w') call rejected('an uninitialised workspace', MSLIP_BAD_WORKSPACE)
+      if (procedures(p)%memory == 't') call rejected('an uninitialised table', MSLIP_BAD_TABLE)
     end do
     call set_up()
     state = state(:3)
     states = states(:3, :)
     workspace = workspace(:size(workspace) - 1)
+    table = table(:size(table) - 1)
     if (procedures(p)%outputs(5:5) == 'N') out(5)%v = out(5)%v(:3)
     if (procedures(p)%outputs(5:5) == 'B') out(5)%m = out(5)%m(:3, :)
     if (procedures(p)%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
@@ -427,6 +439,11 @@ contains
     if (procedures(p)%memory == 'w') then
       workspace = workspace(:2)
       call rejected('a workspace of two values', MSLIP_WORKSPACE_TOO_SHORT)
+    end if
+    if (procedures(p)%memory == 't') then
+      call rejected('a truncated table', MSLIP_TABLE_TOO_SHORT)
+      table = table(:0)
+      call rejected('a table without elements', MSLIP_TABLE_TOO_SHORT)
     end if
   end subroutine test_memory
 
@@ -721,6 +738,37 @@ contains
       mslip_element_workspace_length(one, 0_mslip_size, samples), mslip_element_workspace_length(2_mslip_int, h, samples), &
       mslip_element_workspace_length(one, -1_mslip_size, -1_mslip_size)] == 0))
   end subroutine test_element_workspace
+
+  subroutine test_table()
+    ! Tables of another shape, uninitialised contacts, and tables that are too short.
+    type(mslip_parameters) :: parameters
+    type(mslip_contact) :: contact
+    integer :: last
+
+    do p = size(procedures) - 1, size(procedures)
+      call set_up()
+      parameters = flat_parameters()
+      parameters%normal_force = 1.01_wp*parameters%normal_force
+      call mslip_contact_init(parameters, contact, status)
+      call mslip_stiffness_table_init(contact, table, status)
+      call check_status('table of another shape', status, MSLIP_OK)
+      call rejected('a table of another shape', MSLIP_BAD_TABLE)
+      call mslip_contact_init_elliptic(ellipse_parameters(), contact, status)
+      call mslip_stiffness_table_init(contact, table, status)
+      call rejected('the table of an ellipse', MSLIP_BAD_TABLE)
+      table(:size(state)) = state
+      call rejected('a state as table', MSLIP_BAD_TABLE)
+    end do
+    table = untouched
+    last = size(table)
+    call mslip_stiffness_table_init(contacts(1), table(1:last - 1), status)
+    call check_status('table too short by one', status, MSLIP_TABLE_TOO_SHORT)
+    call mslip_stiffness_table_init(contacts(1), table(1:0), status)
+    call check_status('table without elements', status, MSLIP_TABLE_TOO_SHORT)
+    call mslip_stiffness_table_init(mslip_contact(), table, status)
+    call check_status('table of an uninitialised contact', status, MSLIP_BAD_CONTACT)
+    call check('rejected tables: nothing written', is_untouched(table))
+  end subroutine test_table
 
   subroutine test_workspace()
     integer(mslip_size) :: found(2)

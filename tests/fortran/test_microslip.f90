@@ -20,6 +20,7 @@ program test_microslip
   call test_bounded_memory()
   call test_masing_tractions()
   call test_cycles()
+  call test_stiffness_table()
   call test_harmonic_force()
   call test_event_driven()
   call test_batch()
@@ -381,6 +382,62 @@ contains
     call mslip_dissipated_energy(flat, three, four, status)
     call check_close('K imaginary is the energy of a cycle', two, four/(pi*6.0e-7_wp**2), 1.0e-10_wp)
   end subroutine test_cycles
+
+  subroutine test_stiffness_table()
+    ! Within the documented 1e-13 of |K| and of |K|/amplitude of the sum of both errors.
+    integer, parameter :: points = 12
+    real(wp), parameter :: fraction(points) = [0.0_wp, 0.1_wp, 0.3_wp, 0.41_wp, 0.7_wp, 0.99_wp, 1.0_wp - 1.0e-9_wp, 1.0_wp, &
+      1.01_wp, 1.5_wp, 2.0_wp, 50.0_wp]
+    type(mslip_contact) :: contact
+    type(mslip_parameters) :: p
+    real(wp), dimension(points) :: amplitude, k_real, k_imag, dk_real, dk_imag, one, two, three, four, size_of_k
+    real(wp) :: table(mslip_stiffness_table_length()), rows(2, mslip_stiffness_table_length()), a, b, c, d
+    integer(mslip_int) :: status
+    integer :: i
+
+    call mslip_stiffness_table_init(flat, table, status)
+    call check_status('table', status, MSLIP_OK)
+    ! The contact of the table, one with another friction coefficient, and one that is 3 times as large in each direction.
+    do i = 1, 3
+      p = flat_parameters()
+      if (i == 2) p%friction_coefficient = 0.11_wp
+      if (i == 3) then
+        p%flat_half_width = 3*p%flat_half_width
+        p%edge_radius = 3*p%edge_radius
+        p%length = 3*p%length
+        p%normal_force = 9*p%normal_force
+      end if
+      call mslip_contact_init(p, contact, status)
+      amplitude = fraction*contact%slip_displacement
+      call mslip_complex_stiffness_tabulated(contact, table, amplitude, status, one, two, three, four)
+      call check_status('stiffness from a table', status, MSLIP_OK)
+      call mslip_complex_stiffness(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
+      size_of_k = hypot(k_real, k_imag)
+      call check('K from a table', all(abs(one - k_real) <= 2.0e-13_wp*size_of_k .and. abs(two - k_imag) <= 2.0e-13_wp*size_of_k))
+      ! The quadrature for dK' has an error of up to 2e-12 just beyond gross slip.
+      call check('derivatives of K from a table', all(abs(three - dk_real)*amplitude <= 2.0e-12_wp*size_of_k &
+        .and. abs(four - dk_imag)*amplitude <= 2.0e-13_wp*size_of_k))
+    end do
+    call mslip_complex_stiffness_tabulated(contact, table, amplitude(5), status, a, b, c, d)
+    call check_status('stiffness of one amplitude from a table', status, MSLIP_OK)
+    call check_same('stiffness of one amplitude from a table', [a, b, c, d], [one(5), two(5), three(5), four(5)])
+    k_imag = untouched
+    call mslip_complex_stiffness_tabulated(contact, table, amplitude(1::2), status, k_imag=k_imag(1::2))
+    call check_same('strides: stiffness from a table', k_imag(1::2), two(1::2))
+    call check_same('strides: gaps of the stiffness are not written', k_imag(2::2), spread(untouched, 1, points/2))
+    rows = 0
+    call mslip_stiffness_table_init(flat, rows(2, :), status)
+    call mslip_complex_stiffness_tabulated(contact, rows(2, :), amplitude(5), status, a)
+    call check_status('strides: table', status, MSLIP_OK)
+    call check_same('strides: table', [a], [one(5)])
+    call check_same('strides: gaps of the table are not written', rows(1, :), spread(0.0_wp, 1, size(rows, 2)))
+
+    call mslip_stiffness_table_init(open_contact, table, status)
+    call check_status('table of an open contact', status, MSLIP_OK)
+    call mslip_complex_stiffness_tabulated(open_contact, table, amplitude, status, one, two, three, four)
+    call check_status('stiffness of an open contact from a table', status, MSLIP_OK)
+    call check_same('stiffness of an open contact from a table', [one, two, three, four], spread(0.0_wp, 1, 4*points))
+  end subroutine test_stiffness_table
 
   subroutine test_harmonic_force()
     integer(mslip_size), parameter :: harmonics = 3, samples = 128

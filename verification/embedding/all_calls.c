@@ -289,6 +289,20 @@ static void complex_stiffness(struct sequence *s)
     accept(mslip_complex_stiffness(s->contact, POINTS, x, o[0], o[1], o[2], o[3]));
 }
 
+/* The last call has amplitudes enough for a table of its own. */
+static void stiffness_table(struct sequence *s)
+{
+    const size_t n = mslip_stiffness_table_length();
+    double *table = *arrays(s, 1, n), *x = multiples(s, s->contact->slip_displacement, 3.0), **o = arrays(s, 4, POINTS);
+    accept(mslip_stiffness_table_init(s->contact, n, table));
+    accept(mslip_complex_stiffness_tabulated(s->contact, table, POINTS, x, o[0], o[1], o[2], o[3]));
+    double *near_slip = *arrays(s, 1, POINTS), **near = arrays(s, 4, POINTS);
+    for (size_t i = 0; i < POINTS; ++i) {
+        near_slip[i] = s->contact->slip_displacement * (1.0 + 1e-3 * (double)(i + 1));
+    }
+    accept(mslip_complex_stiffness(s->contact, POINTS, near_slip, near[0], near[1], near[2], near[3]));
+}
+
 static void harmonic_force(struct sequence *s)
 {
     for (int rule = 0; rule < RULES; ++rule) {
@@ -424,7 +438,7 @@ static void version(struct sequence *s)
 const struct call calls[] = {
     CALL(version), CALL(initialisation), CALL(workspaces), CALL(tractions), CALL(slip), CALL(monotonic_displacement),
     CALL(monotonic_force), CALL(masing_update), CALL(masing_path), CALL(masing_tractions), CALL(hysteresis_loop),
-    CALL(dissipated_energy), CALL(complex_stiffness), CALL(harmonic_force), CALL(equivalents), CALL(batch_complex_stiffness),
+    CALL(dissipated_energy), CALL(complex_stiffness), CALL(stiffness_table), CALL(harmonic_force), CALL(equivalents), CALL(batch_complex_stiffness),
     CALL(batch_masing_update), CALL(batch_harmonic_force), CALL(normal_law), CALL(element_update),
     { "element_path", element_whole_path }, CALL(element_tractions), CALL(element_workspaces), CALL(element_harmonic_force),
     CALL(batch_element_update), CALL(batch_element_harmonic_force),

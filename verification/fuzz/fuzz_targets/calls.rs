@@ -54,6 +54,8 @@ enum Function {
     HysteresisLoop,
     DissipatedEnergy,
     ComplexStiffness,
+    /// The table of this contact.
+    ComplexStiffnessTabulated(u8),
     JenkinsEquivalent,
     IwanEquivalent,
     WorkspaceInit(u8, u8, i8),
@@ -382,6 +384,26 @@ impl Memory {
                     all!(real, tangent);
                     all!(imaginary, tangent);
                     all!(d_real, |slope| slope <= 0.0 && slope.is_finite());
+                    all!(d_imag, f64::is_finite);
+                }
+            }
+            Function::ComplexStiffnessTabulated(place) => {
+                let of = self.contacts[place as usize % CONTACTS * SIZE..].as_ptr().cast();
+                let mut table = vec![UNTOUCHED; mslip_stiffness_table_length()];
+                let length = with_fault(table.len(), fault);
+                let pointer = if fault == Fault::NullWorkspace { null_mut() } else { table.as_mut_ptr() };
+                let made = status(true, || unsafe { mslip_stiffness_table_init(of, length, pointer) });
+                assert!(made == MSLIP_OK || untouched(&table), "a rejected table has been modified");
+                let tabulated = |[a, b, da, db]: [*mut f64; 4]| unsafe {
+                    mslip_complex_stiffness_tabulated(contact, pointer, n, x, a, b, da, db)
+                };
+                let valid = valid && self.valid[place as usize % CONTACTS] && made == MSLIP_OK;
+                if let Some([real, imaginary, d_real, d_imag]) = run(valid, omitted, [count; 4], tabulated) {
+                    // Rounding of |K| and of |K|/amplitude.
+                    let limit = c.initial_stiffness * (1.0 + 1e-13);
+                    all!(real, |k| (0.0..=limit).contains(&k));
+                    all!(imaginary, |k| (-1e-13 * limit..=limit).contains(&k));
+                    all!(d_real, f64::is_finite);
                     all!(d_imag, f64::is_finite);
                 }
             }
