@@ -50,27 +50,80 @@ static entry *add(const char *method, stiffness *stiffness, const void *law, dou
     return e;
 }
 
-typedef struct { const mslip_contact *contact; double amplitude; } single;
+/* Amplitudes of one call: one, or for the table some of a range. */
+enum { BLOCK = 16, LOGARITHMS = 256 };
+typedef struct { const mslip_contact *contact; const double *table; int n; double amplitude[BLOCK]; } call;
 
-static double run_single(void *context)
+static double run_call(void *context)
 {
-    const single *s = context;
-    double result[4];
-    microslip_stiffness(s->contact, s->amplitude, result);
-    return result[0] + result[1] + result[2] + result[3];
+    const call *k = context;
+    double out[4][BLOCK];
+    if (k->table) {
+        mslip_complex_stiffness_tabulated(k->contact, k->table, k->n, k->amplitude, out[0], out[1], out[2], out[3]);
+    } else {
+        mslip_complex_stiffness(k->contact, k->n, k->amplitude, out[0], out[1], out[2], out[3]);
+    }
+    return out[0][0] + out[1][0] + out[2][0] + out[3][0];
 }
 
-/* Single amplitudes, spaced uniformly up to twice the displacement of gross slip. */
+typedef struct { const mslip_contact *contact; size_t length; double *table; } table_job;
+
+static double run_table(void *context)
+{
+    const table_job *j = context;
+    require(mslip_stiffness_table_init(j->contact, j->length, j->table));
+    return j->table[j->length - 1];
+}
+
+static double run_logarithm(void *context)
+{
+    const double *x = context;
+    double sum = 0.0;
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        sum += log(x[i]);
+    }
+    return sum;
+}
+
+/* A call of one amplitude, and one of a range with the table, in units of gross slip. */
+static void time_range(const test_case *c, const double *table, const char *task, double from, double to)
+{
+    const size_t first = entry_count, mark = memory_mark();
+    for (int tabulated = 0; tabulated < 2; ++tabulated) {
+        call *k = allocate(sizeof *k);
+        *k = (call) { &c->contact, tabulated ? table : NULL, tabulated ? BLOCK : 1, { to * c->contact.slip_displacement } };
+        for (int i = 1; i < k->n; ++i) {
+            k->amplitude[i] = (from + (to - from) * i / BLOCK) * c->contact.slip_displacement;
+        }
+        entry_add(task, tabulated ? "tabulated" : "microslip", run_call, k, k->n);
+    }
+    measure(first, c->shape, to, mark);
+}
+
+/* Amplitudes spaced uniformly up to twice the displacement of gross slip, and closer and closer to it on both sides. */
 static void time_grid(const test_case *c)
 {
-    for (int i = 1; i <= GRID; ++i) {
-        const size_t first = entry_count, mark = memory_mark();
-        single *s = allocate(sizeof *s);
-        const double ratio = 2.0 * i / GRID;
-        *s = (single) { &c->contact, ratio * c->contact.slip_displacement };
-        entry_add("stiffness over amplitude", "microslip", run_single, s, 1);
-        measure(first, c->shape, ratio, mark);
+    const size_t start = memory_mark();
+    const size_t length = mslip_stiffness_table_length();
+    table_job *j = allocate(sizeof *j);
+    *j = (table_job) { &c->contact, length, allocate(length * sizeof(double)) };
+    double *logarithms = allocate(LOGARITHMS * sizeof *logarithms);
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        logarithms[i] = i + 1.0;
     }
+    run_table(j);
+    for (int i = 1; i <= GRID; ++i) {
+        time_range(c, j->table, "stiffness over amplitude", 2.0 * (i - 1) / GRID, 2.0 * i / GRID);
+    }
+    for (double e = 0.1; e > 1e-15; e *= 0.1) {
+        time_range(c, j->table, "stiffness near gross slip", 1.0 - 2.0 * e, 1.0 - e);
+        time_range(c, j->table, "stiffness near gross slip", 1.0 + 2.0 * e, 1.0 + e);
+    }
+    const size_t first = entry_count, mark = memory_mark();
+    entry_add("stiffness table", "microslip", run_table, j, 1);
+    entry_add("stiffness table", "logarithm", run_logarithm, logarithms, LOGARITHMS);
+    measure(first, c->shape, 0.0, mark);
+    free_to(start);
 }
 
 void task_stiffness(const test_case *c, const extent *x)

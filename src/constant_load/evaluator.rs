@@ -185,7 +185,7 @@ impl CurveEvaluator<'_> {
             }
             if let (Some(roots), Some(displacement)) = (roots.get_mut(next..), displacement.get(next..)) {
                 let blocks = roots.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
-                for (root, &x) in blocks.take((count + BEYOND).saturating_sub(next).div_ceil(4)) {
+                for (root, &x) in blocks.take((count + BEYOND).saturating_sub(next) / 4) {
                     let mut roots = [0.0; 4];
                     for k in 0..4 {
                         roots[k] = root_of((self.slip_displacement - x[k]) * self.outer_scale);

@@ -124,14 +124,15 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
         // SAFETY: by the function's contract.
         let (contact, table) =
             unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
-        table.write(stiffness_table(contact));
+        init_table(table.write(StiffnessTable::EMPTY), contact);
         Ok(())
     };
     status(init())
 }
 
-fn stiffness_table(contact: &Contact) -> StiffnessTable {
-    dispatch_simd!(StiffnessTable::of, contact: &Contact => StiffnessTable)
+#[inline(never)]
+fn init_table(table: &mut StiffnessTable, contact: &Contact) {
+    dispatch_simd!(StiffnessTable::init, table: &mut StiffnessTable, contact: &Contact => ());
 }
 
 /// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
@@ -214,7 +215,8 @@ fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: Stiffnes
     for &one in amplitude {
         nodes += contact.complex_stiffness(one)?.nodes();
         if real && nodes > NODES_OF_TABLE {
-            let table = stiffness_table(contact);
+            let mut table = StiffnessTable::EMPTY;
+            init_table(&mut table, contact);
             if table.has_polynomials() {
                 write_tabulated(contact, &table, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
             }
@@ -335,7 +337,8 @@ mod tests {
     fn a_table_and_its_values_have_the_same_bits_for_all_processors() {
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<std::vec::Vec<_>>();
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let expected = StiffnessTable::of(&contact);
+            let mut expected = StiffnessTable::EMPTY;
+            expected.init(&contact);
             let in_c = mslip_contact::from(contact);
             let mut table = [0.0; TABLE_LENGTH];
             // SAFETY: arrays of the given lengths.

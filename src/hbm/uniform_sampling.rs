@@ -127,9 +127,9 @@ pub(super) fn harmonic_force<'w, L: Law>(
     let HarmonicOutput { force, jacobian, dissipated } = output;
     let count = size.samples;
     fourier.synthesise(displacement, period);
-    let is_even = |c: usize| c.div_ceil(2).is_multiple_of(2);
-    let half_wave_symmetric =
-        is_even(count) && displacement.iter().enumerate().all(|(c, value)| !is_even(c) || *value == 0.0);
+    let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
+    let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
+    let half_wave_symmetric = count.is_multiple_of(2) && only_odd_orders;
     let length = if half_wave_symmetric { count / 2 } else { count };
     let farthest = farthest(period, length);
     rotate(period.get(..count).unwrap_or(&[]), farthest, path.displacement);
