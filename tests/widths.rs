@@ -91,7 +91,7 @@ fn a_stiffness_table_has_the_same_bits() {
         let amplitude = parts.map(|part| part * contact.slip_displacement);
         let run = |amplitude: &[f64]| {
             let mut outputs = [(); 4].map(|()| vec![0.0; amplitude.len()]);
-            let [a, b, c, d] = outputs.each_mut().map(|output| output.as_mut_ptr());
+            let [a, b, c, d] = outputs.each_mut().map(Vec::as_mut_ptr);
             let (x, n, table) = (amplitude.as_ptr(), amplitude.len(), table.as_ptr());
             // SAFETY: arrays of the given lengths.
             let status = unsafe { mslip_complex_stiffness_tabulated(&raw const in_c, table, n, x, a, b, c, d) };

@@ -342,7 +342,7 @@ mod tests {
             let in_c = mslip_contact::from(contact);
             let mut table = [0.0; TABLE_LENGTH];
             // SAFETY: arrays of the given lengths.
-            assert_eq!(unsafe { mslip_stiffness_table_init(&in_c, TABLE_LENGTH, table.as_mut_ptr()) }, 0);
+            assert_eq!(unsafe { mslip_stiffness_table_init(&raw const in_c, TABLE_LENGTH, table.as_mut_ptr()) }, 0);
             // SAFETY: a table consists of doubles.
             let expected_values = unsafe { &*(&raw const expected).cast::<[f64; TABLE_LENGTH]>() };
             assert_eq!(bits(&table), bits(expected_values));
@@ -351,8 +351,9 @@ mod tests {
             let [mut k_real, mut k_imag, mut dk_real, mut dk_imag] = [[0.0; 12]; 4];
             let [a, b, c, d] = [&mut k_real, &mut k_imag, &mut dk_real, &mut dk_imag].map(|output| output.as_mut_ptr());
             // SAFETY: arrays of the given lengths.
-            let status =
-                unsafe { mslip_complex_stiffness_tabulated(&in_c, table.as_ptr(), 12, amplitude.as_ptr(), a, b, c, d) };
+            let status = unsafe {
+                mslip_complex_stiffness_tabulated(&raw const in_c, table.as_ptr(), 12, amplitude.as_ptr(), a, b, c, d)
+            };
             assert_eq!(status, 0);
             for (i, amplitude) in amplitude.into_iter().enumerate() {
                 let [[(real, d_real), (imaginary, d_imaginary)]] = expected.parts(&contact, &[amplitude], true, true);
