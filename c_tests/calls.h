@@ -446,13 +446,12 @@ static inline size_t used_state(const function *f)
     return f->takes & IS_ELEMENT ? mslip_element_state_length(1, USED_PIECES) : mslip_state_length(USED);
 }
 
-/* Doubles in use of a state, which a step writes: 5 and 3 for each reversal, for an element 8 and 4 for each knot; the tag has their
-   number. */
+/* Doubles of a state that a step writes: all, for an element those in use, 8 and 4 for each knot, whose number is in the tag. */
 static inline size_t written_state(const function *f, const double *state)
 {
     uint64_t tag;
     memcpy(&tag, state, sizeof tag);
-    return f->takes & IS_ELEMENT ? 8 + 4 * (size_t)(tag & 0xff) : 5 + 3 * (size_t)(tag & 0xff);
+    return f->takes & IS_ELEMENT ? 8 + 4 * (size_t)(tag & 0xff) : STATE;
 }
 
 static inline int same_states(const function *f, const double *states, const double *others)

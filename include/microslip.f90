@@ -955,8 +955,7 @@ contains
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step.
     real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
-      !! State after the step, of the same size; for a step in place use `mslip_masing_advance`. Only what is in use of it is
-      !! written: initialise both states to store or compare whole arrays.
+      !! State after the step, of the same size; for a step in place use `mslip_masing_advance`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target :: force  !! Force at the end of the step [N].
     real(mslip_real), intent(inout), optional, target :: stiffness

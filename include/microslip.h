@@ -386,8 +386,7 @@ int32_t mslip_state_error(size_t state_length,
                           double *force_error);
 
 // Advances the contact state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated in this step [J]
-// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise
-// both states to store or compare whole arrays.
+// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //

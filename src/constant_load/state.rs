@@ -131,20 +131,6 @@ pub(crate) fn set_point(state: &mut [f64], now: Point) {
     }
 }
 
-/// Writes the reversals in use.
-#[inline(always)]
-pub(crate) fn write_reversals(state: &mut [f64], reversals: &[Reversal]) {
-    reversals_mut(state).iter_mut().zip(reversals).for_each(|(place, reversal)| *place = *reversal);
-}
-
-/// Copies what is in use of a state whose header was checked, with another present point.
-#[inline(never)]
-pub(crate) fn copy_with_point(from: &[f64], to: &mut [f64], now: Point) {
-    let Memory { initial, reversals, .. } = memory(from);
-    write_reversals(to, reversals);
-    write_header(to, reversals.len(), initial, now);
-}
-
 /// Validates a state in full: all values are finite, and the reversals are nested. For states from outside the process.
 ///
 /// # Errors

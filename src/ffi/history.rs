@@ -63,8 +63,7 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
-/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise
-/// both states to store or compare whole arrays.
+/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 ///
@@ -124,11 +123,10 @@ pub(super) unsafe fn update(
         };
         write(force, response.force);
         write(stiffness, response.stiffness);
-        let now = Point { displacement, force: response.force };
-        if ptr::eq(state_old.cast(), state_new) {
+        if !state_new.is_null() {
+            copy(state_old, state_new);
+            let now = Point { displacement, force: response.force };
             state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
-        } else if !state_new.is_null() {
-            state::copy_with_point(&*state_old, slice::from_raw_parts_mut(state_new, state_old.len()), now);
         }
     }
     MSLIP_OK
@@ -163,6 +161,18 @@ unsafe fn general_update(
     MSLIP_OK
 }
 
+/// Copies a state unless the new one is the same memory.
+///
+/// # Safety
+/// As for [`update`]; `state_new` is not NULL.
+#[inline(always)]
+unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
+    if !ptr::eq(state_old.cast(), state_new) {
+        // SAFETY: by the function's contract.
+        unsafe { ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len()) };
+    }
+}
+
 /// Writes a step: the new state, and force and stiffness.
 ///
 /// # Safety
@@ -172,11 +182,8 @@ unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, 
     // SAFETY: by the function's contract; the states are different memory if one is copied.
     unsafe {
         if !state_new.is_null() {
-            let state = slice::from_raw_parts_mut(state_new, state_old.len());
-            if !ptr::eq(state_old.cast(), state_new) {
-                state::write_reversals(state, state::memory(&*state_old).reversals);
-            }
-            step.write(state);
+            copy(state_old, state_new);
+            step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
         }
         write(force, step.force());
         write(stiffness, step.stiffness());

@@ -32,10 +32,13 @@ const fn v_at<const ROWS: usize>(row: usize) -> f64 {
 }
 
 const fn power(x: f64, n: usize) -> f64 {
-    let (mut product, mut k) = (1.0, 0);
-    while k < n {
-        product *= x;
-        k += 1;
+    let (mut product, mut square, mut n) = (1.0, x, n);
+    while n > 0 {
+        if n % 2 == 1 {
+            product *= square;
+        }
+        square *= square;
+        n /= 2;
     }
     product
 }
@@ -66,20 +69,16 @@ impl<const N: usize> Functional<N> {
         let mut weights = [0.0; N];
         let mut i = 0;
         while i < N {
-            let mut n = 0;
+            let (point, mut sum, mut n) = (&at_points[i], 0.5 * self.moments[0], 1);
             while n < N {
-                weights[i] += scale_of(n, N) * self.moments[n] * at_points[i][n];
+                sum += self.moments[n] * point[n];
                 n += 1;
             }
+            weights[i] = 2.0 / N as f64 * sum;
             i += 1;
         }
         weights
     }
-}
-
-/// Of coefficient n of an interpolant.
-const fn scale_of(n: usize, points: usize) -> f64 {
-    (if n == 0 { 1.0 } else { 2.0 }) / points as f64
 }
 
 /// Chebyshev coefficients of the functions whose values at the points of an interpolant are the rows.
@@ -90,11 +89,12 @@ const fn coefficients<const INPUTS: usize, const N: usize>(rows: &[[f64; INPUTS]
     while i < INPUTS {
         let mut n = 0;
         while n < N {
-            let mut row = 0;
+            let (mut sum, mut row) = (0.0, 0);
             while row < N {
-                operator[i][n] += scale_of(n, N) * at_points[row][n] * rows[row][i];
+                sum += at_points[row][n] * rows[row][i];
                 row += 1;
             }
+            operator[i][n] = (if n == 0 { 1.0 } else { 2.0 }) / N as f64 * sum;
             n += 1;
         }
         i += 1;
@@ -185,12 +185,8 @@ impl Kernel {
 
 /// `(v⁸ - w⁸)/(v - w)`.
 const fn quotient(v: f64, w: f64) -> f64 {
-    let (mut sum, mut n) = (0.0, 0);
-    while n < 8 {
-        sum += power(v, n) * power(w, 7 - n);
-        n += 1;
-    }
-    sum
+    let (v2, w2) = (v * v, w * w);
+    (v + w) * (v2 + w2) * (v2 * v2 + w2 * w2)
 }
 
 /// The operators to a piece with as many terms as points.
@@ -356,7 +352,9 @@ pub(super) static OUTER_ROOT_MOMENTS: [[f64; TERMS]; TAYLOR] = {
 pub(super) static OUTER_ROOT_MOMENT: [f64; TERMS] = outer(0.0, Some(1));
 
 /// Beyond the pieces of gross slip: coefficients over q/q_max, `q = 1/ξ`, of `∫ sqrt(1 - q x) φ dx` from the first polynomial.
-pub(super) static OUTER_FAR: Operator<TERMS, TERMS> = {
+pub(super) static OUTER_FAR: Operator<TERMS, TERMS> = far_operator();
+
+const fn far_operator() -> Operator<TERMS, TERMS> {
     let mut rows = [[0.0; TERMS]; TERMS];
     let mut row = 0;
     while row < TERMS {
@@ -375,12 +373,14 @@ pub(super) static OUTER_FAR: Operator<TERMS, TERMS> = {
         row += 1;
     }
     coefficients(&rows)
-};
+}
 /// The same from the first two pieces, in units of their scales.
 pub(super) static FAR_FIRST: Operator<FIRST, TERMS> = far(1.0);
 pub(super) static FAR_SECOND: Operator<POINTS, TERMS> = far(1.0 / 256.0);
 /// Coefficients of `sqrt(1-q)` and of `q/(2 sqrt(1-q))`: the same of all others, by the first two moments.
-pub(super) static FAR_ROOTS: Operator<2, TERMS> = {
+pub(super) static FAR_ROOTS: Operator<2, TERMS> = far_roots();
+
+const fn far_roots() -> Operator<2, TERMS> {
     let mut rows = [[0.0; 2]; TERMS];
     let mut row = 0;
     while row < TERMS {
@@ -390,7 +390,7 @@ pub(super) static FAR_ROOTS: Operator<2, TERMS> = {
         row += 1;
     }
     coefficients(&rows)
-};
+}
 
 /// q at a row point.
 const fn far_at(row: usize) -> f64 {
@@ -416,4 +416,56 @@ const fn far<const N: usize>(scale: f64) -> Operator<N, TERMS> {
         row += 1;
     }
     coefficients(&rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// For φ = 1 the integrals are elementary. Those of the next piece have a root or a branch point where it ends, which 16 terms do not
+    /// resolve to rounding.
+    #[test]
+    fn operators_integrate_constants_exactly() {
+        let start: f64 = 1.0 / 256.0;
+        let check = |name: &str, operator: &Operator<16, 16>, tolerance: f64, exact: &dyn Fn(f64) -> f64| {
+            for (row, z) in Interpolant::<16>::POINTS.into_iter().enumerate() {
+                let e = power(v_at::<16>(row), 8);
+                let sum: f64 = operator
+                    .iter()
+                    .flat_map(|column| column.iter().enumerate().map(|(n, c)| c * (n as f64 * z.acos()).cos()))
+                    .sum();
+                assert!((sum - exact(e)).abs() < tolerance, "{name} {e}: {sum} {}", exact(e));
+            }
+        };
+        let roots = |from: f64, e: f64| {
+            (1.0 - (1.0 - e).powf(1.5) - from.powf(1.5) + (from - e).max(0.0).powf(1.5)) / (1.5 * e)
+        };
+        let sums = |e: f64| ((1.0 + e).powf(1.5) - 1.0 - (start + e).powf(1.5) + start.powf(1.5)) / (1.5 * e);
+        check("below", &Kernel::Below.operator(), 1e-13, &|e| roots(start, e));
+        check("below, next", &Kernel::BelowNext.operator(), 1e-10, &|e| roots(start, start * e));
+        check("above", &Kernel::Above { factor: 1.0 }.operator(), 1e-13, &sums);
+        check("above, next", &Kernel::Above { factor: start }.operator(), 1e-10, &|e| sums(start * e));
+        check("above, before", &Kernel::Above { factor: 256.0 }.operator(), 1e-13, &|e| sums(256.0 * e));
+        check("mean", &Kernel::Mean.operator(), 1e-13, &|e| (e - start) / e);
+        check("energy", &Kernel::Energy.operator(), 1e-13, &|e| e - start - (e * e - start * start) / e);
+        for half_powers in [-13, -1, 1, 2, 6] {
+            let p = 1.0 + 0.5 * f64::from(half_powers);
+            let sum: f64 = moment::<16>(half_powers, false).iter().sum();
+            assert!((sum / ((1.0 - start.powf(p)) / p) - 1.0).abs() < 1e-13, "{half_powers} {sum}");
+        }
+    }
+
+    /// At run time as by the compiler.
+    #[test]
+    fn outer_integrals_are_those_of_the_table() {
+        assert_eq!(outer_operator(1.0), OUTER_BELOW);
+        assert_eq!(far::<POINTS>(1.0 / 256.0), FAR_SECOND);
+        assert_eq!(far_operator(), OUTER_FAR);
+        assert_eq!(far_roots(), FAR_ROOTS);
+        let (direct, tabulated) = (outer(0.0, Some(1)), &OUTER_ROOT_MOMENT);
+        assert_eq!(&direct, tabulated);
+        // ∫ sqrt(x (1-x)) over (0, 0.4).
+        let angle = (0.4f64).sqrt().asin();
+        assert!((direct[0] - 0.25 * (angle - 0.25 * (4.0 * angle).sin())).abs() < 1e-15);
+    }
 }
