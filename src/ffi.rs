@@ -13,6 +13,7 @@ mod history;
 mod cycle;
 mod hbm;
 
+mod directions;
 mod element;
 
 mod batch;
@@ -90,7 +91,7 @@ pub struct mslip_element {
     pub normal_stiffness: f64,
     /// dT/d(displacement) of a fully stuck contact under that force, x direction \[N/m\].
     pub tangential_stiffness: f64,
-    /// Number of tangential directions.
+    /// Number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
     pub directions: i32,
     /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     pub normal_input: i32,

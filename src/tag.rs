@@ -17,6 +17,8 @@ pub(crate) enum Kind {
     ElementSampling = 0x4d46,
     Samples = 0x4d4e,
     StiffnessTable = 0x4d54,
+    TwoDirectionsState = 0x4d58,
+    TwoDirectionsSampling = 0x4d57,
 }
 
 const COUNT_BITS: u32 = 40;
@@ -45,7 +47,7 @@ impl Kind {
 mod tests {
     use super::*;
 
-    const KINDS: [Kind; 7] = [
+    const KINDS: [Kind; 9] = [
         Kind::State,
         Kind::ElementState,
         Kind::UniformSampling,
@@ -53,6 +55,8 @@ mod tests {
         Kind::ElementSampling,
         Kind::Samples,
         Kind::StiffnessTable,
+        Kind::TwoDirectionsState,
+        Kind::TwoDirectionsSampling,
     ];
 
     #[test]

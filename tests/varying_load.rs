@@ -6,7 +6,7 @@ mod table;
 
 use microslip::constant_load::masing;
 use microslip::constant_load::state as constant_state;
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::varying_load::state::{Step, advance, force_error, state_init, state_length};
 use microslip::varying_load::tractions::tractions;
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
@@ -37,8 +37,8 @@ const SPHERE: EllipticParameters = EllipticParameters {
 
 /// Cylinder, flats with a/b of 0.5 and 0.97, sphere.
 fn elements(input: NormalInput) -> Vec<Element> {
-    let flat = |a| Element::rounded_flat(&parameters(a), input).unwrap();
-    vec![flat(0.0), flat(6e-5), flat(5e-4), Element::elliptic(&SPHERE, input).unwrap()]
+    let flat = |a| Element::rounded_flat(&parameters(a), Directions::One, input).unwrap();
+    vec![flat(0.0), flat(6e-5), flat(5e-4), Element::elliptic(&SPHERE, Directions::One, input).unwrap()]
 }
 
 struct History<'a> {
@@ -66,10 +66,10 @@ fn element_of_row(row: &Row, normal_force: f64, input: NormalInput) -> Element {
     let element = if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
         let ellipse = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
-        Element::elliptic(&ellipse, input)
+        Element::elliptic(&ellipse, Directions::One, input)
     } else {
         let flat = Parameters { normal_force, friction_coefficient, material, ..geometry(row) };
-        Element::rounded_flat(&flat, input)
+        Element::rounded_flat(&flat, Directions::One, input)
     };
     element.unwrap()
 }
@@ -239,7 +239,8 @@ fn loads_beyond_the_tables_are_exact_up_to_the_largest_half_width() {
     let small = Parameters { normal_force: 800.0, ..parameters(6e-5) };
     let large = Parameters { normal_force: 800.0 * 64.0, ..small };
     for input in [NormalInput::Approach, NormalInput::Force] {
-        let [one, other] = [small, large].map(|parameters| Element::rounded_flat(&parameters, input).unwrap());
+        let [one, other] =
+            [small, large].map(|parameters| Element::rounded_flat(&parameters, Directions::One, input).unwrap());
         let (mut beyond, mut within) = (History::new(&one, 64), History::new(&other, 64));
         for (u, load) in [(0.1, 0.2), (0.5, 40.0), (0.4, 60.0), (0.45, 1e-3), (0.4, 64.0)] {
             let load = load * 800.0;
@@ -285,8 +286,11 @@ fn energies_of_steps_to_vanishing_loads_are_finite() {
 
 #[test]
 fn a_contact_without_friction_has_a_normal_force_only() {
-    let element =
-        Element::rounded_flat(&Parameters { friction_coefficient: 0.0, ..parameters(6e-5) }, NormalInput::Force);
+    let element = Element::rounded_flat(
+        &Parameters { friction_coefficient: 0.0, ..parameters(6e-5) },
+        Directions::One,
+        NormalInput::Force,
+    );
     let element = element.unwrap();
     let step = History::new(&element, 4).step(1e-6, 500.0);
     assert_eq!((step.force, step.dissipated), ([0.0, 500.0], 0.0));
@@ -298,7 +302,7 @@ fn loads_up_to_the_largest_for_the_length_are_exact() {
     for flat_half_width in [0.0, 5e-4] {
         let with_load = |normal_force| {
             let parameters = Parameters { length: 1e-3, normal_force, ..parameters(flat_half_width) };
-            Element::rounded_flat(&parameters, NormalInput::Approach)
+            Element::rounded_flat(&parameters, Directions::One, NormalInput::Approach)
         };
         let (mut low, mut high) = (1.0, 1e9);
         while high > low * (1.0 + 1e-12) {
@@ -338,10 +342,10 @@ fn tiny_loads_and_repeated_steps_are_regular() {
 fn the_tables_of_a_short_contact_are_its_law() {
     let rigid = Material { young_modulus: 2e11, poisson_ratio: 0.0 };
     let long = Parameters { material: [rigid; 2], ..parameters(6e-5) };
-    let half_width = Element::rounded_flat(&long, NormalInput::Force).unwrap().half_width;
+    let half_width = Element::rounded_flat(&long, Directions::One, NormalInput::Force).unwrap().half_width;
     let length = 0.535 * half_width;
     let short = Parameters { length, normal_force: 800.0 * length / long.length, ..long };
-    let element = Element::rounded_flat(&short, NormalInput::Approach).unwrap();
+    let element = Element::rounded_flat(&short, Directions::One, NormalInput::Approach).unwrap();
     for share in [1.0, 0.95, 0.8, 0.5, 0.3, 0.1] {
         let load = share * short.normal_force;
         let approach = element.approach_under(load).value;

@@ -11,7 +11,7 @@ use microslip::ffi::{
     mslip_masing_path, mslip_monotonic_force, mslip_stiffness_table_init, mslip_stiffness_table_length,
 };
 use microslip::hbm::Rule;
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::varying_load::harmonic_force::{self, HarmonicOutput, Workspace};
 use microslip::{Contact, Material, Parameters};
 use std::ptr::null_mut;
@@ -181,7 +181,7 @@ fn the_harmonic_force_of_an_element_has_the_same_bits() {
             material,
             ..Parameters::default()
         };
-        let element = Element::rounded_flat(&parameters, input).unwrap();
+        let element = Element::rounded_flat(&parameters, Directions::One, input).unwrap();
         let largest = if input == NormalInput::Approach { element.approach } else { element.normal_force };
         for (harmonics, samples, size) in [(1, 64, 0.3), (2, 7, 0.3), (5, 128, 3.0), (9, 255, 0.3), (11, 60, 0.3)] {
             let n = 2 * harmonics + 1;

@@ -6,7 +6,7 @@ use crate::number::{format_list, format_number, parse_number};
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use serde::Deserialize;
 use std::path::Path;
@@ -107,8 +107,8 @@ impl ContactSpec {
             return input("without a normal force the contact is open: normal_force must be > 0");
         }
         let element = match self.given.shape(1.0)? {
-            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, normal_input),
-            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, normal_input),
+            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, Directions::One, normal_input),
+            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, Directions::One, normal_input),
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
     }

@@ -3,7 +3,7 @@
 use microslip::constant_load::equivalents::{iwan, jenkins};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::varying_load::state as element_state;
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::fs;
@@ -325,7 +325,7 @@ fn histories_under_a_varying_load_equal_those_of_the_library() {
     ] {
         let by_approach = name.starts_with('a');
         let input = if by_approach { NormalInput::Approach } else { NormalInput::Force };
-        let element = Element::rounded_flat(&flat_parameters(), input).unwrap();
+        let element = Element::rounded_flat(&flat_parameters(), Directions::One, input).unwrap();
         let path: Vec<_> = displacements.iter().zip(&values).flat_map(|(u, w)| [*u, *w]).collect();
         let row = |(i, [force, normal_force, stiffness, dissipated]): (usize, [f64; 4])| {
             let given = [displacements[i], values[i]].into_iter().take(if by_approach { 2 } else { 1 });
@@ -359,8 +359,8 @@ fn the_normal_law_and_its_inverse_equal_those_of_the_library() {
     let shell = Shell::new("normal");
     let input = NormalInput::Approach;
     for (element, given, m, k) in [
-        (Element::rounded_flat(&flat_parameters(), input), "flat.toml", "m", "N/m"),
-        (Element::elliptic(&elliptic_parameters(), input), "$ELLIPSE", "mm", "N/mm"),
+        (Element::rounded_flat(&flat_parameters(), Directions::One, input), "flat.toml", "m", "N/m"),
+        (Element::elliptic(&elliptic_parameters(), Directions::One, input), "$ELLIPSE", "mm", "N/mm"),
     ] {
         let element = element.unwrap();
         let header = format!("approach [{m}],normal_force [N],stiffness [{k}],half_width [{m}]");

@@ -1,7 +1,8 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::cycle::write_complex_stiffness;
-use super::hbm::{element_harmonic_force_dispatched, harmonic_force_dispatched};
+use super::directions::{ElementLaw, with_law};
+use super::hbm::harmonic_force_dispatched;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
 use super::{element, history, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
@@ -9,14 +10,14 @@ use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput};
-use crate::varying_load::element::Element;
-use crate::varying_load::harmonic_force;
-use crate::varying_load::state as element_state;
+use crate::varying_load::element::{Directions, Element};
 use core::ptr;
 use libc::size_t;
 
-/// A contact or an element.
-trait Law: Sized {
+/// The law of contacts, or of elements with a number of directions.
+trait Law {
+    /// A contact or an element.
+    type Item;
     /// A displacement; a force has as many components.
     type Vector;
     /// Derivative of the force by the displacement.
@@ -24,10 +25,10 @@ trait Law: Sized {
     /// The least length of a state.
     const STATE_LENGTH: usize;
 
-    fn check(&self) -> Result<(), Error>;
+    fn check(item: &Self::Item) -> Result<(), Error>;
 
     /// Checks the tag of a state, and a displacement.
-    fn check_step(&self, tag: f64, state_length: usize, displacement: &Self::Vector) -> Result<(), Error>;
+    fn check_step(item: &Self::Item, tag: f64, state_length: usize, displacement: &Self::Vector) -> Result<(), Error>;
 
     /// Evaluates and writes one step.
     ///
@@ -35,7 +36,7 @@ trait Law: Sized {
     /// Tag and displacement are checked; `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for
     /// as many doubles without overlap; the outputs, force, tangent and energy, are NULL, or aligned and valid.
     unsafe fn update(
-        &self,
+        item: &Self::Item,
         state_length: usize,
         state_old: *const f64,
         displacement: &Self::Vector,
@@ -45,24 +46,25 @@ trait Law: Sized {
 }
 
 impl Law for Contact {
+    type Item = Contact;
     type Vector = f64;
     type Tangent = f64;
     const STATE_LENGTH: usize = state::state_length(0);
 
     #[inline(always)]
-    fn check(&self) -> Result<(), Error> {
-        if self.is_initialised() { Ok(()) } else { Err(Error::BadContact) }
+    fn check(contact: &Contact) -> Result<(), Error> {
+        if contact.is_initialised() { Ok(()) } else { Err(Error::BadContact) }
     }
 
     #[inline(always)]
-    fn check_step(&self, tag: f64, state_length: usize, displacement: &f64) -> Result<(), Error> {
+    fn check_step(_: &Contact, tag: f64, state_length: usize, displacement: &f64) -> Result<(), Error> {
         state::check_tag(tag, state_length)?;
         check_displacement(*displacement)
     }
 
     #[inline(always)]
     unsafe fn update(
-        &self,
+        contact: &Contact,
         state_length: usize,
         state_old: *const f64,
         displacement: &f64,
@@ -72,68 +74,69 @@ impl Law for Contact {
         // SAFETY: by the function's contract.
         unsafe {
             let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-            history::update(self, state_old, *displacement, state_new, force, stiffness, dissipated);
+            history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
         }
     }
 }
 
-impl Law for Element {
-    type Vector = [f64; 2];
-    type Tangent = [f64; 4];
-    const STATE_LENGTH: usize = element_state::state_length(0);
+impl<L: ElementLaw> Law for L {
+    type Item = Element;
+    type Vector = L::Vector;
+    type Tangent = L::Tangent;
+    const STATE_LENGTH: usize = L::STATE_LENGTH;
 
     #[inline(always)]
-    fn check(&self) -> Result<(), Error> {
-        if self.is_initialised() { Ok(()) } else { Err(Error::BadElement) }
+    fn check(element: &Element) -> Result<(), Error> {
+        element.check_directions(L::DIRECTIONS)
     }
 
     #[inline(always)]
-    fn check_step(&self, tag: f64, state_length: usize, displacement: &[f64; 2]) -> Result<(), Error> {
-        element_state::check_tag(tag, state_length)?;
-        element_state::check_step(self, displacement)
+    fn check_step(element: &Element, tag: f64, state_length: usize, displacement: &L::Vector) -> Result<(), Error> {
+        L::check_tag(tag, state_length).map_err(|error| L::state_error(error, tag))?;
+        <L as ElementLaw>::check_step(element, displacement)
     }
 
     #[inline(always)]
     unsafe fn update(
-        &self,
+        element: &Element,
         state_length: usize,
         state_old: *const f64,
-        displacement: &[f64; 2],
+        displacement: &L::Vector,
         state_new: *mut f64,
         outputs: [*mut f64; 3],
     ) {
         // SAFETY: by the function's contract.
-        unsafe { element::update(self, state_length, state_old, displacement, state_new, outputs) };
+        unsafe { element::update::<L>(element, state_length, state_old, displacement, state_new, outputs) };
     }
 }
 
 /// Items of a batch: their contacts or elements, and the flags of the active items.
-struct Items<'a, L> {
+struct Items<'a, T> {
     n: usize,
-    laws: &'a [L],
+    laws: &'a [T],
     index: Option<&'a [i32]>,
     active: Option<&'a [i32]>,
 }
 
-impl<L> Clone for Items<'_, L> {
+impl<T> Clone for Items<'_, T> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L> Copy for Items<'_, L> {}
+impl<T> Copy for Items<'_, T> {}
 
-impl<'a, L: Law> Items<'a, L> {
+impl<'a, T> Items<'a, T> {
     /// # Safety
     /// `laws` is NULL or valid for n_laws of them, which any bytes are; `index` and `active` are NULL or valid for n integers.
     #[inline(never)]
     unsafe fn new(
         n: usize,
         n_laws: usize,
-        laws: *const L,
+        laws: *const T,
         index: *const i32,
         active: *const i32,
-    ) -> Result<Items<'a, L>, Error> {
+    ) -> Result<Items<'a, T>, Error> {
         // SAFETY: by the function's contract.
         let (laws, index, active) =
             unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
@@ -143,10 +146,10 @@ impl<'a, L: Law> Items<'a, L> {
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
     #[inline(always)]
-    fn check(self, mut item: impl FnMut(usize, &L) -> Result<(), Error>) -> Result<(), Error> {
+    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
         self.active().try_for_each(|i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
-            law.check()?;
+            L::check(law)?;
             item(i, law)
         })
     }
@@ -158,7 +161,7 @@ impl<'a, L: Law> Items<'a, L> {
     }
 
     #[inline(always)]
-    fn law(&self, i: usize) -> Option<&'a L> {
+    fn law(&self, i: usize) -> Option<&'a T> {
         match self.index {
             None => self.laws.get(i),
             Some(index) => self.laws.get(usize::try_from(*index.get(i)?).ok()?),
@@ -167,8 +170,16 @@ impl<'a, L: Law> Items<'a, L> {
 
     /// Active items that were checked: index, contact or element, and what `value` finds for an index.
     #[inline(always)]
-    fn with<T>(self, value: impl Fn(usize) -> Option<T>) -> impl Iterator<Item = (usize, &'a L, T)> {
+    fn with<V>(self, value: impl Fn(usize) -> Option<V>) -> impl Iterator<Item = (usize, &'a T, V)> {
         self.active().filter_map(move |i| Some((i, self.law(i)?, value(i)?)))
+    }
+}
+
+impl Items<'_, Element> {
+    /// Directions of the element of the first active item, which those of all others must equal; one if no item is active.
+    fn directions(self) -> Directions {
+        let first = self.active().next().and_then(|i| self.law(i));
+        first.filter(|element| element.is_initialised()).map_or(Directions::One, Element::tangential_directions)
     }
 }
 
@@ -178,7 +189,7 @@ impl<'a, L: Law> Items<'a, L> {
 /// As for [`mslip_batch_masing_update`].
 #[inline(never)]
 unsafe fn update<L: Law>(
-    items: Items<L>,
+    items: Items<L::Item>,
     state_length: usize,
     states_old: *const f64,
     displacement: *const f64,
@@ -197,11 +208,11 @@ unsafe fn update<L: Law>(
     {
         // SAFETY: by the function's contract; the reference ends before the new states, which may be the same memory, are written.
         let states = unsafe { input(states_old, length) }?;
-        items.check(|i, law| {
+        items.check::<L>(|i, law| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             let (tag, displacement) = (states.get(i * state_length), displacement.get(i));
             let (tag, displacement) = tag.zip(displacement).ok_or(Error::BadArraySize)?;
-            law.check_step(*tag, state_length, displacement)
+            L::check_step(law, *tag, state_length, displacement)
         })?;
     }
     let [force, tangent, dissipated] = outputs;
@@ -214,7 +225,7 @@ unsafe fn update<L: Law>(
         ];
         let (state_old, state_new) = (states_old.wrapping_add(i * state_length), item_of(states_new, i * state_length));
         // SAFETY: checked, aligned; those of item i are valid by the function's contract.
-        unsafe { law.update(state_length, state_old, displacement, state_new, outputs) };
+        unsafe { L::update(law, state_length, state_old, displacement, state_new, outputs) };
     }
     Ok(())
 }
@@ -247,13 +258,13 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 /// # Safety
 /// As for [`mslip_batch_harmonic_force`].
 unsafe fn harmonic_forces<L: Law, W>(
-    items: Items<L>,
+    items: Items<L::Item>,
     workspace: &mut W,
     one: usize,
     displacement: *const f64,
     [force, jacobian, dissipated]: [*mut f64; 3],
-    check: impl Fn(&mut W, &L, &[f64]) -> Result<(), Error>,
-    compute: impl Fn(&L, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
+    check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
+    compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
@@ -263,7 +274,7 @@ unsafe fn harmonic_forces<L: Law, W>(
         (input(displacement, all)?, Outputs { force, jacobian, dissipated: output(dissipated, items.n)? })
     };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
-    items.check(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
+    items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
     let mut active = items.with(displacement_of);
     active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
 }
@@ -320,7 +331,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
             let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
             (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(amplitude, n)?, outputs?)
         };
-        items.check(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
+        items.check::<Contact>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
         items
             .with(|i| amplitude.get(i))
             .try_for_each(|(i, contact, amplitude)| write_complex_stiffness(contact, *amplitude, i, &mut outputs))
@@ -356,7 +367,7 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
         // SAFETY: by the function's contract.
         unsafe {
             let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            update(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
+            update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
         }
     };
     status(update())
@@ -390,17 +401,27 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
             let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
             let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
             let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| hbm::check_coefficients(u));
-            harmonic_forces(items, &mut workspace, one, displacement, outputs, check, harmonic_force_dispatched)
+            harmonic_forces::<Contact, _>(
+                items,
+                &mut workspace,
+                one,
+                displacement,
+                outputs,
+                check,
+                harmonic_force_dispatched,
+            )
         }
     };
     status(compute())
 }
 
-/// mslip_element_update for n items: states hold state_length doubles per item, contiguously; displacement and force two, tangent four,
-/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is
-/// not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
+/// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
+/// contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
+/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active
+/// is not NULL and active\[i\] is 0, item i is skipped, and its state is not written; m is that of the first item that is not skipped.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_element_update; all outputs are unchanged then.
+/// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
+/// mslip_element_update; all outputs are unchanged then.
 ///
 /// # Safety
 /// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
@@ -424,17 +445,21 @@ pub unsafe extern "C" fn mslip_batch_element_update(
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            update(items, state_length, states_old, displacement, states_new, [force, tangent, dissipated])
+            let outputs = [force, tangent, dissipated];
+            with_law!(items.directions(), L => {
+                update::<L>(items, state_length, states_old, displacement, states_new, outputs)
+            })
         }
     };
     status(update())
 }
 
-/// mslip_element_harmonic_force for n items with one workspace: displacement and force hold 2(2H+1) doubles per item, jacobian
-/// (2(2H+1))^2, dissipated one. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and
-/// active\[i\] is 0, item i is skipped.
+/// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction, 3 for
+/// one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+/// elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force; all outputs are unchanged then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
+/// directions than the workspace; all outputs are unchanged then.
 ///
 /// # Safety
 /// `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
@@ -456,9 +481,13 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            let (mut workspace, outputs) = (pointers::element_workspace(workspace)?, [force, jacobian, dissipated]);
-            let (one, check) = (2 * workspace.coefficients(), harmonic_force::Workspace::check);
-            harmonic_forces(items, &mut workspace, one, displacement, outputs, check, element_harmonic_force_dispatched)
+            let outputs = [force, jacobian, dissipated];
+            with_law!(pointers::element_workspace_size(workspace)?.directions, L => {
+                let mut workspace = pointers::element_workspace::<L>(workspace)?;
+                let one = L::COMPONENTS * L::coefficients(&workspace);
+                let (check, compute) = (L::check_motion, L::harmonic_force);
+                harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
+            })
         }
     };
     status(compute())

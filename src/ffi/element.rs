@@ -1,25 +1,25 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
+use super::directions::{ElementLaw, OneDirection, with_law};
 use super::pointers::{
     self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status,
 };
 use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
-use crate::varying_load::element::{Element, NormalInput, NormalPoint};
-use crate::varying_load::state::{self, PathOutput};
+use crate::varying_load::element::{Directions, Element, NormalInput, NormalPoint};
+use crate::varying_load::path::PathOutput;
+use crate::varying_load::state;
 use crate::varying_load::tractions::tractions;
+use crate::varying_load::two_directions::{self, Wanted};
 use core::{ptr, slice};
 use libc::size_t;
 
-/// Components of a displacement and of a force in one tangential direction.
-const COMPONENTS: usize = 2;
-
-/// Checks a number of tangential directions.
-pub(super) fn check_directions(directions: i32) -> Result<(), Error> {
-    match directions {
-        1 => Ok(()),
-        2 => Err(Error::NotAvailable),
+/// The number of tangential directions of a constant of the C interface.
+pub(super) fn directions_of(constant: i32) -> Result<Directions, Error> {
+    match constant {
+        1 => Ok(Directions::One),
+        2 => Ok(Directions::Two),
         _ => Err(Error::BadDirections),
     }
 }
@@ -33,7 +33,7 @@ unsafe fn initialise<P>(
     directions: i32,
     normal_input: i32,
     element: *mut mslip_element,
-    init: fn(&mut Element, &P, NormalInput) -> Result<(), Error>,
+    init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
     let initialise = || {
         // SAFETY: by the function's contract.
@@ -41,13 +41,13 @@ unsafe fn initialise<P>(
         check_alignment(element)?;
         // SAFETY: aligned; valid by the function's contract. It may be uninitialised, and is written before it is read.
         let element = unsafe { element.cast::<Element>().as_mut() }.ok_or(Error::NullPointer)?;
-        check_directions(directions)?;
+        let directions = directions_of(directions)?;
         let normal_input = match normal_input {
             MSLIP_APPROACH => NormalInput::Approach,
             MSLIP_NORMAL_FORCE => NormalInput::Force,
             _ => return Err(Error::BadNormalInput),
         };
-        init(element, parameters, normal_input)?;
+        init(element, parameters, directions, normal_input)?;
         pointers::set_checksum(element);
         Ok(())
     };
@@ -55,11 +55,12 @@ unsafe fn initialise<P>(
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest force for
-/// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1;
-/// normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+/// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1 or 2: a
+/// displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\]. normal_input is MSLIP_APPROACH, w is the normal
+/// approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
-/// first invalid parameter, MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
+/// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 ///
 /// # Safety
 /// `p` and `element` are NULL or valid for their types.
@@ -75,11 +76,11 @@ pub unsafe extern "C" fn mslip_element_init(
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, > 0, is
-/// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions is
-/// the number of tangential directions, 1; normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+/// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions and
+/// normal_input are those of mslip_element_init.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
-/// first invalid parameter, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
+/// MSLIP_OUT_OF_RANGE; the element is unchanged then.
 ///
 /// # Safety
 /// `p` and `element` are NULL or valid for their types.
@@ -203,50 +204,62 @@ unsafe fn normal_law(
     status(compute())
 }
 
-/// Number of doubles in the state of an element for one tangential direction with a capacity of `pieces` pieces of the memory diagram,
-/// at least 4; 0 if directions is not 1. A state is never full: if the capacity is exceeded, the two adjacent pieces are merged for
-/// which later forces change least.
+/// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity of
+/// `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces are
+/// merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
-    check_directions(directions).map_or(0, |()| state::state_length(pieces))
+    match directions_of(directions) {
+        Ok(Directions::One) => state::state_length(pieces),
+        Ok(Directions::Two) => two_directions::state_length(),
+        Err(_) => 0,
+    }
 }
 
-/// Initialises the state of an element: open, at zero displacement.
+/// Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 ///
-/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 ///
 /// # Safety
 /// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
     let init = || {
-        check_directions(directions)?;
+        let directions = directions_of(directions)?;
         // SAFETY: by the function's contract.
-        state::state_init(unsafe { memory(state_length, state) }?)
+        let state = unsafe { memory(state_length, state) }?;
+        with_law!(directions, L => L::state_init(state))
     };
     status(init())
 }
 
-/// Validates the state of an element that was read from a file or a message: all values must be finite and the pieces nested. Other
-/// functions only check a tag and the number of pieces.
+/// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one direction
+/// the pieces nested. Other functions only check a tag and the number of pieces.
 ///
-/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+/// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
+/// MSLIP_BAD_STATE.
 ///
 /// # Safety
 /// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
     let check = || {
-        check_directions(directions)?;
+        let directions = directions_of(directions)?;
         // SAFETY: by the function's contract.
-        state::state_check(unsafe { state_input(state_length, state) }?)
+        let state = unsafe { state_input(state_length, state) }?;
+        with_law!(directions, L => {
+            check_header::<L>(state)?;
+            L::state_check(state)
+        })
     };
     status(check())
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or separation.
+/// For two directions, whose state merges no pieces, it is the bound that the law itself gives.
 ///
-/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+/// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
+/// MSLIP_BAD_STATE.
 ///
 /// # Safety
 /// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
@@ -258,25 +271,34 @@ pub unsafe extern "C" fn mslip_element_state_error(
     force_error: *mut f64,
 ) -> i32 {
     let compute = || {
-        check_directions(directions)?;
+        let directions = directions_of(directions)?;
         // SAFETY: by the function's contract.
         let (state, mut force_error) = unsafe { (state_input(state_length, state)?, output(force_error, 1)?) };
-        state::check_header(state)?;
-        set(&mut force_error, 0, || state::force_error(state));
-        Ok(())
+        with_law!(directions, L => {
+            check_header::<L>(state)?;
+            set(&mut force_error, 0, || L::force_error(state));
+            Ok(())
+        })
     };
     status(compute())
 }
 
-/// Advances the state of an element to displacement\[2\]: the tangential displacement \[m\], and the normal approach \[m\] or the normal
-/// force \[N\]. force\[2\] \[N\] is the tangential and the normal force, tangent\[4\] \[N/m\] is d force_i / d displacement_j, 2 x 2,
-/// column-major, consistent with the step and one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may
-/// alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise both states to store or
-/// compare whole arrays. Within a step the path is straight in the tangential displacement and the tangential shift S of the contact
-/// size.
+/// Checks the length and the tag of a state.
+#[inline(always)]
+fn check_header<L: ElementLaw>(state: &[f64]) -> Result<(), Error> {
+    L::check_header(state).map_err(|error| L::state_error(error, state.first().copied().unwrap_or(0.0)))
+}
+
+/// Advances the state of an element to a displacement: \[u, w\] with one tangential direction, \[u, v, w\] with two, tangential
+/// displacements \[m\] and the normal approach \[m\] or the normal force \[N\]. With m = 2 or 3 components, force\[m\] \[N\] is \[T, N\]
+/// or \[Tx, Ty, N\], tangent\[m m\] \[N/m\] is d force_i / d displacement_j, m x m, column-major, consistent with the step and
+/// one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may alias state_old; if NULL, the new state is
+/// discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step the path is
+/// straight in the tangential displacement and the tangential shift S of the contact size.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT,
-/// MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
+/// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too
+/// wide for its length.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
@@ -294,61 +316,80 @@ pub unsafe extern "C" fn mslip_element_update(
 ) -> i32 {
     let checked_update = || {
         // SAFETY: by the function's contract.
-        let (element, displacement) = unsafe { (pointers::element(element)?, input(displacement, COMPONENTS)?) };
-        [state_new, force, tangent, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        let displacement = displacement.first_chunk().ok_or(Error::NullPointer)?;
-        {
-            // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-            state::check_header(unsafe { state_input(state_length, state_old) }?)?;
+        unsafe {
+            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+            with_law!(element.tangential_directions(), L => {
+                checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
+            })
         }
-        state::check_step(element, displacement)?;
-        // SAFETY: checked, aligned; valid by the function's contract.
-        unsafe { update(element, state_length, state_old, displacement, state_new, [force, tangent, dissipated]) };
-        Ok(())
     };
     status(checked_update())
+}
+
+/// Checks all inputs of an update, then evaluates it.
+///
+/// # Safety
+/// As for [`mslip_element_update`].
+#[inline(always)]
+unsafe fn checked_update<L: ElementLaw>(
+    element: &Element,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: *const f64,
+    state_new: *mut f64,
+    outputs: [*mut f64; 3],
+) -> Result<(), Error> {
+    // SAFETY: by the function's contract; vectors are arrays of doubles.
+    let displacement = unsafe { item(displacement.cast::<L::Vector>()) }?;
+    check_alignment(state_new)?;
+    outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    {
+        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+        check_header::<L>(unsafe { state_input(state_length, state_old) }?)?;
+    }
+    L::check_step(element, displacement)?;
+    // SAFETY: checked, aligned; valid by the function's contract.
+    unsafe { update::<L>(element, state_length, state_old, displacement, state_new, outputs) };
+    Ok(())
 }
 
 /// One update with checked inputs: evaluates the step, then writes.
 ///
 /// # Safety
 /// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the
-/// outputs are NULL, or aligned and valid for two, four and one doubles.
+/// outputs are NULL, or aligned and valid for a vector, a tangent and a double.
 #[inline(never)]
-pub(super) unsafe fn update(
+pub(super) unsafe fn update<L: ElementLaw>(
     element: &Element,
     state_length: usize,
     state_old: *const f64,
-    displacement: &[f64; COMPONENTS],
+    displacement: &L::Vector,
     state_new: *mut f64,
     [force, tangent, dissipated]: [*mut f64; 3],
 ) {
-    let with_energy = !dissipated.is_null();
+    let wanted = Wanted { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // SAFETY: by the function's contract; no reference to the old state is left when the new one, which may be the same memory, is
     // written.
     unsafe {
         let step = if state_new.is_null() {
-            state::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, with_energy)
+            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, wanted)
         } else {
             let state = slice::from_raw_parts_mut(state_new, state_length);
             if !ptr::eq(state_old, state_new) {
-                state::copy_used(slice::from_raw_parts(state_old, state_length), state);
+                L::copy_used(slice::from_raw_parts(state_old, state_length), state);
             }
-            state::advance_checked(element, state, *displacement, with_energy)
+            L::advance(element, state, *displacement, wanted)
         };
-        force.cast::<[f64; COMPONENTS]>().as_mut().into_iter().for_each(|force| *force = step.force);
-        tangent
-            .cast::<[f64; COMPONENTS * COMPONENTS]>()
-            .as_mut()
-            .into_iter()
-            .for_each(|tangent| *tangent = step.tangent);
-        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.dissipated);
+        force.cast::<L::Vector>().as_mut().into_iter().for_each(|force| *force = step.0);
+        tangent.cast::<L::Tangent>().as_mut().into_iter().for_each(|tangent| *tangent = step.1);
+        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.2);
     }
 }
 
-/// Advances the state of an element through n displacements, two doubles each; force holds two doubles per step, tangent four,
-/// dissipated one. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
-/// evaluated with a capacity of at most 256 pieces.
+/// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, \[u, w\], and m = 3
+/// for two, \[u, v, w\], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
+/// mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
+/// direction the path is then evaluated with a capacity of at most 256 pieces.
 ///
 /// Returns the codes of mslip_element_update; all outputs are unchanged then.
 ///
@@ -368,39 +409,60 @@ pub unsafe extern "C" fn mslip_element_path(
     dissipated: *mut f64,
 ) -> i32 {
     let advance = || {
-        let times = |components: usize| n.checked_mul(components).ok_or(Error::BadArraySize);
-        let (pairs, matrices) = (times(COMPONENTS)?, times(COMPONENTS * COMPONENTS)?);
         // SAFETY: by the function's contract.
-        let (element, path, output) = unsafe {
-            let (element, path) = (pointers::element(element)?, input(displacement, pairs)?);
-            let (force, tangent) = (output(force, pairs)?, output(tangent, matrices)?);
-            (element, path, PathOutput { force, tangent, dissipated: output(dissipated, n)? })
-        };
-        check_alignment(state_new)?;
-        {
-            // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-            let start = unsafe { state_input(state_length, state_old) }?;
-            state::check_header(start)?;
-            state::check_path(element, path)?;
-            if state_new.is_null() {
-                return state::path_in_copy(element, start, path, output);
-            }
+        unsafe {
+            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+            with_law!(element.tangential_directions(), L => {
+                path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
+            })
         }
-        if !ptr::eq(state_old, state_new) {
-            // SAFETY: aligned; valid by the function's contract.
-            unsafe { ptr::copy(state_old, state_new, state_length) };
-        }
-        // SAFETY: as above.
-        let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-        state::path(element, state, path, output)
     };
     status(advance())
 }
 
+/// # Safety
+/// As for [`mslip_element_path`].
+unsafe fn path<L: ElementLaw>(
+    element: &Element,
+    state_length: usize,
+    state_old: *const f64,
+    n: usize,
+    displacement: *const f64,
+    state_new: *mut f64,
+    [force, tangent, dissipated]: [*mut f64; 3],
+) -> Result<(), Error> {
+    let times = |components: usize| n.checked_mul(components).ok_or(Error::BadArraySize);
+    let (vectors, tangents) = (times(L::COMPONENTS)?, times(L::COMPONENTS * L::COMPONENTS)?);
+    // SAFETY: by the function's contract.
+    let (path, output) = unsafe {
+        let (path, force, tangent) =
+            (input(displacement, vectors)?, output(force, vectors)?, output(tangent, tangents)?);
+        (path, PathOutput { force, tangent, dissipated: output(dissipated, n)? })
+    };
+    check_alignment(state_new)?;
+    {
+        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
+        let start = unsafe { state_input(state_length, state_old) }?;
+        check_header::<L>(start)?;
+        L::check_path(element, path)?;
+        if state_new.is_null() {
+            return L::path_in_copy(element, start, path, output);
+        }
+    }
+    if !ptr::eq(state_old, state_new) {
+        // SAFETY: aligned; valid by the function's contract.
+        unsafe { ptr::copy(state_old, state_new, state_length) };
+    }
+    // SAFETY: as above.
+    let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
+    L::path(element, state, path, output)
+}
+
 /// Pressure and shear traction \[Pa\] at x\[n\] \[m\] along the width after a load history; 0 outside the contact. Elliptical: on the x
-/// axis.
+/// axis. For one tangential direction.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS
+/// for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
@@ -416,10 +478,14 @@ pub unsafe extern "C" fn mslip_element_tractions(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
-        let (element, state, x, [pressure, shear]) = unsafe {
-            let (element, state) = (pointers::element(element)?, state_input(state_length, state)?);
-            (element, state, input(x, n)?, outputs([pressure, shear], n)?)
-        };
+        let element = unsafe { pointers::element(element) }?;
+        if element.tangential_directions() == Directions::Two {
+            return Err(Error::NotAvailable);
+        }
+        // SAFETY: by the function's contract.
+        let (state, x, [pressure, shear]) =
+            unsafe { (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?) };
+        check_header::<OneDirection>(state)?;
         tractions(element, state, x, pressure, shear)
     };
     status(compute())

@@ -1,14 +1,14 @@
 //! Harmonic balance: workspaces and harmonic force.
 
-use super::element::check_directions;
+use super::directions::{ElementLaw, with_law};
+use super::element::directions_of;
 use super::pointers::{self, check_alignment, input, memory, output, status};
 use super::simd_dispatch::dispatch_simd;
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput, Rule, Workspace};
-use crate::varying_load::element::Element;
-use crate::varying_load::harmonic_force;
+use crate::varying_load::element::{Directions, Element};
 use libc::size_t;
 
 /// The rule of a constant of the C interface.
@@ -90,16 +90,16 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
 }
 
 /// Checks what a workspace of an element is made for. An event-driven rule is not available.
-fn check_element_rule(directions: i32, rule: i32) -> Result<(), Error> {
-    check_directions(directions)?;
+fn check_element_rule(directions: i32, rule: i32) -> Result<Directions, Error> {
+    let directions = directions_of(directions)?;
     match rule_of(rule)? {
-        Rule::UniformSampling => Ok(()),
+        Rule::UniformSampling => Ok(directions),
         Rule::EventDriven => Err(Error::NotAvailable),
     }
 }
 
-/// Number of doubles in a workspace of elements with one tangential direction for H harmonics, H >= 1, more than 2H samples per period,
-/// and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
+/// Number of doubles in a workspace of elements with 1 or 2 tangential directions for H harmonics, H >= 1, more than 2H samples per
+/// period, and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_workspace_length(
     directions: i32,
@@ -107,14 +107,15 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    check_element_rule(directions, rule).map_or(0, |()| harmonic_force::workspace_length(harmonics, samples))
+    let length = |directions| with_law!(directions, L => L::workspace_length(harmonics, samples));
+    check_element_rule(directions, rule).map_or(0, length)
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread needs its
 /// own.
 ///
-/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or
-/// MSLIP_WORKSPACE_TOO_SHORT.
+/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES,
+/// MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
 /// # Safety
 /// `workspace` is NULL or valid for workspace_length doubles.
@@ -128,9 +129,10 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     workspace: *mut f64,
 ) -> i32 {
     let init = || {
-        check_element_rule(directions, rule)?;
+        let directions = check_element_rule(directions, rule)?;
         // SAFETY: by the function's contract.
-        harmonic_force::workspace_init(harmonics, samples, unsafe { memory(workspace_length, workspace) }?)
+        let memory = unsafe { memory(workspace_length, workspace) }?;
+        with_law!(directions, L => L::workspace_init(harmonics, samples, memory))
     };
     status(init())
 }
@@ -150,16 +152,15 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     rule: *mut i32,
 ) -> i32 {
     let read = || {
-        // SAFETY: by the function's contract.
-        let header = unsafe { pointers::workspace_header(workspace) }?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
-        let (harmonics_found, samples_found) = harmonic_force::workspace_size(&header)?;
+        // SAFETY: by the function's contract.
+        let size = unsafe { pointers::element_workspace_size(workspace) }?;
         // SAFETY: aligned; NULL or valid for one item by the function's contract.
         unsafe {
-            directions.as_mut().into_iter().for_each(|output| *output = 1);
-            harmonics.as_mut().into_iter().for_each(|output| *output = harmonics_found);
-            samples.as_mut().into_iter().for_each(|output| *output = samples_found);
+            directions.as_mut().into_iter().for_each(|output| *output = size.directions as i32);
+            harmonics.as_mut().into_iter().for_each(|output| *output = size.harmonics);
+            samples.as_mut().into_iter().for_each(|output| *output = size.samples);
             rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
         }
         Ok(())
@@ -167,32 +168,19 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     status(read())
 }
 
-pub(super) fn element_harmonic_force_dispatched(
-    element: &Element,
-    workspace: &mut harmonic_force::Workspace,
-    displacement: &[f64],
-    output: HarmonicOutput,
-) -> Result<(), Error> {
-    dispatch_simd!(
-        harmonic_force::harmonic_force,
-        element: &Element,
-        workspace: &mut harmonic_force::Workspace,
-        displacement: &[f64],
-        output: HarmonicOutput => Result<(), Error>
-    )
-}
-
 /// Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
-/// component (the tangential one, then the normal one), each 2H+1 coefficients \[c0, cos1, sin1, cos2, sin2, ...\]; the normal component
-/// of the displacement is the approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, 2(2H+1) x 2(2H+1),
-/// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
+/// component, each 2H+1 coefficients \[c0, cos1, sin1, cos2, sin2, ...\]: with one tangential direction m = 2 components, u \[m\] and w,
+/// T and N \[N\], with two directions m = 3, u, v \[m\] and w, Tx, Ty and N \[N\]. The normal component w of the displacement is the
+/// approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact
+/// derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
 ///
 /// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
 /// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
 /// second one counts.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force
-/// of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
+/// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if
+/// the contact would be too wide for its length at a sample.
 ///
 /// # Safety
 /// `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
@@ -208,18 +196,34 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
-        let (element, mut workspace) =
-            unsafe { (pointers::element(element)?, pointers::element_workspace(workspace)?) };
-        let n = 2 * workspace.coefficients();
-        // SAFETY: by the function's contract.
-        let (displacement, output) = unsafe {
-            let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
-            let dissipated = output(dissipated, 1)?.and_then(<[f64]>::first_mut);
-            (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated })
-        };
-        element_harmonic_force_dispatched(element, &mut workspace, displacement, output)
+        unsafe {
+            let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
+            with_law!(element.tangential_directions(), L => {
+                element_harmonic_force::<L>(element, workspace, displacement, outputs)
+            })
+        }
     };
     status(compute())
+}
+
+/// # Safety
+/// As for [`mslip_element_harmonic_force`].
+unsafe fn element_harmonic_force<L: ElementLaw>(
+    element: &Element,
+    workspace: *mut f64,
+    displacement: *const f64,
+    [force, jacobian, dissipated]: [*mut f64; 3],
+) -> Result<(), Error> {
+    // SAFETY: by the function's contract.
+    let mut workspace = unsafe { pointers::element_workspace::<L>(workspace) }?;
+    let n = L::COMPONENTS * L::coefficients(&workspace);
+    // SAFETY: by the function's contract.
+    let (displacement, output) = unsafe {
+        let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
+        let dissipated = output(dissipated, 1)?.and_then(<[f64]>::first_mut);
+        (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated })
+    };
+    L::harmonic_force(element, &mut workspace, displacement, output)
 }
 
 pub(super) fn harmonic_force_dispatched(

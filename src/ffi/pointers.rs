@@ -1,12 +1,12 @@
 //! Conversion of pointers to slices, and of results to status codes.
 
+use super::directions::{ElementLaw, WorkspaceSize};
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::hbm::{self, Workspace};
 use crate::varying_load::element::Element;
-use crate::varying_load::harmonic_force;
 use core::mem::{self, MaybeUninit};
 use core::{ptr, slice};
 
@@ -265,17 +265,28 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
 
-/// An initialised workspace of elements.
+/// Directions, harmonics and samples of an initialised workspace of elements.
+///
+/// # Safety
+/// As for [`workspace_header`].
+pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<WorkspaceSize, Error> {
+    // SAFETY: by the function's contract.
+    WorkspaceSize::read(&unsafe { workspace_header(pointer) }?)
+}
+
+/// An initialised workspace of elements with the number of directions of a law.
 ///
 /// # Safety
 /// As for [`workspace`].
 #[inline(never)]
-pub unsafe fn element_workspace<'a>(pointer: *mut f64) -> Result<harmonic_force::Workspace<'a>, Error> {
+pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
     // SAFETY: by the function's contract.
-    let header = unsafe { workspace_header(pointer) }?;
-    let extent = harmonic_force::workspace_extent(&header)?;
+    let WorkspaceSize { directions, extent, .. } = unsafe { element_workspace_size(pointer) }?;
+    if directions != L::DIRECTIONS {
+        return Err(Error::BadDirections);
+    }
     // SAFETY: the header of a workspace of that extent, by the function's contract.
-    harmonic_force::Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
+    L::workspace(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
 
 #[cfg(test)]

@@ -20,6 +20,15 @@ pub enum NormalInput {
     Force = 1,
 }
 
+/// Number of tangential directions: a displacement is `[u, w]` or `[u, v, w]`, a force `[T, N]` or `[Tx, Ty, N]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Directions {
+    /// The x direction.
+    One = 1,
+    /// The x and the y direction.
+    Two = 2,
+}
+
 /// An initialised element: plain data of fixed size that may be copied, stored and sent.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +47,7 @@ pub struct Element {
     pub normal_stiffness: f64,
     /// dT/d(displacement) of a fully stuck contact, x direction \[N/m\].
     pub tangential_stiffness: f64,
-    /// Tangential directions: 1.
+    /// [`Directions`] as an integer.
     pub directions: i32,
     /// [`NormalInput`] as an integer.
     pub normal_input: i32,
@@ -69,6 +78,7 @@ pub struct Element {
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
+const TWO_DIRECTIONS: u64 = 4;
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
@@ -101,25 +111,34 @@ impl Element {
     ///
     /// # Errors
     /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
-    pub fn rounded_flat(parameters: &Parameters, input: NormalInput) -> Result<Element, Error> {
+    pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
         let mut element = EMPTY;
-        element.init_rounded_flat(parameters, input).map(|()| element)
+        element.init_rounded_flat(parameters, directions, input).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
     ///
     /// # Errors
     /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
-    pub fn elliptic(parameters: &EllipticParameters, input: NormalInput) -> Result<Element, Error> {
+    pub fn elliptic(
+        parameters: &EllipticParameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<Element, Error> {
         let mut element = EMPTY;
-        element.init_elliptic(parameters, input).map(|()| element)
+        element.init_elliptic(parameters, directions, input).map(|()| element)
     }
 
     /// Initialises an element in place; unchanged on an error.
     ///
     /// # Errors
     /// As for [`Element::rounded_flat`].
-    pub(crate) fn init_rounded_flat(&mut self, parameters: &Parameters, input: NormalInput) -> Result<(), Error> {
+    pub(crate) fn init_rounded_flat(
+        &mut self,
+        parameters: &Parameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
         parameters.check()?;
         let flat_half_width = parameters.flat_half_width.abs();
         let parameters = &Parameters { flat_half_width, ..*parameters };
@@ -133,7 +152,7 @@ impl Element {
         in_range(&[normal_force], &[length, flat.half_width()])?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&flat, [normal_force, friction_coefficient], input, 0)?;
+        self.init(&flat, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
         (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
@@ -144,7 +163,12 @@ impl Element {
     ///
     /// # Errors
     /// As for [`Element::elliptic`].
-    pub(crate) fn init_elliptic(&mut self, parameters: &EllipticParameters, input: NormalInput) -> Result<(), Error> {
+    pub(crate) fn init_elliptic(
+        &mut self,
+        parameters: &EllipticParameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
         parameters.check()?;
         check_moduli(&parameters.material)?;
         let EllipticParameters { normal_force, friction_coefficient, .. } = *parameters;
@@ -158,7 +182,8 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[normal_force], &[axis, composite_modulus])?;
         }
-        self.init(&ellipse, [normal_force, friction_coefficient], input, ELLIPTIC)?;
+        self.init(&ellipse, [normal_force, friction_coefficient], directions, input)?;
+        self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
@@ -170,8 +195,8 @@ impl Element {
         &mut self,
         shape: &dyn Shape,
         [normal_force, friction_coefficient]: [f64; 2],
+        directions: Directions,
         input: NormalInput,
-        kind: u64,
     ) -> Result<(), Error> {
         let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
         if w >= largest {
@@ -194,8 +219,8 @@ impl Element {
         self.approach = approach;
         self.normal_stiffness = 1.0 / shape.normal_compliance(w);
         self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
-        (self.directions, self.normal_input) = (1, input as i32);
-        self.tag = TAG | kind | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        (self.directions, self.normal_input) = (directions as i32, input as i32);
+        self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
@@ -221,7 +246,26 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(ELLIPTIC | FORCE_INPUT) == TAG
+        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS) == TAG
+    }
+
+    /// Checks the tag of an element that is used with the given number of directions.
+    ///
+    /// # Errors
+    /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
+    #[inline(always)]
+    pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
+        match self.tag & !(ELLIPTIC | FORCE_INPUT) {
+            tag if tag == TAG | tag_of(directions) => Ok(()),
+            _ if self.is_initialised() => Err(Error::BadDirections),
+            _ => Err(Error::BadElement),
+        }
+    }
+
+    /// The number of tangential directions according to the tag.
+    #[inline(always)]
+    pub(crate) fn tangential_directions(&self) -> Directions {
+        if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
@@ -532,6 +576,14 @@ impl Element {
                 Err(slope) => 0.5 * slope * shift * shift,
             },
         }
+    }
+}
+
+/// Bits of the tag.
+const fn tag_of(directions: Directions) -> u64 {
+    match directions {
+        Directions::One => 0,
+        Directions::Two => TWO_DIRECTIONS,
     }
 }
 

@@ -218,12 +218,12 @@ mod tests {
     use super::*;
     use crate::constant_load::contact::tests::parameters;
     use crate::parameters::{Parameters, RIGID_STRIP};
-    use crate::varying_load::element::NormalInput;
+    use crate::varying_load::element::{Directions, NormalInput};
 
     #[test]
     fn near_the_largest_size_the_energy_of_a_small_slip_zone_has_no_cancellation() {
         let short = Parameters { length: 1.3e-3, displacement_reference: RIGID_STRIP, ..parameters(1e-3) };
-        let element = Element::rounded_flat(&short, NormalInput::Force).unwrap();
+        let element = Element::rounded_flat(&short, Directions::One, NormalInput::Force).unwrap();
         for share in [0.9, 0.99, 0.999] {
             let outer = share * element.largest_shift;
             // Two sizes whose curvature differs little: N'' may be taken out of the integral up to the square of their distance.

@@ -12,6 +12,9 @@ use crate::tag::Kind;
 use crate::varying_load::diagram::{self, Diagram, Knot, Response};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{self, Path};
+use crate::varying_load::path::advance_along;
+
+pub use crate::varying_load::path::PathOutput;
 
 const HEADER: usize = 8;
 const PER_KNOT: usize = 4;
@@ -410,17 +413,6 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
 /// Pieces of the copy of a state that is discarded after a path.
 const PIECES_OF_COPY: usize = 256;
 
-/// Outputs of a path: `[T, N]`, tangents and energies, step after step; `None` is not computed.
-#[derive(Debug)]
-pub struct PathOutput<'a> {
-    /// Two doubles per step \[N\].
-    pub force: Option<&'a mut [f64]>,
-    /// Four doubles per step.
-    pub tangent: Option<&'a mut [f64]>,
-    /// One double per step \[J\].
-    pub dissipated: Option<&'a mut [f64]>,
-}
-
 /// Checks a path: two doubles per step.
 ///
 /// # Errors
@@ -446,17 +438,11 @@ pub(crate) fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
-    let PathOutput { force, tangent, dissipated } = output;
-    let with_energy = dissipated.is_some();
-    let mut forces = force.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
-    let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
-    let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
-    for displacement in path.as_chunks().0 {
-        let step = advance_checked(element, state, *displacement, with_energy);
-        forces.next().into_iter().for_each(|force| *force = step.force);
-        tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
-        energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
-    }
+    let with_energy = output.dissipated.is_some();
+    advance_along(path, output, |displacement| {
+        let Step { force, tangent, dissipated } = advance_checked(element, state, displacement, with_energy);
+        (force, tangent, dissipated)
+    });
     Ok(())
 }
 

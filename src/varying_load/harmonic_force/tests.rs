@@ -3,7 +3,7 @@ use crate::constant_load::contact::tests::parameters;
 use crate::hbm::Rule;
 use crate::hbm::fourier::angle;
 use crate::parameters::{EllipticParameters, Material};
-use crate::varying_load::element::NormalInput;
+use crate::varying_load::element::{Directions, NormalInput};
 use crate::varying_load::state;
 use std::vec;
 use std::vec::Vec;
@@ -20,8 +20,8 @@ fn elements(input: NormalInput) -> Vec<Element> {
         friction_coefficient: 0.4,
         material: [steel; 2],
     };
-    let flat = |flat| Element::rounded_flat(&parameters(flat), input).unwrap();
-    vec![flat(0.0), flat(50e-6), Element::elliptic(&sphere, input).unwrap()]
+    let flat = |flat| Element::rounded_flat(&parameters(flat), Directions::One, input).unwrap();
+    vec![flat(0.0), flat(50e-6), Element::elliptic(&sphere, Directions::One, input).unwrap()]
 }
 
 /// Uniformly distributed values from -1 to 1.
@@ -335,7 +335,7 @@ fn scenes_without_friction_or_contact_are_zero_and_normal_forces_remain() {
     let mut random = Scattered(4);
     for input in INPUTS {
         let rough = elements(input)[1];
-        let smooth = Element::rounded_flat(&frictionless, input).unwrap();
+        let smooth = Element::rounded_flat(&frictionless, Directions::One, input).unwrap();
         let mut memory = workspace(3, 24);
         let displacement = motion(&rough, 3, 0.5, 0.5, 0.4, &mut random);
         let (one, one_jacobian, _) = all(&rough, &mut memory, &displacement);

@@ -322,11 +322,11 @@ fn tractions_at(
 
 /// The library's element and the same in multi-precision, if the library accepts it.
 pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::varying_load::element::Element, Exact)> {
-    use microslip::varying_load::element::{Element, NormalInput};
+    use microslip::varying_load::element::{Directions, Element, NormalInput};
     let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
     let element = match input {
-        Input::Flat(parameters) => Element::rounded_flat(parameters, normal),
-        Input::Ellipse(parameters) => Element::elliptic(parameters, normal),
+        Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, normal),
+        Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, normal),
     };
     element.ok().map(|element| (element, Exact::new(input, by_force)))
 }

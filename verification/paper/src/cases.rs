@@ -3,7 +3,7 @@
 //! In these units the results do not depend on the size, modulus and friction chosen here.
 
 use microslip::constant_load::{masing, state};
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};
@@ -107,8 +107,8 @@ impl Case {
     /// The same contact under a normal force that varies.
     pub fn element(&self, input: NormalInput) -> Element {
         match &self.input {
-            Input::Flat(parameters) => Element::rounded_flat(parameters, input),
-            Input::Ellipse(parameters) => Element::elliptic(parameters, input),
+            Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, input),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, input),
         }
         .expect("an element of the paper")
     }

@@ -1,7 +1,7 @@
 //! Histories that the boundary-element code CONTACT computed, in `tests/golden/contact_code`, and their contacts. Files are in mm, N,
 //! MPa and mJ; here everything is in SI units.
 
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 
 /// The contacts of the files.
@@ -122,8 +122,8 @@ impl Shape {
     /// The element, its tables up to a normal force, with the normal force as its input.
     pub fn element(self, normal_force: f64) -> Result<Element, Error> {
         match self {
-            Shape::Sphere => Element::elliptic(&self.sphere(normal_force), NormalInput::Force),
-            _ => Element::rounded_flat(&self.line(normal_force), NormalInput::Force),
+            Shape::Sphere => Element::elliptic(&self.sphere(normal_force), Directions::One, NormalInput::Force),
+            _ => Element::rounded_flat(&self.line(normal_force), Directions::One, NormalInput::Force),
         }
     }
 
