@@ -120,10 +120,11 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! the number of sliders must be between 1 and 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
   integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40
-    !! not available for this kind of contact; elements have one direction and uniform sampling
+    !! not available for this kind of contact; elements have uniform sampling only, and no tractions for two directions
   integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41
     !! an index must refer to one of the n_contacts contacts or n_elements elements
-  integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42  !! directions must be 1 or 2
+  integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42
+    !! directions must be 1 or 2, equal for all elements, states and workspaces of a call
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43  !! normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
     !! array sizes do not agree (in Fortran), or an array is too long to be addressed
@@ -207,7 +208,8 @@ module microslip
     real(mslip_real) :: normal_stiffness = 0  !! dN/d(approach) under that force [N/m].
     real(mslip_real) :: tangential_stiffness = 0
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
-    integer(mslip_int) :: directions = 0  !! Number of tangential directions.
+    integer(mslip_int) :: directions = 0
+      !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     real(mslip_real) :: reserved(2152) = 0  !! Internal tables.
   end type mslip_element

@@ -124,13 +124,13 @@
 // rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
 #define MSLIP_BAD_RULE 39
 
-// not available for this kind of contact; elements have one direction and uniform sampling
+// not available for this kind of contact; elements have uniform sampling only, and no tractions for two directions
 #define MSLIP_NOT_AVAILABLE 40
 
 // an index must refer to one of the n_contacts contacts or n_elements elements
 #define MSLIP_BAD_INDEX 41
 
-// directions must be 1 or 2
+// directions must be 1 or 2, equal for all elements, states and workspaces of a call
 #define MSLIP_BAD_DIRECTIONS 42
 
 // normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
@@ -244,7 +244,7 @@ typedef struct mslip_element {
     double normal_stiffness;
     // dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     double tangential_stiffness;
-    // Number of tangential directions.
+    // Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     int32_t directions;
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
@@ -556,8 +556,8 @@ int32_t mslip_harmonic_workspace_size(const double *workspace,
                                       size_t *samples,
                                       int32_t *rule);
 
-// Number of doubles in a workspace of elements with one tangential direction for H harmonics, H >= 1, more than 2H samples per period,
-// and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
+// Number of doubles in a workspace of elements with 1 or 2 tangential directions for H harmonics, H >= 1, more than 2H samples per
+// period, and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
 size_t mslip_element_workspace_length(int32_t directions,
                                       size_t harmonics,
                                       size_t samples,
@@ -566,8 +566,8 @@ size_t mslip_element_workspace_length(int32_t directions,
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread needs its
 // own.
 //
-// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or
-// MSLIP_WORKSPACE_TOO_SHORT.
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES,
+// MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
 // Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_element_workspace_init(int32_t directions,
@@ -589,16 +589,18 @@ int32_t mslip_element_workspace_size(const double *workspace,
                                      int32_t *rule);
 
 // Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
-// component (the tangential one, then the normal one), each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]; the normal component
-// of the displacement is the approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, 2(2H+1) x 2(2H+1),
-// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
+// component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m] and w,
+// T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N [N]. The normal component w of the displacement is the
+// approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact
+// derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
 //
 // Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
 // tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
 // second one counts.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force
-// of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
+// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if
+// the contact would be too wide for its length at a sample.
 //
 // Memory: `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
 // above; outputs must not alias any other argument.
@@ -631,11 +633,12 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *dissipated);
 
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest force for
-// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1;
-// normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1 or 2: a
+// displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the normal
+// approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
-// first invalid parameter, MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
+// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 //
 // Memory: `p` and `element` are NULL or valid for their types.
 int32_t mslip_element_init(const struct mslip_parameters *p,
@@ -644,11 +647,11 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
                            struct mslip_element *element);
 
 // Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, > 0, is
-// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions is
-// the number of tangential directions, 1; normal_input is MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions and
+// normal_input are those of mslip_element_init.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE for two directions, MSLIP_BAD_NORMAL_INPUT, the code of the
-// first invalid parameter, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
+// MSLIP_OUT_OF_RANGE; the element is unchanged then.
 //
 // Memory: `p` and `element` are NULL or valid for their types.
 int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
@@ -692,23 +695,26 @@ int32_t mslip_normal_approach(const struct mslip_element *element,
                               double *compliance,
                               double *half_width);
 
-// Number of doubles in the state of an element for one tangential direction with a capacity of `pieces` pieces of the memory diagram,
-// at least 4; 0 if directions is not 1. A state is never full: if the capacity is exceeded, the two adjacent pieces are merged for
-// which later forces change least.
+// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity of
+// `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces are
+// merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 size_t mslip_element_state_length(int32_t directions,
                                   size_t pieces);
 
-// Initialises the state of an element: open, at zero displacement.
+// Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 //
-// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 //
 // Memory: `state` is NULL or valid for state_length doubles.
-int32_t mslip_element_state_init(int32_t directions, size_t state_length, double *state);
+int32_t mslip_element_state_init(int32_t directions,
+                                 size_t state_length,
+                                 double *state);
 
-// Validates the state of an element that was read from a file or a message: all values must be finite and the pieces nested. Other
-// functions only check a tag and the number of pieces.
+// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one direction
+// the pieces nested. Other functions only check a tag and the number of pieces.
 //
-// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
+// MSLIP_BAD_STATE.
 //
 // Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_element_state_check(int32_t directions,
@@ -716,8 +722,10 @@ int32_t mslip_element_state_check(int32_t directions,
                                   const double *state);
 
 // Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or separation.
+// For two directions, whose state merges no pieces, it is the bound that the law itself gives.
 //
-// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NOT_AVAILABLE, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
+// MSLIP_BAD_STATE.
 //
 // Memory: `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 int32_t mslip_element_state_error(int32_t directions,
@@ -725,15 +733,16 @@ int32_t mslip_element_state_error(int32_t directions,
                                   const double *state,
                                   double *force_error);
 
-// Advances the state of an element to displacement[2]: the tangential displacement [m], and the normal approach [m] or the normal
-// force [N]. force[2] [N] is the tangential and the normal force, tangent[4] [N/m] is d force_i / d displacement_j, 2 x 2,
-// column-major, consistent with the step and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may
-// alias state_old; if NULL, the new state is discarded. Only what is in use of it is written: initialise both states to store or
-// compare whole arrays. Within a step the path is straight in the tangential displacement and the tangential shift S of the contact
-// size.
+// Advances the state of an element to a displacement: [u, w] with one tangential direction, [u, v, w] with two, tangential
+// displacements [m] and the normal approach [m] or the normal force [N]. With m = 2 or 3 components, force[m] [N] is [T, N]
+// or [Tx, Ty, N], tangent[m m] [N/m] is d force_i / d displacement_j, m x m, column-major, consistent with the step and
+// one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may alias state_old; if NULL, the new state is
+// discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step the path is
+// straight in the tangential displacement and the tangential shift S of the contact size.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT,
-// MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
+// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too
+// wide for its length.
 //
 // Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
 // does not alias any other argument.
@@ -746,9 +755,10 @@ int32_t mslip_element_update(const struct mslip_element *element,
                              double *tangent,
                              double *dissipated);
 
-// Advances the state of an element through n displacements, two doubles each; force holds two doubles per step, tangent four,
-// dissipated one. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
-// evaluated with a capacity of at most 256 pieces.
+// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, [u, w], and m = 3
+// for two, [u, v, w], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
+// mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
+// direction the path is then evaluated with a capacity of at most 256 pieces.
 //
 // Returns the codes of mslip_element_update; all outputs are unchanged then.
 //
@@ -765,9 +775,10 @@ int32_t mslip_element_path(const struct mslip_element *element,
                            double *dissipated);
 
 // Pressure and shear traction [Pa] at x[n] [m] along the width after a load history; 0 outside the contact. Elliptical: on the x
-// axis.
+// axis. For one tangential direction.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS
+// for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
 //
 // Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 int32_t mslip_element_tractions(const struct mslip_element *element,
@@ -836,11 +847,13 @@ int32_t mslip_batch_harmonic_force(size_t n,
                                    double *jacobian,
                                    double *dissipated);
 
-// mslip_element_update for n items: states hold state_length doubles per item, contiguously; displacement and force two, tangent four,
-// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If active is
-// not NULL and active[i] is 0, item i is skipped, and its state is not written.
+// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
+// contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
+// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If active
+// is not NULL and active[i] is 0, item i is skipped, and its state is not written; m is that of the first item that is not skipped.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_element_update; all outputs are unchanged then.
+// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
+// mslip_element_update; all outputs are unchanged then.
 //
 // Memory: `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
 // like the outputs, does not alias any other argument.
@@ -857,11 +870,12 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *tangent,
                                    double *dissipated);
 
-// mslip_element_harmonic_force for n items with one workspace: displacement and force hold 2(2H+1) doubles per item, jacobian
-// (2(2H+1))^2, dissipated one. Item i uses elements[index[i]], or elements[i] if index is NULL. If active is not NULL and
-// active[i] is 0, item i is skipped.
+// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction, 3 for
+// one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+// elements[index[i]], or elements[i] if index is NULL. If active is not NULL and active[i] is 0, item i is skipped.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force; all outputs are unchanged then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
+// directions than the workspace; all outputs are unchanged then.
 //
 // Memory: `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
 // lengths above; outputs must not alias any other argument.

@@ -5,12 +5,10 @@ use crate::error::Error;
 use crate::hbm::HarmonicOutput;
 use crate::tag::Kind;
 use crate::varying_load::element::{Directions, Element};
-use crate::varying_load::state::{self, PathOutput};
+use crate::varying_load::path::{PathOutput, Step};
+use crate::varying_load::state;
 use crate::varying_load::two_directions::{self, Wanted};
 use crate::varying_load::{harmonic_force, two_directions::harmonic_force as harmonic_force_2};
-
-/// Force, tangent and dissipated energy.
-type StepOf<L> = (<L as ElementLaw>::Vector, <L as ElementLaw>::Tangent, f64);
 
 /// The law of elements with a number of tangential directions.
 pub(super) trait ElementLaw: Sized {
@@ -39,9 +37,19 @@ pub(super) trait ElementLaw: Sized {
 
     fn check_step(element: &Element, displacement: &Self::Vector) -> Result<(), Error>;
     /// A step with checked arguments whose new state is discarded.
-    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
+    fn trial(
+        element: &Element,
+        old: &[f64],
+        displacement: Self::Vector,
+        wanted: Wanted,
+    ) -> Step<Self::Vector, Self::Tangent>;
     /// The same in place.
-    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
+    fn advance(
+        element: &Element,
+        state: &mut [f64],
+        displacement: Self::Vector,
+        wanted: Wanted,
+    ) -> Step<Self::Vector, Self::Tangent>;
     fn check_path(element: &Element, path: &[f64]) -> Result<(), Error>;
     fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error>;
     /// A path whose new state is discarded.
@@ -120,17 +128,13 @@ macro_rules! implement {
             }
 
             #[inline(always)]
-            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self> {
-                let $state::Step { force, tangent, dissipated } =
-                    $state::trial(element, old, displacement, $requested(wanted));
-                (force, tangent, dissipated)
+            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> Step<Self::Vector, Self::Tangent> {
+                $state::trial(element, old, displacement, $requested(wanted))
             }
 
             #[inline(always)]
-            fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self> {
-                let $state::Step { force, tangent, dissipated } =
-                    $state::advance_checked(element, state, displacement, $requested(wanted));
-                (force, tangent, dissipated)
+            fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> Step<Self::Vector, Self::Tangent> {
+                $state::advance_checked(element, state, displacement, $requested(wanted))
             }
 
             fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {

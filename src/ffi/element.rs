@@ -380,9 +380,9 @@ pub(super) unsafe fn update<L: ElementLaw>(
             }
             L::advance(element, state, *displacement, wanted)
         };
-        force.cast::<L::Vector>().as_mut().into_iter().for_each(|force| *force = step.0);
-        tangent.cast::<L::Tangent>().as_mut().into_iter().for_each(|tangent| *tangent = step.1);
-        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.2);
+        force.cast::<L::Vector>().as_mut().into_iter().for_each(|force| *force = step.force);
+        tangent.cast::<L::Tangent>().as_mut().into_iter().for_each(|tangent| *tangent = step.tangent);
+        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.dissipated);
     }
 }
 

@@ -12,7 +12,7 @@ use crate::tag::Kind;
 use crate::varying_load::diagram::{self, Diagram, Knot, Response};
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::energy::{self, Path};
-use crate::varying_load::path::advance_along;
+use crate::varying_load::path::{self, advance_along};
 
 pub use crate::varying_load::path::PathOutput;
 
@@ -30,15 +30,7 @@ pub const fn state_length(pieces: usize) -> usize {
 }
 
 /// Result of a step: forces `[T, N]`, tangent `[∂T/∂u, ∂N/∂u, ∂T/∂w, ∂N/∂w]` (column-major) and dissipated energy.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// `[T, N]` \[N\].
-    pub force: [f64; 2],
-    /// Columns by tangential displacement and by normal component.
-    pub tangent: [f64; 4],
-    /// \[J\]; 0 unless requested.
-    pub dissipated: f64,
-}
+pub type Step = path::Step<[f64; 2], [f64; 4]>;
 
 impl Step {
     const NONE: Step = Step { force: [0.0; 2], tangent: [0.0; 4], dissipated: 0.0 };
@@ -439,10 +431,7 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     check_header(state)?;
     check_path(element, path)?;
     let with_energy = output.dissipated.is_some();
-    advance_along(path, output, |displacement| {
-        let Step { force, tangent, dissipated } = advance_checked(element, state, displacement, with_energy);
-        (force, tangent, dissipated)
-    });
+    advance_along(path, output, |displacement| advance_checked(element, state, displacement, with_energy));
     Ok(())
 }
 

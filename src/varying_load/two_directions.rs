@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 use crate::varying_load::element::{Element, Normal};
-use crate::varying_load::path::advance_along;
+use crate::varying_load::path::{self, advance_along};
 
 pub use crate::varying_load::path::PathOutput;
 
@@ -25,16 +25,8 @@ pub const fn state_length() -> usize {
     LENGTH
 }
 
-/// Result of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
-    /// `[Tx, Ty, N]` \[N\].
-    pub force: [f64; 3],
-    /// Derivatives of the force with respect to u, v \[N/m\] and the normal component, 3 x 3, column-major; 0 unless requested.
-    pub tangent: [f64; 9],
-    /// \[J\]; 0 unless requested.
-    pub dissipated: f64,
-}
+/// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
+pub type Step = path::Step<[f64; 3], [f64; 9]>;
 
 /// Results of a step that are requested besides the force.
 #[derive(Debug, Clone, Copy)]
@@ -140,10 +132,7 @@ pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutp
     check_header(state)?;
     check_path(element, path)?;
     let wanted = Wanted { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
-    advance_along(path, output, |displacement| {
-        let Step { force, tangent, dissipated } = advance_checked(element, state, displacement, wanted);
-        (force, tangent, dissipated)
-    });
+    advance_along(path, output, |displacement| advance_checked(element, state, displacement, wanted));
     Ok(())
 }
 
@@ -316,7 +305,7 @@ pub mod harmonic_force {
 
     /// Function c of the order `[1, cos t, sin t, ...]` at a sample.
     fn basis(c: usize, index: usize, samples: usize) -> f64 {
-        let angle = TAU * ((c.div_ceil(2) * index) % samples) as f64 / samples as f64;
+        let angle = TAU * (c.div_ceil(2) * index).checked_rem(samples).unwrap_or(0) as f64 / samples as f64;
         if c.is_multiple_of(2) && c > 0 { angle.sin() } else { angle.cos() }
     }
 
@@ -351,22 +340,22 @@ pub mod harmonic_force {
         force.as_deref_mut().unwrap_or(&mut []).fill(0.0);
         jacobian.as_deref_mut().unwrap_or(&mut []).fill(0.0);
         let mut energy = 0.0;
-        for index in 0..2 * count {
-            let &[u, v, input, _] = workspace.samples.get(index % count).unwrap_or(&[0.0; 4]);
+        for (index, position) in (0..count).chain(0..count).enumerate() {
+            let &[u, v, input, _] = workspace.samples.get(position).unwrap_or(&[0.0; 4]);
             let Step { force: values, tangent, dissipated } =
                 advance_checked(element, &mut state, [u, v, input], wanted);
             if index < count {
                 continue;
             }
             energy += dissipated;
-            let weight = |c: usize| if c == 0 { 1.0 } else { 2.0 } / count as f64 * basis(c, index % count, count);
+            let weight = |c: usize| if c == 0 { 1.0 } else { 2.0 } / count as f64 * basis(c, position, count);
             for (i, place) in force.as_deref_mut().unwrap_or(&mut []).iter_mut().enumerate() {
                 *place += weight(i % coefficients) * values.get(i / coefficients).unwrap_or(&0.0);
             }
             for (k, place) in jacobian.as_deref_mut().unwrap_or(&mut []).iter_mut().enumerate() {
                 let (i, j) = (k % n, k / n);
                 let slope = tangent.get(i / coefficients + 3 * (j / coefficients)).unwrap_or(&0.0);
-                *place += weight(i % coefficients) * slope * basis(j % coefficients, index % count, count);
+                *place += weight(i % coefficients) * slope * basis(j % coefficients, position, count);
             }
         }
         dissipated.into_iter().for_each(|place| *place = energy);

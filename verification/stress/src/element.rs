@@ -5,7 +5,7 @@ pub mod springs;
 
 use crate::library::{in_all_rounding_directions, trapped};
 use crate::{Outcome, ensure};
-use microslip::varying_load::element::NormalInput;
+use microslip::varying_load::element::{Directions, NormalInput};
 use microslip::varying_load::state::{self, Step};
 use microslip::{EllipticParameters, Material, Parameters};
 use rand::Rng;
@@ -27,8 +27,8 @@ impl Element {
         use microslip::varying_load::element::Element as Library;
         let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
         let library = match input {
-            Input::Flat(parameters) => Library::rounded_flat(parameters, normal),
-            Input::Ellipse(parameters) => Library::elliptic(parameters, normal),
+            Input::Flat(parameters) => Library::rounded_flat(parameters, Directions::One, normal),
+            Input::Ellipse(parameters) => Library::elliptic(parameters, Directions::One, normal),
         };
         library.ok().map(|library| Element { library, input: *input })
     }
