@@ -709,9 +709,10 @@ fn batches() {
     }
 }
 
-/// A slightly flattened element by approach, and a sphere by normal force; initialised once, which takes minutes under Miri.
-fn elements() -> [Memory<mslip_element>; 2] {
-    static INITIALISED: OnceLock<[Vec<u8>; 2]> = OnceLock::new();
+/// A slightly flattened element by approach, and a sphere by normal force, both with one direction; a sphere by approach with two.
+/// Initialised once, which takes minutes under Miri.
+fn elements() -> [Memory<mslip_element>; 3] {
+    static INITIALISED: OnceLock<[Vec<u8>; 3]> = OnceLock::new();
     let initialised = |init: &dyn Fn(*mut mslip_element) -> i32| {
         let element = Memory::<mslip_element>::new(1);
         assert_eq!(init(element.start), MSLIP_OK);
@@ -732,6 +733,9 @@ fn elements() -> [Memory<mslip_element>; 2] {
             initialised(&|element| unsafe {
                 mslip_element_init_elliptic(&raw const sphere, 1, MSLIP_NORMAL_FORCE, element)
             }),
+            initialised(&|element| unsafe {
+                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element)
+            }),
         ]
     });
     elements.each_ref().map(|bytes| {
@@ -749,10 +753,23 @@ fn units(element: &Memory<mslip_element>) -> [f64; 2] {
     [e.friction_coefficient * e.approach, normal]
 }
 
+fn directions(element: &Memory<mslip_element>) -> i32 {
+    element.values()[0].directions
+}
+
+/// The vectors of displacements `[x, y]` in the units of an element; with two directions oblique.
+fn vectors(element: &Memory<mslip_element>, values: &[[f64; 2]]) -> Vec<f64> {
+    let [u, w] = units(element);
+    let vector = |[x, y]: &[f64; 2]| {
+        if directions(element) == 1 { vec![x * u, y * w] } else { vec![x * u, -0.4 * x * u, y * w] }
+    };
+    values.iter().flat_map(vector).collect()
+}
+
 /// NULL, misaligned and uninitialised elements are rejected.
 fn check_element(lengths: &[usize], call: impl Fn(*const mslip_element, Outputs) -> i32) {
     rejected(MSLIP_NULL_POINTER, lengths, |out| call(null(), out));
-    let [element, _] = elements();
+    let [element, ..] = elements();
     rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(misaligned(element.start), out));
     for byte in [0, 0xff] {
         // SAFETY: one element.
@@ -764,18 +781,20 @@ fn check_element(lengths: &[usize], call: impl Fn(*const mslip_element, Outputs)
 /// Number of doubles in the state of an element with four pieces, the shortest.
 const LEAST_OF_ELEMENT: usize = 28;
 
-fn open_state(pieces: usize) -> Memory<f64> {
-    let state = Memory::new(mslip_element_state_length(1, pieces));
-    assert_eq!(unsafe { mslip_element_state_init(1, state.length, state.start) }, MSLIP_OK);
+fn open_state(directions: i32, pieces: usize) -> Memory<f64> {
+    let state = Memory::new(mslip_element_state_length(directions, pieces));
+    assert_eq!(unsafe { mslip_element_state_init(directions, state.length, state.start) }, MSLIP_OK);
     state
 }
 
-/// NULL, misaligned, short, uninitialised and truncated states are rejected.
-fn check_element_state(lengths: &[usize], call: impl Fn(usize, *const f64, Outputs) -> i32) {
-    let state = open_state(0);
-    rejected(MSLIP_NULL_POINTER, lengths, |out| call(LEAST_OF_ELEMENT, null(), out));
-    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(LEAST_OF_ELEMENT, misaligned(state.start), out));
-    for length in [0, 5, LEAST_OF_ELEMENT - 1] {
+/// NULL, misaligned, short, uninitialised and truncated states are rejected, and those of the other number of directions.
+fn check_element_state(directions: i32, lengths: &[usize], call: impl Fn(usize, *const f64, Outputs) -> i32) {
+    let (state, other) = (open_state(directions, 0), open_state(3 - directions, 1000));
+    let least = state.length;
+    rejected(MSLIP_NULL_POINTER, lengths, |out| call(least, null(), out));
+    rejected(MSLIP_BAD_ALIGNMENT, lengths, |out| call(least, misaligned(state.start), out));
+    rejected(MSLIP_BAD_DIRECTIONS, lengths, |out| call(other.length.min(least), other.start, out));
+    for length in [0, 5, least - 1] {
         let short = Memory::of(state.values()[..length].to_vec());
         rejected(MSLIP_STATE_TOO_SHORT, lengths, |out| call(length, short.start, out));
     }
@@ -788,7 +807,7 @@ fn check_element_state(lengths: &[usize], call: impl Fn(usize, *const f64, Outpu
         let mut values = state.values().to_vec();
         values[0] = tag;
         let bad = Memory::of(values);
-        rejected(MSLIP_BAD_STATE, lengths, |out| call(LEAST_OF_ELEMENT, bad.start, out));
+        rejected(MSLIP_BAD_STATE, lengths, |out| call(least, bad.start, out));
     }
 }
 
@@ -808,7 +827,7 @@ fn element_init_and_check() {
             assert_eq!(statuses, [status; 2]);
         }
         for (status, directions, input) in
-            [(MSLIP_BAD_DIRECTIONS, 0, 0), (MSLIP_NOT_AVAILABLE, 2, 0), (MSLIP_BAD_NORMAL_INPUT, 1, 2)]
+            [(MSLIP_BAD_DIRECTIONS, 0, 0), (MSLIP_BAD_DIRECTIONS, 3, 0), (MSLIP_BAD_NORMAL_INPUT, 2, 2)]
         {
             assert_eq!(mslip_element_init(p.start, directions, input, element.start), status);
             assert_eq!(mslip_element_init_elliptic(e.start, directions, input, element.start), status);
@@ -851,25 +870,31 @@ fn normal_law() {
 #[test]
 fn element_state_init_check_and_error() {
     let init = |directions, n, state| unsafe { mslip_element_state_init(directions, n, state) };
-    assert_eq!([0, 2, 3].map(|directions| mslip_element_state_length(directions, 5)), [0; 3]);
+    assert_eq!([0, 3].map(|directions| mslip_element_state_length(directions, 5)), [0; 2]);
     assert_eq!(mslip_element_state_length(1, 0), LEAST_OF_ELEMENT);
     assert_eq!(init(0, LEAST_OF_ELEMENT, null_mut()), MSLIP_BAD_DIRECTIONS);
-    assert_eq!(init(2, LEAST_OF_ELEMENT, null_mut()), MSLIP_NOT_AVAILABLE);
+    let fixed = mslip_element_state_length(2, 0);
+    assert!(fixed > LEAST_OF_ELEMENT && mslip_element_state_length(2, usize::MAX) == fixed);
+    assert_eq!(init(2, fixed, null_mut()), MSLIP_NULL_POINTER);
+    assert_eq!(init(2, fixed - 1, Memory::new(fixed - 1).start), MSLIP_STATE_TOO_SHORT);
     assert_eq!(init(1, LEAST_OF_ELEMENT, null_mut()), MSLIP_NULL_POINTER);
     assert_eq!(init(1, LEAST_OF_ELEMENT, misaligned(Memory::new(LEAST_OF_ELEMENT + 1).start)), MSLIP_BAD_ALIGNMENT);
     assert_eq!(init(1, 0, Memory::new(0).start), MSLIP_STATE_TOO_SHORT);
     assert_eq!(init(1, LEAST_OF_ELEMENT - 1, Memory::new(LEAST_OF_ELEMENT - 1).start), MSLIP_STATE_TOO_SHORT);
     assert_eq!(init(1, usize::MAX, Memory::new(5).start), MSLIP_BAD_ARRAY_SIZE);
-    let state = open_state(5);
-    let error = |n, state, out: Outputs| unsafe { mslip_element_state_error(1, n, state, out[0]) };
-    accepted(&[1], |out| error(state.length, state.start, out));
-    check_element_state(&[1], error);
-    check_element_state(&[], |n, state, _| unsafe { mslip_element_state_check(1, n, state) });
-    for place in 1..8 {
-        let mut values = state.values().to_vec();
-        values[place] = f64::NAN;
-        let changed = Memory::of(values);
-        assert_eq!(unsafe { mslip_element_state_check(1, changed.length, changed.start) }, MSLIP_BAD_STATE);
+    for directions in [1, 2] {
+        let state = open_state(directions, 5);
+        let error = |n, state, out: Outputs| unsafe { mslip_element_state_error(directions, n, state, out[0]) };
+        accepted(&[1], |out| error(state.length, state.start, out));
+        check_element_state(directions, &[1], error);
+        let check = |n, state, _: Outputs| unsafe { mslip_element_state_check(directions, n, state) };
+        check_element_state(directions, &[], check);
+        for place in 1..8 {
+            let mut values = state.values().to_vec();
+            values[place] = f64::NAN;
+            let changed = Memory::of(values);
+            assert_eq!(check(changed.length, changed.start, &[]), MSLIP_BAD_STATE);
+        }
     }
 }
 
@@ -896,42 +921,43 @@ fn element_update_and_path() {
         mslip_element_path(element, n, state, count, x, out[0], out[1], out[2], out[3])
     };
     for element in elements() {
-        let [u, w] = units(&element);
-        let path = Memory::of(ELEMENT_PATH.iter().flat_map(|[x, y]| [x * u, y * w]).collect::<Vec<_>>());
+        let directions = directions(&element);
+        let m = 1 + directions as usize;
+        let path = Memory::of(vectors(&element, &ELEMENT_PATH));
         let (steps, none) = (ELEMENT_PATH.len(), null_mut());
         // The second state is too small for all pieces.
         for pieces in [8, 4] {
-            let (state, start) = (open_state(pieces), open_state(pieces));
+            let (state, start) = (open_state(directions, pieces), open_state(directions, pieces));
             let n = state.length;
             for i in 0..steps {
-                let x = Memory::of(path.values()[2 * i..][..2].to_vec());
+                let x = Memory::of(path.values()[m * i..][..m].to_vec());
                 // Only what is in use of the new state is written.
                 let (next, force, tangent, energy) =
-                    (open_state(pieces), Memory::new(2), Memory::new(4), Memory::new(1));
+                    (open_state(directions, pieces), Memory::new(m), Memory::new(m * m), Memory::new(1));
                 let out = [next.start, force.start, tangent.start, energy.start];
                 assert_eq!(update(element.start, n, state.start, x.start, &out), MSLIP_OK);
-                accepted(&[2, 4, 1], |out| {
+                accepted(&[m, m * m, 1], |out| {
                     update(element.start, n, state.start, x.start, &[none, out[0], out[1], out[2]])
                 });
                 assert_eq!(update(element.start, n, state.start, x.start, &[state.start, none, none, none]), MSLIP_OK);
                 assert_eq!(next.values()[..3], state.values()[..3]);
-                assert_eq!(unsafe { mslip_element_state_check(1, n, next.start) }, MSLIP_OK);
+                assert_eq!(unsafe { mslip_element_state_check(directions, n, next.start) }, MSLIP_OK);
             }
-            let lengths = [n, 2 * steps, 4 * steps, steps];
+            let lengths = [n, m * steps, m * m * steps, steps];
             accepted(&lengths, |out| advance(element.start, n, start.start, steps, path.start, out));
             accepted(&[n, 0, 0, 0], |out| advance(element.start, n, start.start, 0, null(), out));
             let out = [start.start, none, none, none];
             assert_eq!(advance(element.start, n, start.start, steps, path.start, &out), MSLIP_OK);
             assert_eq!(start.values()[..3], state.values()[..3]);
         }
-        let x = Memory::of([0.1 * u, 0.5 * w]);
-        let one = [LEAST_OF_ELEMENT, 2, 4, 1];
-        let state = open_state(0);
+        let x = Memory::of(vectors(&element, &[[0.1, 0.5]]));
+        let one = [mslip_element_state_length(directions, 0), m, m * m, 1];
+        let state = open_state(directions, 0);
         let (n, s) = (state.length, state.start);
         check_element(&one, |element, out| update(element, n, s, x.start, out));
         check_element(&one, |element, out| advance(element, n, s, 1, x.start, out));
-        check_element_state(&one, |n, state, out| update(element.start, n, state, x.start, out));
-        check_element_state(&one, |n, state, out| advance(element.start, n, state, 1, x.start, out));
+        check_element_state(directions, &one, |n, state, out| update(element.start, n, state, x.start, out));
+        check_element_state(directions, &one, |n, state, out| advance(element.start, n, state, 1, x.start, out));
         rejected(MSLIP_NULL_POINTER, &one, |out| update(element.start, n, s, null(), out));
         rejected(MSLIP_NULL_POINTER, &one, |out| advance(element.start, n, s, 1, null(), out));
         rejected(MSLIP_BAD_ALIGNMENT, &one, |out| update(element.start, n, s, misaligned(x.start), out));
@@ -947,8 +973,10 @@ fn element_update_and_path() {
         }
         let by_force = element.values()[0].normal_input == MSLIP_NORMAL_FORCE;
         let status = if by_force { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_BAD_DISPLACEMENT };
-        for (status, x) in [(MSLIP_BAD_DISPLACEMENT, [f64::NAN, w]), (status, [u, f64::NAN])] {
-            let x = Memory::of(x);
+        for place in 0..m {
+            let mut x = x.values().to_vec();
+            x[place] = f64::NAN;
+            let (status, x) = (if place == m - 1 { status } else { MSLIP_BAD_DISPLACEMENT }, Memory::of(x));
             rejected(status, &one, |out| update(element.start, n, s, x.start, out));
             rejected(status, &one, |out| advance(element.start, n, s, 1, x.start, out));
         }
@@ -957,8 +985,9 @@ fn element_update_and_path() {
 
 #[test]
 fn element_tractions() {
-    for element in elements() {
-        let ([u, w], state, none) = (units(&element), open_state(4), null_mut());
+    let [by_approach, by_force, oblique] = elements();
+    for element in [by_approach, by_force] {
+        let ([u, w], state, none) = (units(&element), open_state(1, 4), null_mut());
         let path = Memory::of([0.02 * u, 0.6 * w, 0.3 * u, 0.8 * w]);
         let (n, s) = (state.length, state.start);
         let status = unsafe { mslip_element_path(element.start, n, s, 2, path.start, s, none, none, none) };
@@ -970,37 +999,47 @@ fn element_tractions() {
         let x = Memory::of([0.0, 0.5, -0.9, 2.0].map(|part| part * half_width));
         accepted(&[4; 2], |out| tractions(element.start, n, s, 4, x.start, out));
         check_element(&[4; 2], |element, out| tractions(element, n, s, 4, x.start, out));
-        check_element_state(&[4; 2], |n, state, out| tractions(element.start, n, state, 4, x.start, out));
+        check_element_state(1, &[4; 2], |n, state, out| tractions(element.start, n, state, 4, x.start, out));
         rejected(MSLIP_NULL_POINTER, &[4; 2], |out| tractions(element.start, n, s, 4, null(), out));
         let invalid = Memory::of([0.0, f64::INFINITY]);
         rejected(MSLIP_BAD_POSITION, &[2; 2], |out| tractions(element.start, n, s, 2, invalid.start, out));
         check_length(2, |points, x, out| tractions(element.start, n, s, points, x, out));
     }
+    let (state, x) = (open_state(2, 0), Memory::of([0.0]));
+    rejected(MSLIP_NOT_AVAILABLE, &[1; 2], |out| unsafe {
+        mslip_element_tractions(oblique.start, state.length, state.start, 1, x.start, out[0], out[1])
+    });
 }
 
-fn element_workspace(harmonics: usize, samples: usize) -> Memory<f64> {
-    let workspace = Memory::new(mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
+fn element_workspace(directions: i32, harmonics: usize, samples: usize) -> Memory<f64> {
+    let rule = MSLIP_UNIFORM_SAMPLING;
+    let workspace = Memory::new(mslip_element_workspace_length(directions, harmonics, samples, rule));
     let (length, start) = (workspace.length, workspace.start);
-    let status = unsafe { mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, start) };
+    let status = unsafe { mslip_element_workspace_init(directions, harmonics, samples, rule, length, start) };
     assert_eq!(status, MSLIP_OK);
     workspace
 }
 
 #[test]
 fn element_workspaces() {
-    let memory = element_workspace(2, 9);
+    for one_or_two in [1, 2] {
+        check_element_workspace(one_or_two);
+    }
+}
+
+fn check_element_workspace(one_or_two: i32) {
+    let memory = element_workspace(one_or_two, 2, 9);
     let (length, start) = (memory.length, memory.start);
     for (status, directions, harmonics, samples, rule, length, start) in [
-        (MSLIP_WORKSPACE_TOO_SHORT, 1, 2, 9, 0, length - 1, start),
-        (MSLIP_WORKSPACE_TOO_SHORT, 1, 2, 9, 0, 0, start),
-        (MSLIP_NULL_POINTER, 1, 2, 9, 0, length, null_mut()),
-        (MSLIP_BAD_ALIGNMENT, 1, 2, 9, 0, length - 1, misaligned(start)),
-        (MSLIP_BAD_ARRAY_SIZE, 1, 2, 9, 0, usize::MAX, start),
-        (MSLIP_BAD_SAMPLES, 1, 2, 4, 0, length, start),
-        (MSLIP_BAD_HARMONICS, 1, 0, 9, 0, length, start),
-        (MSLIP_BAD_RULE, 1, 2, 9, 7, length, start),
-        (MSLIP_NOT_AVAILABLE, 1, 2, 9, MSLIP_EVENT_DRIVEN, length, start),
-        (MSLIP_NOT_AVAILABLE, 2, 2, 9, 0, length, start),
+        (MSLIP_WORKSPACE_TOO_SHORT, one_or_two, 2, 9, 0, length - 1, start),
+        (MSLIP_WORKSPACE_TOO_SHORT, one_or_two, 2, 9, 0, 0, start),
+        (MSLIP_NULL_POINTER, one_or_two, 2, 9, 0, length, null_mut()),
+        (MSLIP_BAD_ALIGNMENT, one_or_two, 2, 9, 0, length - 1, misaligned(start)),
+        (MSLIP_BAD_ARRAY_SIZE, one_or_two, 2, 9, 0, usize::MAX, start),
+        (MSLIP_BAD_SAMPLES, one_or_two, 2, 4, 0, length, start),
+        (MSLIP_BAD_HARMONICS, one_or_two, 0, 9, 0, length, start),
+        (MSLIP_BAD_RULE, one_or_two, 2, 9, 7, length, start),
+        (MSLIP_NOT_AVAILABLE, one_or_two, 2, 9, MSLIP_EVENT_DRIVEN, length, start),
         (MSLIP_BAD_DIRECTIONS, 0, 2, 9, 0, length, start),
     ] {
         let answer = unsafe { mslip_element_workspace_init(directions, harmonics, samples, rule, length, start) };
@@ -1013,7 +1052,7 @@ fn element_workspaces() {
     let size = |w: *const f64, d, h, s, r| unsafe { mslip_element_workspace_size(w, d, h, s, r) };
     unsafe {
         assert_eq!(size(header.start, k, s, s.add(1), k.add(1)), MSLIP_OK);
-        assert_eq!((kinds.values(), sizes.values()), (&[1, MSLIP_UNIFORM_SAMPLING][..], &[2, 9][..]));
+        assert_eq!((kinds.values(), sizes.values()), (&[one_or_two, MSLIP_UNIFORM_SAMPLING][..], &[2, 9][..]));
         let none = null_mut();
         assert_eq!(size(header.start, none, null_mut(), null_mut(), none), MSLIP_OK);
         assert_eq!(size(null(), k, s, s.add(1), k.add(1)), MSLIP_NULL_POINTER);
@@ -1033,8 +1072,8 @@ fn element_harmonic_force() {
     for (harmonics, samples) in [(1, 8), (2, 9)] {
         let n = 2 * harmonics + 1;
         let lengths = [2 * n, 4 * n * n, 1];
-        let workspace = element_workspace(harmonics, samples);
-        let [by_approach, by_force] = elements();
+        let workspace = element_workspace(1, harmonics, samples);
+        let [by_approach, by_force, oblique] = elements();
         for element in [&by_approach, &by_force] {
             let [u, w] = units(element);
             let mut motion = vec![0.0; 2 * n];
@@ -1071,6 +1110,27 @@ fn element_harmonic_force() {
             let header = Memory::of(header);
             rejected(MSLIP_BAD_WORKSPACE, &lengths, |out| with(header.start, out));
         }
+        // Two directions: three components.
+        let ([u, w], of_two) = (units(&oblique), element_workspace(2, harmonics, samples));
+        let mut motion = vec![0.0; 3 * n];
+        (motion[1], motion[n + 2]) = (0.3 * u, 0.2 * u);
+        for (mean, swing) in [(0.5, 0.0), (0.5, 0.3), (0.2, 0.6), (-0.7, 0.6)] {
+            (motion[2 * n], motion[2 * n + 1]) = (mean * w, swing * w);
+            let x = Memory::of(motion.clone());
+            accepted(&[3 * n, 9 * n * n, 1], |out| force(oblique.start, of_two.start, x.start, out));
+        }
+        for place in 0..3 * n {
+            let mut motion = motion.clone();
+            motion[place] = f64::NAN;
+            let x = Memory::of(motion);
+            let lengths = [3 * n, 9 * n * n, 1];
+            rejected(MSLIP_BAD_DISPLACEMENT, &lengths, |out| force(oblique.start, of_two.start, x.start, out));
+        }
+        rejected(MSLIP_BAD_DIRECTIONS, &[], |_| {
+            let none = null_mut();
+            force(oblique.start, workspace.start, x.start, &[none, none, none])
+        });
+        rejected(MSLIP_BAD_DIRECTIONS, &lengths, |out| with(of_two.start, out));
     }
 }
 
@@ -1078,7 +1138,7 @@ fn element_harmonic_force() {
 fn element_batches() {
     const N: usize = 3;
     let memory: Memory<mslip_element> = Memory::new(N);
-    let [element, _] = elements();
+    let [element, _, oblique] = elements();
     let [u, w] = units(&element);
     // SAFETY: the first two of three elements.
     unsafe {
@@ -1129,7 +1189,7 @@ fn element_batches() {
     unsafe { all.add(2).write_bytes(0, 1) };
     rejected(MSLIP_BAD_ELEMENT, &lengths, |out| update(all, null_mut(), null_mut(), n, states.start, bad.start, out));
 
-    let workspace = element_workspace(1, 8);
+    let workspace = element_workspace(1, 1, 8);
     let mut motion = vec![f64::NAN; 6 * N];
     for i in 0..2 {
         motion[6 * i..6 * (i + 1)].copy_from_slice(&[0.0, 0.4 * u, 0.1 * u, 0.5 * w, 0.0, 0.3 * w]);
@@ -1153,6 +1213,34 @@ fn element_batches() {
     ] {
         rejected(status, &[6 * N, 36 * N, N], |out| force(all, null_mut(), workspace, x, out));
     }
+
+    // Two directions, three components; a mixture is rejected, unless items are skipped.
+    let (state, x) = (open_state(2, 0), Memory::of(vectors(&oblique, &[[0.1, 0.5], [3.0, 0.3], [0.2, 0.4]])));
+    let n = state.length;
+    let states = Memory::of(state.values().repeat(N));
+    let of_two = element_workspace(2, 1, 8);
+    let motion = Memory::of(vec![0.01 * w; 9 * N]);
+    let (everything, last_skipped) = (Memory::of([1; N]), Memory::of([1, 1, 0]));
+    let update = |active: &Memory<i32>, o: Outputs| unsafe {
+        let (active, states, x) = (active.start, states.start, x.start);
+        mslip_batch_element_update(N, N, all, null(), active, n, states, x, o[0], o[1], o[2], o[3])
+    };
+    let force = |active: &Memory<i32>, workspace, o: Outputs| unsafe {
+        mslip_batch_element_harmonic_force(N, N, all, null(), active.start, workspace, motion.start, o[0], o[1], o[2])
+    };
+    for i in 0..N {
+        // SAFETY: item i of three.
+        unsafe { ptr::copy_nonoverlapping(oblique.start, all.add(i), 1) };
+    }
+    accepted(&[N * n, 3 * N, 9 * N, N], |out| update(&everything, out));
+    accepted(&[9 * N, 81 * N, N], |out| force(&everything, of_two.start, out));
+    rejected(MSLIP_BAD_DIRECTIONS, &[3 * N, 9 * N, N], |out| force(&everything, workspace.start, out));
+    // SAFETY: the last item.
+    unsafe { ptr::copy_nonoverlapping(element.start, all.add(2), 1) };
+    rejected(MSLIP_BAD_DIRECTIONS, &[N * n, 3 * N, 9 * N, N], |out| update(&everything, out));
+    rejected(MSLIP_BAD_DIRECTIONS, &[9 * N, 81 * N, N], |out| force(&everything, of_two.start, out));
+    assert_eq!(update(&last_skipped, &[none; 4]), MSLIP_OK);
+    assert_eq!(force(&last_skipped, of_two.start, &[none; 3]), MSLIP_OK);
 }
 
 /// Contacts are only read: threads share one, each with memory of its own.
