@@ -37,9 +37,9 @@ module microslip
   !! a contact, element, state, workspace or table that was never initialised.
   !!
   !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them; of an element
-  !! component after component: those of the tangential one, then those of the normal one. A Jacobian
-  !! has the derivative of force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a
-  !! default NumPy array of the same memory holds its transpose.
+  !! component after component: those of the tangential one or two, then those of the normal one. A Jacobian has the derivative of
+  !! force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a default NumPy array of the
+  !! same memory holds its transpose.
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
   implicit none
   private
@@ -1455,21 +1455,20 @@ contains
   end subroutine mslip_iwan_equivalent
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Varying normal force with separation: friction contact elements. A displacement is [u, w], a force [T, N], tangential and
-  ! normal
+  ! Varying normal force with separation: friction contact elements. With one tangential direction, m = 2, a displacement is [u, w],
+  ! a force [T, N], tangential and normal; with two, m = 3, they are [u, v, w] and [Tx, Ty, N]
 
   subroutine mslip_element_init(parameters, directions, normal_input, element, status)
     !! Initialise the element of a flat with rounded edges on a flat, or of a cylinder if the flat has no width.
     type(mslip_parameters), intent(in) :: parameters
       !! Geometry, materials and friction; `normal_force`, > 0, is the largest force for which the element is tabulated: larger
       !! ones are exact, but slower.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
       !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` for two directions, `MSLIP_BAD_NORMAL_INPUT`, or an error of
-      !! `mslip_contact_init`.
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_BAD_NORMAL_INPUT`, or an error of `mslip_contact_init`.
 
     status = c_element_init(parameters, directions, normal_input, element)
   end subroutine mslip_element_init
@@ -1479,13 +1478,12 @@ contains
     type(mslip_elliptic_parameters), intent(in) :: parameters
       !! Geometry, materials and friction; `normal_force`, > 0, is the force of the semi-axes and the largest one for which the
       !! element is tabulated: larger ones are exact, but slower.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
       !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` for two directions, `MSLIP_BAD_NORMAL_INPUT`, or an error of
-      !! `mslip_contact_init_elliptic`.
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_BAD_NORMAL_INPUT`, or an error of `mslip_contact_init_elliptic`.
 
     status = c_element_init_elliptic(parameters, directions, normal_input, element)
   end subroutine mslip_element_init_elliptic
@@ -1568,40 +1566,42 @@ contains
 
   pure function mslip_element_state_length(directions, pieces) result(length)
     !! Length of the state of an element that holds the given number of pieces of its memory diagram exactly; fewer than 4 count
-    !! as 4. A load that rises in n steps of different directions leaves n pieces. May dimension an array.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
-    integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0.
-    integer(mslip_size) :: length  !! Length of the state; 0 if `directions` is not 1.
+    !! as 4. A load that rises in n steps of different directions leaves n pieces. With two tangential directions the length is
+    !! fixed. May dimension an array.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
+    integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0; ignored for two directions.
+    integer(mslip_size) :: length  !! Length of the state; 0 if `directions` is neither 1 nor 2.
 
     length = c_element_state_length(directions, pieces)
   end function mslip_element_state_length
 
   subroutine mslip_element_state_init(directions, state, status)
     !! Initialise the state of an element: open, no displacement.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(inout), target, contiguous :: state(:)
-      !! The state; at least `mslip_element_state_length(directions, 4)` values. Its size decides how many pieces it holds exactly.
-      !! A step that needs one more merges the two neighbouring pieces for which later forces change least; see
-      !! `mslip_element_state_error`.
+      !! The state; at least `mslip_element_state_length(directions, 4)` values. With one tangential direction its size decides how
+      !! many pieces it holds exactly. A step that needs one more merges the two neighbouring pieces for which later forces change
+      !! least; see `mslip_element_state_error`.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE` or `MSLIP_STATE_TOO_SHORT`.
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS` or `MSLIP_STATE_TOO_SHORT`.
 
     status = c_element_state_init(directions, size(state, kind=mslip_size), address_of(state))
   end subroutine mslip_element_state_init
 
   subroutine mslip_element_state_check(directions, state, status)
     !! Validate the state of an element in full, such as one read from a file or received in a message.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! The state.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, `MSLIP_NOT_AVAILABLE`, `MSLIP_STATE_TOO_SHORT` or `MSLIP_BAD_STATE`.
+      !! `MSLIP_OK`, `MSLIP_BAD_DIRECTIONS`, also for the state of another number of directions, `MSLIP_STATE_TOO_SHORT` or
+      !! `MSLIP_BAD_STATE`.
 
     status = c_element_state_check(directions, size(state, kind=mslip_size), state)
   end subroutine mslip_element_state_check
 
   subroutine mslip_element_state_error(directions, state, force_error, status)
     !! Bound on the error of the tangential forces that follow from a state, due to merged pieces.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! The state.
     real(mslip_real), intent(inout), target :: force_error
       !! Bound on the error [N]; 0 if no pieces were merged since the last gross slip or separation.
@@ -1616,22 +1616,23 @@ contains
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step.
     real(mslip_real), intent(in) :: displacement(:)
-      !! [u, w] at the end of the step: tangential displacement [m]; normal approach [m], open if not positive, or normal force [N],
-      !! >= 0.
+      !! [u, w] or [u, v, w] at the end of the step: tangential displacements [m]; normal approach [m], open if not positive, or
+      !! normal force [N], >= 0.
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
       !! State after the step, of the same size; for a step in place use `mslip_element_advance`. Only what is in use of it is
       !! written: initialise both states to store or compare whole arrays.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! [T, N] at the end of the step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)
+      !! [T, N] or [Tx, Ty, N] at the end of the step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :)
-      !! (2, 2): derivative of force component i with respect to displacement component j, consistent with the step and
-      !! one-sided at corners.
+      !! (m, m), of the size of the displacement: derivative of force component i with respect to displacement component j,
+      !! consistent with the step and one-sided at corners.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
 
     integer(mslip_size) :: m, length
     type(c_ptr) :: ptr(3)
 
-    m = components(element)
+    m = components(element, size(displacement, kind=mslip_size))
     length = size(state_old, kind=mslip_size)
     ptr = c_null_ptr
     status = MSLIP_OK
@@ -1648,19 +1649,20 @@ contains
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step.
     real(mslip_real), intent(in) :: displacement(:)
-      !! [u, w] at the end of the step: tangential displacement [m]; normal approach [m], open if not positive, or normal force [N],
-      !! >= 0.
+      !! [u, w] or [u, v, w] at the end of the step: tangential displacements [m]; normal approach [m], open if not positive, or
+      !! normal force [N], >= 0.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! [T, N] at the end of the step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)
+      !! [T, N] or [Tx, Ty, N] at the end of the step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :)
-      !! (2, 2): derivative of force component i with respect to displacement component j, consistent with the step and
-      !! one-sided at corners.
+      !! (m, m), of the size of the displacement: derivative of force component i with respect to displacement component j,
+      !! consistent with the step and one-sided at corners.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated by the step [J].
 
     integer(mslip_size) :: m
     type(c_ptr) :: ptr(2)
 
-    m = components(element)
+    m = components(element, size(displacement, kind=mslip_size))
     ptr = c_null_ptr
     status = MSLIP_OK
     if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
@@ -1674,19 +1676,19 @@ contains
     !! A sequence of steps: the displacements are applied one after the other. The state before the first step is kept.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the first step.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] at the end of each step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (m, n): [u, w] or [u, v, w] at the end of each step.
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
       !! State after the last step, of the same size; for a path in place use `mslip_element_path_advance`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
-      !! (2, n): [T, N] at the end of each step [N].
-    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each step.
+      !! (m, n): [T, N] or [Tx, Ty, N] at the end of each step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (m, m, n): the tangent of each step.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
 
     integer(mslip_size) :: m, n, length
     type(c_ptr) :: ptr(4)
 
-    m = components(element)
+    m = components(element, size(displacement, 1, mslip_size))
     n = size(displacement, 2, mslip_size)
     length = size(state_old, kind=mslip_size)
     ptr = c_null_ptr
@@ -1705,17 +1707,17 @@ contains
     !! first one.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before the first and after the last step.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] at the end of each step.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (m, n): [u, w] or [u, v, w] at the end of each step.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error; an error of one step rejects the whole path.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
-      !! (2, n): [T, N] at the end of each step [N].
-    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each step.
+      !! (m, n): [T, N] or [Tx, Ty, N] at the end of each step [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (m, m, n): the tangent of each step.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by each step [J].
 
     integer(mslip_size) :: m, n
     type(c_ptr) :: ptr(3)
 
-    m = components(element)
+    m = components(element, size(displacement, 1, mslip_size))
     n = size(displacement, 2, mslip_size)
     ptr = c_null_ptr
     status = MSLIP_OK
@@ -1728,7 +1730,8 @@ contains
   end subroutine mslip_element_path_advance
 
   subroutine mslip_element_tractions(element, state, x, status, pressure, shear)
-    !! Tractions along the width in a state; of an elliptical contact on the x axis.
+    !! Tractions along the width in a state; of an elliptical contact on the x axis. For one tangential direction
+    !! (`MSLIP_NOT_AVAILABLE`).
     type(mslip_element), intent(in) :: element  !! The element of the state.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m]; outside the contact tractions are 0.
@@ -1749,7 +1752,7 @@ contains
 
   pure function mslip_element_workspace_length(directions, harmonics, samples, rule) result(length)
     !! Length of the workspace of `mslip_element_harmonic_force`; 0 if the arguments are out of range. May dimension an array.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default and the only one.
@@ -1762,7 +1765,7 @@ contains
   subroutine mslip_element_workspace_init(directions, harmonics, samples, workspace, status, rule)
     !! Initialise a workspace of elements: tables of cosines and sines, and scratch memory. Done once; each thread needs a workspace
     !! of its own.
-    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1.
+    integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
@@ -1791,8 +1794,9 @@ contains
 
     n = size(workspace, kind=mslip_size)
     status = MSLIP_WORKSPACE_TOO_SHORT
-    ! C reads the header, which the shortest workspace contains.
-    if (n < c_element_workspace_length(1_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING)) return
+    ! C reads the header, which the shortest workspaces contain.
+    if (n < min(c_element_workspace_length(1_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING), &
+      c_element_workspace_length(2_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING))) return
     status = c_element_workspace_size(workspace, c_loc(kinds(1)), c_loc(sizes(1)), c_loc(sizes(2)), c_loc(kinds(2)))
     if (status /= MSLIP_OK) return
     if (n < c_element_workspace_length(kinds(1), sizes(1), sizes(2), kinds(2))) then
@@ -1810,14 +1814,16 @@ contains
     !! the normal force of the sample at which that is largest with no tangential displacement, is displaced to that sample at
     !! constant normal force, and advances through two periods from there; the second one counts.
     type(mslip_element), intent(in) :: element  !! An initialised element.
-    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
+      !! An initialised workspace of elements; it decides m and H, and is for the same number of directions as the element.
     real(mslip_real), intent(in) :: displacement(:)
-      !! 2(2H+1) coefficients: of the tangential displacement [m], then of the normal approach [m] or the normal force [N].
+      !! m(2H+1) coefficients: of the tangential displacements [m], then of the normal approach [m] or the normal force [N]; m = 2
+      !! for one tangential direction, 3 for two.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)
-      !! 2(2H+1) coefficients: of the tangential force, then of the normal force [N].
+      !! m(2H+1) coefficients: of the tangential forces, then of the normal force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
-      !! (2(2H+1), 2(2H+1)): derivatives of the force coefficients with respect to the displacement coefficients, exact for the
+      !! (m(2H+1), m(2H+1)): derivatives of the force coefficients with respect to the displacement coefficients, exact for the
       !! discretisation, one-sided at corners.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
 
@@ -1840,7 +1846,8 @@ contains
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
       !! (state length, n): the state of each item before the step.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] of each item at the end of the step.
+    real(mslip_real), intent(in) :: displacement(:, :)
+      !! (m, n): [u, w] or [u, v, w] of each item at the end of the step; all have elements with the same number of directions.
     real(mslip_real), intent(inout), target, contiguous :: states_new(:, :)
       !! (state length, n): the state of each item after the step; for a step in place use `mslip_batch_element_advance`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
@@ -1848,8 +1855,9 @@ contains
       !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)  !! (2, n): [T, N] of each item [N].
-    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (m, n): [T, N] or [Tx, Ty, N] of each item [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (m, m, n): the tangent of each item.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
 
     integer(mslip_size) :: length, m, n
@@ -1861,13 +1869,13 @@ contains
     n = size(displacement, 2, mslip_size)
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
-    if (any(components(elements(:min(1, size(elements)))) /= m)) status = MSLIP_BAD_ARRAY_SIZE
     if (present(active)) call check_array(active, n, ptr(2), status)
     call check_array(states_old, [length, n], ptr(3), status)
     call check_array(states_new, [length, n], ptr(4), status)
     if (present(force)) call check_array(force, [m, n], ptr(5), status)
     if (present(tangent)) call check_array(tangent, [m, m, n], ptr(6), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(7), status)
+    if (status == MSLIP_OK) call check_components(elements, m, n, index, active, status)
     if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), ptr(2), &
       length, ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7))
   end subroutine mslip_batch_element_update
@@ -1877,14 +1885,16 @@ contains
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
       !! (state length, n): the state of each item before and after the step.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2, n): [u, w] of each item at the end of the step.
+    real(mslip_real), intent(in) :: displacement(:, :)
+      !! (m, n): [u, w] or [u, v, w] of each item at the end of the step; all have elements with the same number of directions.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: an item with flag 0 is skipped, and its state and outputs keep their values. Absent: no item is skipped.
-    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)  !! (2, n): [T, N] of each item [N].
-    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (2, 2, n): the tangent of each item.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
+      !! (m, n): [T, N] or [Tx, Ty, N] of each item [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)  !! (m, m, n): the tangent of each item.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! n energies dissipated by the step [J].
 
     integer(mslip_size) :: length, m, n
@@ -1896,12 +1906,12 @@ contains
     n = size(displacement, 2, mslip_size)
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
-    if (any(components(elements(:min(1, size(elements)))) /= m)) status = MSLIP_BAD_ARRAY_SIZE
     if (present(active)) call check_array(active, n, ptr(2), status)
     call check_array(states, [length, n], ptr(3), status)
     if (present(force)) call check_array(force, [m, n], ptr(4), status)
     if (present(tangent)) call check_array(tangent, [m, m, n], ptr(5), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(6), status)
+    if (status == MSLIP_OK) call check_components(elements, m, n, index, active, status)
     if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), ptr(2), &
       length, ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
   end subroutine mslip_batch_element_advance
@@ -1910,17 +1920,18 @@ contains
     dissipated)
     !! `mslip_element_harmonic_force` of n items, with one workspace. On an error of one item none is modified.
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
-    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace of elements; it decides H.
-    real(mslip_real), intent(in) :: displacement(:, :)  !! (2(2H+1), n): coefficients of each displacement.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)
+      !! An initialised workspace of elements; it decides m and H, and is for the same number of directions as the element.
+    real(mslip_real), intent(in) :: displacement(:, :)  !! (m(2H+1), n): coefficients of each displacement.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of elements, from 1 (`MSLIP_BAD_INDEX`). Absent: `elements` has n elements, one per item.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
       !! n flags: an item with flag 0 is skipped, and its outputs keep their values. Absent: no item is skipped.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
-      !! (2(2H+1), n): coefficients of each force [N].
+      !! (m(2H+1), n): coefficients of each force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
-      !! (2(2H+1), 2(2H+1), n): the Jacobian of each item.
+      !! (m(2H+1), m(2H+1), n): the Jacobian of each item.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
       !! n energies dissipated per period [J].
 
@@ -1976,13 +1987,39 @@ contains
     table_status = merge(MSLIP_TABLE_TOO_SHORT, MSLIP_OK, size(table, kind=mslip_size) < c_stiffness_table_length())
   end function table_status
 
-  elemental function components(element) result(m)
-    ! The number of components of a displacement of an element; C rejects uninitialised elements.
+  pure function components(element, given) result(m)
+    ! The number of components of a displacement of an element; the given one if it is uninitialised, which C rejects.
     type(mslip_element), intent(in) :: element
+    integer(mslip_size), intent(in) :: given
     integer(mslip_size) :: m
 
-    m = merge(3_mslip_size, 2_mslip_size, element%directions == 2)
+    m = given
+    if (element%directions == 1) m = 2
+    if (element%directions == 2) m = 3
   end function components
+
+  subroutine check_components(elements, m, n, index, active, status)
+    ! The first active item decides for C how many components all have; if it has no element, none is read.
+    type(mslip_element), intent(in) :: elements(:)
+    integer(mslip_size), intent(in) :: m, n
+    integer(mslip_int), intent(in), optional :: index(:), active(:)
+    integer(mslip_int), intent(inout) :: status
+
+    integer(mslip_size) :: i, item
+    logical :: is_active
+
+    if (m < 2 .or. m > 3) status = MSLIP_BAD_ARRAY_SIZE
+    do i = 1, n
+      is_active = .true.
+      if (present(active)) is_active = active(i) /= 0
+      if (.not. is_active) cycle
+      item = i
+      if (present(index)) item = index(i)
+      if (item < 1 .or. item > size(elements, kind=mslip_size)) exit
+      if (components(elements(item), m) /= m) status = MSLIP_BAD_ARRAY_SIZE
+      exit
+    end do
+  end subroutine check_components
 
   subroutine count_coefficients(workspace, m, status)
     ! The number 2H+1 of coefficients of a workspace.

@@ -158,15 +158,17 @@ fn step(element: &Element, old: &[f64; HEADER], [u, v, input]: [f64; 3], wanted:
     let trial = [old_x + stiffness * (u - old_u), old_y + stiffness * (v - old_v)];
     let magnitude = trial[0].hypot(trial[1]);
     let slips = magnitude > limit;
-    let [cos, sin] = if slips { trial.map(|force| force / magnitude) } else { [0.0; 2] };
+    // Compilers evaluate quotients also if they are not used.
+    let divisor = magnitude.max(f64::MIN_POSITIVE);
+    let [cos, sin] = if slips { trial.map(|force| force / divisor) } else { [0.0; 2] };
     let [x, y] = if slips { [limit * cos, limit * sin] } else { trial };
     let mut step = Step { force: [x, y, normal.load], tangent: [0.0; 9], dissipated: 0.0 };
-    if wanted.energy && slips {
-        step.dissipated = limit * ((magnitude - limit) / stiffness);
+    if wanted.energy {
+        step.dissipated = limit * ((magnitude - limit).max(0.0) / stiffness);
     }
     if wanted.tangent {
         let slope = element.friction_coefficient * normal.load_slope;
-        let across = if slips { stiffness * (limit / magnitude) } else { stiffness };
+        let across = if slips { stiffness * (limit.min(magnitude) / divisor) } else { stiffness };
         step.tangent = [
             across * (1.0 - cos * cos),
             -across * cos * sin,

@@ -1,14 +1,14 @@
 program bad_input
-  ! Every procedure with a contact or an element, by a table: each subset of the optional outputs, arrays of wrong size, invalid
-  ! values (quiet and signalling NaN, infinities), and memory that was never initialised or truncated. Each error has its own
-  ! status and modifies no output; compiled with traps, none raises a signal.
+  ! Every procedure with a contact or an element of one and of two directions, by a table: each subset of the optional outputs,
+  ! arrays of wrong size, invalid values (quiet and signalling NaN, infinities), and memory that was never initialised or
+  ! truncated. Each error has its own status and modifies no output; compiled with traps, none raises a signal.
   use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use microslip
   use checks
   implicit none
 
-  integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, me = 2*m, bad_values = 5
+  integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, bad_values = 5
   integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4, pieces = 4
   integer(mslip_int), parameter :: one = 1
   integer(c_int64_t), parameter :: signalling(2) = [int(z'7FF0000000000001', c_int64_t), int(z'7FF4000000000000', c_int64_t)]
@@ -73,22 +73,30 @@ program bad_input
   type(mslip_element), allocatable :: elements(:)
   type(output) :: out(5)
   real(wp), allocatable :: x(:), u(:, :), state(:), states(:, :), workspace(:), table(:)
-  real(wp), allocatable :: pair(:), pairs(:, :)  ! Displacements of an element.
+  real(wp), allocatable :: vector(:), vectors(:, :)  ! Displacements of an element.
   integer(mslip_int), allocatable :: index(:), active(:)
   real(wp) :: scalar, bad(bad_values)
   integer(mslip_int) :: status
-  integer :: p
+  integer(mslip_int) :: directions  ! Of the elements.
+  integer :: p, components, me      ! Components of a displacement of an element, and their coefficients.
 
   bad(1) = ieee_value(1.0_wp, ieee_quiet_nan)
   bad(2) = ieee_value(1.0_wp, ieee_positive_inf)
   bad(3) = ieee_value(1.0_wp, ieee_negative_inf)
   bad(4:5) = transfer(signalling, bad, 2)
-  do p = 1, size(procedures)
-    call test_subsets()
-    call test_sizes()
-    call test_values()
-    call test_memory()
-    if (procedures(p)%batch) call test_batch()
+  do directions = 2, 1, -1
+    components = int(directions) + 1
+    me = components*m
+    do p = 1, size(procedures)
+      if (directions == 2 .and. (.not. procedures(p)%element .or. procedures(p)%name == 'element_tractions')) cycle
+      call test_subsets()
+      call test_sizes()
+      call test_values()
+      call test_memory()
+      if (procedures(p)%batch) call test_batch()
+    end do
+    if (directions == 1) exit
+    call test_two_directions()
   end do
   call test_parameters()
   call test_contact_check()
@@ -130,10 +138,10 @@ contains
     contacts = contacts(1)
     if (allocated(elements)) deallocate (elements)
     allocate (elements(items))
-    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, elements(1), ok)
+    call mslip_element_init(flat_parameters(), directions, MSLIP_APPROACH, elements(1), ok)
     elements = elements(1)
-    pair = [1.0e-7_wp, 2.0e-7_wp]
-    pairs = spread(pair, 2, n)
+    vector = [spread(1.0e-7_wp, 1, int(directions)), 2.0e-7_wp]
+    vectors = spread(vector, 2, n)
     scalar = 1.0e-7_wp
     x = [1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp]
     u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp], 2, items)
@@ -151,13 +159,15 @@ contains
     table = spread(0.0_wp, 1, int(mslip_stiffness_table_length()))
     call mslip_stiffness_table_init(contacts(1), table, ok)
     if (procedures(p)%element) then
-      state = spread(0.0_wp, 1, int(mslip_element_state_length(one, pieces)))
-      call mslip_element_state_init(one, state, ok)
-      call mslip_element_path_advance(elements(1), state, reshape([1.0e-8_wp, 1.0e-7_wp, 0.0_wp, 2.0e-7_wp], [2, 2]), ok)
+      state = spread(0.0_wp, 1, int(mslip_element_state_length(directions, pieces)))
+      call mslip_element_state_init(directions, state, ok)
+      call mslip_element_path_advance(elements(1), state, reshape([spread(1.0e-8_wp, 1, int(directions)), 1.0e-7_wp, &
+        spread(0.0_wp, 1, int(directions)), 2.0e-7_wp], [components, 2]), ok)
       call check_status('set up: state', ok, MSLIP_OK)
-      u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp, 2.0e-7_wp, 5.0e-8_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp], 2, items)
-      workspace = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
-      call mslip_element_workspace_init(one, h, samples, workspace, ok)
+      u = spread([reshape([real(wp) ::], [int(directions)*m], pad=[0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]), &
+        2.0e-7_wp, 5.0e-8_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp], 2, items)
+      workspace = spread(0.0_wp, 1, int(mslip_element_workspace_length(directions, h, samples)))
+      call mslip_element_workspace_init(directions, h, samples, workspace, ok)
     end if
     states = spread(state, 2, n)
     call check_status('set up', ok, MSLIP_OK)
@@ -172,10 +182,10 @@ contains
       case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
       case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
       case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
-      case ('p'); out(i)%v = spread(untouched, 1, 2)
-      case ('t'); out(i)%m = reshape([real(wp) ::], [2, 2], pad=[untouched])
-      case ('a'); out(i)%m = reshape([real(wp) ::], [2, n], pad=[untouched])
-      case ('b'); out(i)%t = reshape([real(wp) ::], [2, 2, n], pad=[untouched])
+      case ('p'); out(i)%v = spread(untouched, 1, components)
+      case ('t'); out(i)%m = reshape([real(wp) ::], [components, components], pad=[untouched])
+      case ('a'); out(i)%m = reshape([real(wp) ::], [components, n], pad=[untouched])
+      case ('b'); out(i)%t = reshape([real(wp) ::], [components, components, n], pad=[untouched])
       case ('d'); out(i)%v = spread(untouched, 1, me)
       case ('e'); out(i)%m = reshape([real(wp) ::], [me, me], pad=[untouched])
       case ('g'); out(i)%m = reshape([real(wp) ::], [me, n], pad=[untouched])
@@ -212,10 +222,10 @@ contains
     case (22); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, out(3)%v)
     case (23)
       call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (24); call mslip_element_update(elements(1), state, pair, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
-    case (25); call mslip_element_advance(elements(1), state, pair, status, out(1)%v, out(2)%m, out(3)%s)
-    case (26); call mslip_element_path(elements(1), state, pairs, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
-    case (27); call mslip_element_path_advance(elements(1), state, pairs, status, out(1)%m, out(2)%t, out(3)%v)
+    case (24); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
+    case (25); call mslip_element_advance(elements(1), state, vector, status, out(1)%v, out(2)%m, out(3)%s)
+    case (26); call mslip_element_path(elements(1), state, vectors, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
+    case (27); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
     case (28); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
     case (29); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (30); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
@@ -223,8 +233,8 @@ contains
     case (32); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (33); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
     case (34)
-      call mslip_batch_element_update(elements, states, pairs, out(5)%m, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (35); call mslip_batch_element_advance(elements, states, pairs, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+      call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, out(2)%t, out(3)%v)
+    case (35); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, out(2)%t, out(3)%v)
     case (36)
       call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
     case (37)
@@ -326,11 +336,11 @@ contains
     if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_ARRAY_SIZE)
     if (procedures(p)%element .and. procedures(p)%memory == 's' .and. procedures(p)%array == shift) then
       call set_up()
-      pair = [pair, 0.0_wp]
-      pairs = reshape([pairs], [3, n], pad=[0.0_wp])
+      vector = [vector, 0.0_wp]
+      vectors = reshape([vectors], [components + 1, n], pad=[0.0_wp])
       call rejected('components', MSLIP_BAD_ARRAY_SIZE)
-      pair = pair(:1)
-      pairs = pairs(:1, :)
+      vector = vector(:components - 1)
+      vectors = vectors(:components - 1, :)
       call rejected('components', MSLIP_BAD_ARRAY_SIZE)
     end if
     if (.not. procedures(p)%batch) return
@@ -343,7 +353,7 @@ contains
     call set_up()
     x = [x, 0.0_wp]
     u = reshape([u], shape(u) + [0, 1], pad=[0.0_wp])
-    pairs = reshape([pairs], [2, n + 1], pad=[0.0_wp])
+    vectors = reshape([vectors], [components, n + 1], pad=[0.0_wp])
     call rejected('size of the input', MSLIP_BAD_ARRAY_SIZE)
     call set_up()
     states = reshape([states], [size(states, 1), n + 1], pad=[0.0_wp])
@@ -360,8 +370,8 @@ contains
       call set_up()
       x(n) = bad(k)
       u(m, size(u, 2)) = bad(k)
-      pair(1) = bad(k)
-      pairs(1, n) = bad(k)
+      vector(components - 1) = bad(k)
+      vectors(components - 1, n) = bad(k)
       if (procedures(p)%array /= none) call rejected('array', procedures(p)%array)
       if (procedures(p)%element .and. procedures(p)%array == shift .and. procedures(p)%memory /= ' ') call test_normal_value(bad(k))
     end do
@@ -386,19 +396,19 @@ contains
     do input = 0, 1
       call set_up()
       do i = 1, size(elements)
-        call mslip_element_init(flat_parameters(), one, int(input, mslip_int), elements(i), ok)
+        call mslip_element_init(flat_parameters(), directions, int(input, mslip_int), elements(i), ok)
       end do
-      pair(2) = value
-      pairs(2, n) = value
-      u(m + 1, size(u, 2)) = value
+      vector(components) = value
+      vectors(components, n) = value
+      u(me - m + 1, size(u, 2)) = value
       if (input == MSLIP_APPROACH .or. procedures(p)%memory == 'w') then
         call rejected('a normal component', MSLIP_BAD_DISPLACEMENT)
       else
         call rejected('a normal component', MSLIP_BAD_NORMAL_FORCE)
       end if
-      pair(2) = merge(1.0_wp, -1.0_wp, input == MSLIP_APPROACH)
-      pairs(2, n) = pair(2)
-      u(m + 1, size(u, 2)) = pair(2)
+      vector(components) = merge(1.0_wp, -1.0_wp, input == MSLIP_APPROACH)
+      vectors(components, n) = vector(components)
+      u(me - m + 1, size(u, 2)) = vector(components)
       call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_APPROACH))
     end do
   end subroutine test_normal_value
@@ -461,7 +471,7 @@ contains
       call set_up()
       if (k == 1) x(n) = bad(4)
       if (k == 1) u(:, n) = bad(4)
-      if (k == 1) pairs(:, n) = bad(4)
+      if (k == 1) vectors(:, n) = bad(4)
       if (k == 2) index(n) = 0
       if (k == 3) contacts(n) = mslip_contact()
       if (k == 3) elements(n) = mslip_element()
@@ -595,22 +605,20 @@ contains
 
   subroutine test_elements()
     ! Invalid parameters, numbers of directions and normal inputs; any changed bit.
-    integer(mslip_int), parameter :: directions(5) = [0_mslip_int, -1_mslip_int, 3_mslip_int, huge(one), 2_mslip_int]
+    integer(mslip_int), parameter :: invalid(4) = [0_mslip_int, -1_mslip_int, 3_mslip_int, huge(one)]
     type(mslip_parameters) :: parameters
     type(mslip_elliptic_parameters) :: ellipse, unset
     type(mslip_element) :: element
     real(wp) :: words(storage_size(element)/64)
-    integer(mslip_int) :: expected
     integer :: i, bit, found, changed
 
     element%half_width = untouched
-    do i = 1, size(directions)
-      expected = merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, i == 5)
-      call mslip_element_init(flat_parameters(), directions(i), MSLIP_APPROACH, element, status)
-      call check_status('directions of an element', status, expected)
-      call mslip_element_init_elliptic(ellipse_parameters(), directions(i), MSLIP_APPROACH, element, status)
-      call check_status('directions of an elliptical element', status, expected)
-      call check('no state for these directions', mslip_element_state_length(directions(i), pieces) == 0)
+    do i = 1, size(invalid)
+      call mslip_element_init(flat_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call check_status('directions of an element', status, MSLIP_BAD_DIRECTIONS)
+      call mslip_element_init_elliptic(ellipse_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call check_status('directions of an elliptical element', status, MSLIP_BAD_DIRECTIONS)
+      call check('no state for these directions', mslip_element_state_length(invalid(i), pieces) == 0)
     end do
     call mslip_element_init(flat_parameters(), one, 2_mslip_int, element, status)
     call check_status('normal input of an element', status, MSLIP_BAD_NORMAL_INPUT)
@@ -658,10 +666,65 @@ contains
     call check('the check of an element finds changed bits', found == changed)
   end subroutine test_elements
 
+  subroutine test_two_directions()
+    ! Elements, states and workspaces of one direction among those of two, the tractions of two directions, and skipped items.
+    type(mslip_element) :: other
+    real(wp), allocatable :: state_of_one(:), workspace_of_one(:)
+    real(wp) :: error
+    integer :: i
+
+    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, other, status)
+    state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 100_mslip_size)))
+    call mslip_element_state_init(one, state_of_one, status)
+    workspace_of_one = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
+    call mslip_element_workspace_init(one, h, samples, workspace_of_one, status)
+    call check_status('set up: one direction', status, MSLIP_OK)
+    do i = 1, size(procedures)
+      p = i
+      if (.not. procedures(p)%element .or. procedures(p)%memory == ' ') cycle
+      call set_up()
+      if (procedures(p)%name == 'element_tractions') then
+        call rejected('two directions', MSLIP_NOT_AVAILABLE)
+        cycle
+      end if
+      elements(1) = other
+      call rejected('one direction', merge(MSLIP_BAD_DIRECTIONS, MSLIP_BAD_ARRAY_SIZE, procedures(p)%memory == 'w'))
+      if (procedures(p)%batch) then
+        active(1) = 0
+        call perform()
+        call check_status(trim(procedures(p)%name)//': the only element of one direction is skipped', status, MSLIP_OK)
+        call set_up()
+        elements(n) = other
+        call rejected('the last element has one direction', MSLIP_BAD_DIRECTIONS)
+        active = 0
+        call perform()
+        call check_status(trim(procedures(p)%name)//': all items are skipped', status, MSLIP_OK)
+      end if
+      call set_up()
+      workspace = workspace_of_one
+      if (procedures(p)%memory == 'w') call rejected('the workspace of one direction', MSLIP_BAD_ARRAY_SIZE)
+      state = state_of_one
+      states(:, n) = state_of_one(:size(states, 1))
+      if (procedures(p)%outputs(5:5) == 'N') out(5)%v = spread(untouched, 1, size(state))
+      if (procedures(p)%memory == 's') call rejected('the state of one direction', MSLIP_BAD_DIRECTIONS)
+    end do
+    error = untouched
+    state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(2_mslip_int, 0_mslip_size)))
+    call mslip_element_state_init(2_mslip_int, state_of_one, status)
+    call check_status('state of two directions', status, MSLIP_OK)
+    call mslip_element_state_check(one, state_of_one, status)
+    call check_status('check of a state of two directions as one of one', status, MSLIP_BAD_DIRECTIONS)
+    call mslip_element_state_error(one, state_of_one, error, status)
+    call check_status('error of a state of two directions as one of one', status, MSLIP_BAD_DIRECTIONS)
+    call check('no error of the other direction', is_untouched([error]))
+    call mslip_element_state_error(2_mslip_int, state_of_one, error, status)
+    call check('no error of an open contact', status == MSLIP_OK .and. error >= 0)
+  end subroutine test_two_directions
+
   subroutine test_element_state()
     real(wp), allocatable :: changed(:)
     real(wp) :: error
-    integer(mslip_int) :: directions
+    integer(mslip_int) :: invalid
     integer :: i, k
 
     p = 25
@@ -677,14 +740,13 @@ contains
       end do
     end do
     error = untouched
-    do directions = 0, 3
-      if (directions == 1) cycle
-      call mslip_element_state_init(directions, state, status)
-      call check_status('state of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
-      call mslip_element_state_check(directions, state, status)
-      call check_status('check of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
-      call mslip_element_state_error(directions, state, error, status)
-      call check_status('error of these directions', status, merge(MSLIP_NOT_AVAILABLE, MSLIP_BAD_DIRECTIONS, directions == 2))
+    do invalid = 0, 3, 3
+      call mslip_element_state_init(invalid, state, status)
+      call check_status('state of these directions', status, MSLIP_BAD_DIRECTIONS)
+      call mslip_element_state_check(invalid, state, status)
+      call check_status('check of these directions', status, MSLIP_BAD_DIRECTIONS)
+      call mslip_element_state_error(invalid, state, error, status)
+      call check_status('error of these directions', status, MSLIP_BAD_DIRECTIONS)
     end do
     call mslip_element_state_check(one, state, status)
     call check_status('check after rejected initialisations', status, MSLIP_OK)
@@ -711,8 +773,6 @@ contains
     last = size(workspace)
     call mslip_element_workspace_init(0_mslip_int, h, samples, workspace, status)
     call check_status('workspace: directions', status, MSLIP_BAD_DIRECTIONS)
-    call mslip_element_workspace_init(2_mslip_int, h, samples, workspace, status)
-    call check_status('workspace: two directions', status, MSLIP_NOT_AVAILABLE)
     call mslip_element_workspace_init(one, 0_mslip_size, samples, workspace, status)
     call check_status('workspace: no harmonics', status, MSLIP_BAD_HARMONICS)
     call mslip_element_workspace_init(one, h, 2*h, workspace, status)
@@ -735,7 +795,7 @@ contains
     call check_status('size of a truncated workspace of an element', status, MSLIP_WORKSPACE_TOO_SHORT)
     call check('rejected workspaces of an element: no size', all(found == -1) .and. all(kinds == -1))
     call check('no length for invalid sizes of an element', all([mslip_element_workspace_length(one, h, samples, 2_mslip_int), &
-      mslip_element_workspace_length(one, 0_mslip_size, samples), mslip_element_workspace_length(2_mslip_int, h, samples), &
+      mslip_element_workspace_length(one, 0_mslip_size, samples), mslip_element_workspace_length(3_mslip_int, h, samples), &
       mslip_element_workspace_length(one, -1_mslip_size, -1_mslip_size)] == 0))
   end subroutine test_element_workspace
 

@@ -33,6 +33,7 @@ program test_microslip
   call test_element_steps()
   call test_element_harmonic_force()
   call test_element_batch()
+  call test_two_directions()
   call report()
 
 contains
@@ -1054,5 +1055,92 @@ contains
     call mslip_batch_element_harmonic_force(each, workspace, coefficients, status, force=harmonic)
     call check_same('element: the last harmonic force', harmonic(:, n), one)
   end subroutine test_element_batch
+
+  subroutine test_two_directions()
+    ! Steps in place, a path and a batch have the same bits as single steps; so do batches of harmonic forces. At a constant normal
+    ! force that comes back.
+    integer, parameter :: n = 6, h = 1, m = 3*(2*h + 1)
+    integer(mslip_int), parameter :: two = 2
+    integer(mslip_size), parameter :: harmonics = h, samples = 16
+    type(mslip_element) :: element
+    type(mslip_elliptic_parameters) :: p
+    real(wp), dimension(mslip_element_state_length(two, 0_mslip_size)) :: start, state, new
+    real(wp), dimension(mslip_element_state_length(two, 0_mslip_size), n) :: states, all_states
+    real(wp) :: workspace(mslip_element_workspace_length(two, harmonics, samples))
+    real(wp) :: displacement(3, n), force(3, n), tangent(3, 3, n), dissipated(n)
+    real(wp) :: all_force(3, n), all_tangent(3, 3, n), all_dissipated(n), scattered(3, 3, n)
+    real(wp) :: coefficients(m, 2), harmonic(m, 2), jacobian(m, m, 2), energy(2), one(m), square(m, m), single, error
+    integer(mslip_size) :: found(2)
+    integer(mslip_int) :: status, kinds(2)
+    integer :: i
+
+    p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
+    call mslip_element_init_elliptic(p, two, MSLIP_NORMAL_FORCE, element, status)
+    call check_status('two directions: element', status, MSLIP_OK)
+    call check('two directions: element', element%directions == 2)
+    call mslip_element_state_init(two, start, status)
+    call check_status('two directions: state', status, MSLIP_OK)
+    displacement(1, :) = [(1.0e-7_wp*sin(1.7_wp*i), i = 1, n)]
+    displacement(2, :) = [(1.0e-7_wp*cos(1.3_wp*i), i = 1, n)]
+    displacement(3, :) = [(max(30.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, n)]
+    state = start
+    do i = 1, n
+      call mslip_element_update(element, state, displacement(:, i), new, status, force(:, i), tangent(:, :, i), dissipated(i))
+      call check_status('two directions: update', status, MSLIP_OK)
+      call mslip_element_advance(element, state, displacement(:, i), status, all_force(:, i), all_tangent(:, :, i), &
+        all_dissipated(i))
+      call check_status('two directions: step in place', status, MSLIP_OK)
+      call mslip_element_state_check(two, state, status)
+      call check_status('two directions: check of a state', status, MSLIP_OK)
+    end do
+    call check_same('two directions: step in place', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
+    call check_same('two directions: the given normal force', force(3, :), displacement(3, :))
+    call check_same('two directions: dN/dN', tangent(3, 3, n:n), [merge(1.0_wp, 0.0_wp, displacement(3, n) > 0)])
+    call check('two directions: Coulomb', all(hypot(force(1, :), force(2, :)) <= 0.5_wp*force(3, :)*(1 + 1.0e-12_wp)))
+    call mslip_element_state_error(two, state, error, status)
+    call check('two directions: a bound on the error', status == MSLIP_OK .and. error >= 0)
+    call mslip_element_path(element, start, displacement, new, status, all_force, all_tangent, all_dissipated)
+    call check_status('two directions: path', status, MSLIP_OK)
+    call check_same('two directions: path', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
+    scattered = untouched
+    scattered(2, :, :) = displacement
+    state = start
+    call mslip_element_path_advance(element, state, scattered(2, :, :), status, force=scattered(1, :, :))
+    call check_status('two directions: path in place, sections', status, MSLIP_OK)
+    call check_same('two directions: path in place, sections', [scattered(1, :, :)], [force])
+
+    ! Each displacement as the first step of an item, with one element for all.
+    states = spread(start, 2, n)
+    call mslip_batch_element_update([element], states, displacement, all_states, status, spread(1_mslip_int, 1, n), &
+      force=all_force, tangent=all_tangent, dissipated=all_dissipated)
+    call check_status('two directions: batch', status, MSLIP_OK)
+    do i = 1, n
+      state = start
+      call mslip_element_advance(element, state, displacement(:, i), status, force(:, i), tangent(:, :, i), dissipated(i))
+      call mslip_element_state_check(two, all_states(:, i), status)
+      call check_status('two directions: states of a batch', status, MSLIP_OK)
+    end do
+    call check_same('two directions: batch', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
+    call mslip_batch_element_advance(spread(element, 1, n), states, displacement, status, force=all_force)
+    call check_status('two directions: batch in place', status, MSLIP_OK)
+    call check_same('two directions: batch in place', [all_force], [force])
+
+    call mslip_element_workspace_init(two, harmonics, samples, workspace, status)
+    call check_status('two directions: workspace', status, MSLIP_OK)
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
+    call check('two directions: size of a workspace', all(found == [harmonics, samples]) .and. &
+      all(kinds == [two, MSLIP_UNIFORM_SAMPLING]))
+    coefficients(:, 1) = [0.0_wp, 1.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 5.0e-8_wp, 30.0_wp, 0.0_wp, 0.0_wp]
+    coefficients(:, 2) = [0.0_wp, 2.0e-7_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 10.0_wp, 5.0_wp]
+    call mslip_batch_element_harmonic_force(spread(element, 1, 2), workspace, coefficients, status, force=harmonic, &
+      jacobian=jacobian, dissipated=energy)
+    call check_status('two directions: batch of harmonic forces', status, MSLIP_OK)
+    do i = 1, 2
+      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single)
+      call check_status('two directions: harmonic force', status, MSLIP_OK)
+      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i)], [one, [square], single])
+      call check('two directions: normal force', all(abs(one(7:9) - coefficients(7:9, i)) <= 1.0e-12_wp*30))
+    end do
+  end subroutine test_two_directions
 
 end program test_microslip
