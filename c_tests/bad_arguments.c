@@ -112,19 +112,20 @@ static void set_parameters(int shape)
     memcpy(parameter(shape, 0), IS_ROUNDED(shape) ? (const void *)&p : (const void *)&e, shapes[shape].bytes);
 }
 
-/* The normal input of elements, by turns. */
+/* The variants of elements, by turns. */
 static int32_t init(int shape)
 {
-    static int32_t normal_input = MSLIP_APPROACH;
+    static int variant = 0;
     mslip_contact *contact = last(contact_region, sizeof *contact);
     mslip_element *element = last(element_region, sizeof *element);
     void *p = parameter(shape, 0);
-    normal_input = MSLIP_APPROACH + MSLIP_NORMAL_FORCE - normal_input;
+    variant = (variant + 1) % VARIANTS;
+    const int32_t directions = directions_of(variant), normal_input = normal_input_of(variant);
     switch (shape) {
         case ROUNDED: return mslip_contact_init(p, contact);
         case ELLIPTIC: return mslip_contact_init_elliptic(p, contact);
-        case ROUNDED_ELEMENT: return mslip_element_init(p, 1, normal_input, element);
-        default: return mslip_element_init_elliptic(p, 1, normal_input, element);
+        case ROUNDED_ELEMENT: return mslip_element_init(p, directions, normal_input, element);
+        default: return mslip_element_init_elliptic(p, directions, normal_input, element);
     }
 }
 
@@ -156,21 +157,25 @@ static int is_possible_element(const mslip_element *e)
 {
     const double values[] = { e->composite_modulus, e->normal_force, e->half_width, e->approach, e->normal_stiffness,
                               e->tangential_stiffness };
-    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE, m = e->directions + 1;
     double state[STATE], force[COMPONENTS], tangent[TANGENT], dissipated;
-    int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && e->directions == 1;
+    int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && (m == 2 || m == 3);
     for (size_t i = 0; i < LENGTH(values); ++i) {
         holds &= isfinite(values[i]) && values[i] > 0.0;
     }
-    holds &= mslip_element_check(e) == MSLIP_OK && mslip_element_state_init(1, STATE, state) == MSLIP_OK;
+    holds &= mslip_element_check(e) == MSLIP_OK && mslip_element_state_init(e->directions, STATE, state) == MSLIP_OK;
     for (int i = 0; i < 4; ++i) {
         const double parts[4] = { 0.3, 1.0, 0.7, 1e-6 }, part = parts[i];
         const double shift = part * e->approach * fmin(e->friction_coefficient, 1.0);
-        const double step[COMPONENTS] = { i % 2 ? shift : -shift, part * (by_force ? e->normal_force : e->approach) };
+        const double u = i % 2 ? shift : -shift, w = part * (by_force ? e->normal_force : e->approach);
+        const double step[COMPONENTS] = { u, m == 2 ? w : 0.5 * u, w };
         holds &= mslip_element_update(e, STATE, state, step, state, force, tangent, &dissipated) == MSLIP_OK;
-        holds &= force[1] > 0.0 && force[1] <= e->normal_force * (1.0 + 1e-13);
-        holds &= fabs(force[0]) <= e->friction_coefficient * force[1] * (1.0 + DBL_EPSILON);
-        holds &= isfinite(tangent[0]) && isfinite(tangent[2]) && tangent[3] > 0.0 && isfinite(tangent[3]);
+        const double normal = force[m - 1], tangential = m == 2 ? fabs(force[0]) : hypot(force[0], force[1]);
+        holds &= normal > 0.0 && normal <= e->normal_force * (1.0 + 1e-13);
+        holds &= tangential <= e->friction_coefficient * normal * (1.0 + (m == 2 ? DBL_EPSILON : 1e-12));
+        for (int k = 0; k < m * m; ++k) {
+            holds &= isfinite(tangent[k]) && (k % m < m - 1 || (tangent[k] > 0.0) == (k == m * m - 1));
+        }
         holds &= isfinite(dissipated) && dissipated >= 0.0;
     }
     return holds;
@@ -315,8 +320,8 @@ static void test_element_init(void)
         { -1, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
         { INT32_MAX, 7, MSLIP_BAD_DIRECTIONS },
         { INT32_MIN, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
-        { 2, MSLIP_APPROACH, MSLIP_NOT_AVAILABLE },
-        { 2, MSLIP_NORMAL_FORCE, MSLIP_NOT_AVAILABLE },
+        { 2, 2, MSLIP_BAD_NORMAL_INPUT },
+        { 2, -1, MSLIP_BAD_NORMAL_INPUT },
         { 1, 2, MSLIP_BAD_NORMAL_INPUT },
         { 1, -1, MSLIP_BAD_NORMAL_INPUT },
         { 1, INT32_MAX, MSLIP_BAD_NORMAL_INPUT },
@@ -688,11 +693,11 @@ static void test_state_functions(void)
     check_rejected(mslip_contact_check(misaligned(CONTACTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_contact_check", "contact");
 }
 
-static void test_element_state_functions(void)
+static void test_element_state_functions(int32_t of_element)
 {
     static const char *const names[] = { "mslip_element_state_init", "mslip_element_state_check", "mslip_element_state_error" };
-    static const int32_t directions[] = { 0, 2, 3, -1, INT32_MAX, INT32_MIN };
-    const function *f = find("mslip_element_update", MSLIP_APPROACH);
+    static const int32_t directions[] = { 0, 3, -1, INT32_MAX, INT32_MIN };
+    const function *f = find("mslip_element_update", of_element == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
     const size_t least = least_state(f), used = used_state(f);
     double *state, *error;
     set_up(f);
@@ -706,30 +711,31 @@ static void test_element_state_functions(void)
      : i == 1 ? mslip_element_state_check(directions, length, state) \
               : mslip_element_state_error(directions, length, state, error))
         for (size_t k = 0; k < LENGTH(directions); ++k) {
-            const int32_t status = directions[k] == 2 ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_DIRECTIONS;
-            check_rejected(ELEMENT_STATE_CALL(directions[k], STATE, state), status, names[i], "directions");
+            check_rejected(ELEMENT_STATE_CALL(directions[k], STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "directions");
             CHECK(mslip_element_state_length(directions[k], (size_t)k) == 0);
         }
-        check_rejected(ELEMENT_STATE_CALL(1, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(1, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(1, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(1, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        check_rejected(ELEMENT_STATE_CALL(1, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        check_rejected(ELEMENT_STATE_CALL(of_element, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(of_element, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(of_element, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(of_element, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        check_rejected(ELEMENT_STATE_CALL(of_element, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
         for (size_t length = 0; length < (i == 0 ? least : used); ++length) {
             const int32_t status = length < least ? MSLIP_STATE_TOO_SHORT : MSLIP_BAD_STATE;
-            check_rejected(ELEMENT_STATE_CALL(1, length, state), status, names[i], "state_length");
+            check_rejected(ELEMENT_STATE_CALL(of_element, length, state), status, names[i], "state_length");
         }
         if (i > 0) {
             double *uninitialised = (double *)(void *)out_regions[4]->start;
-            check_rejected(ELEMENT_STATE_CALL(1, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
-            CHECK(ELEMENT_STATE_CALL(1, STATE, state) == MSLIP_OK);
+            check_rejected(ELEMENT_STATE_CALL(of_element, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
+            check_rejected(ELEMENT_STATE_CALL(3 - of_element, STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "the other directions");
+            CHECK(ELEMENT_STATE_CALL(of_element, STATE, state) == MSLIP_OK);
         }
     }
-    CHECK(*error == 0.0 && mslip_element_state_error(1, STATE, state, NULL) == MSLIP_OK && raised() == 0);
+    CHECK(*error >= 0.0 && mslip_element_state_error(of_element, STATE, state, NULL) == MSLIP_OK && raised() == 0);
     save_regions();
-    check_rejected(mslip_element_state_error(1, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "force_error");
+    check_rejected(mslip_element_state_error(of_element, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "force_error");
     CHECK(mslip_element_state_length(1, SIZE_MAX) == SIZE_MAX && mslip_element_state_length(1, SIZE_MAX / 4) == SIZE_MAX);
     CHECK(mslip_element_state_length(1, 0) == mslip_element_state_length(1, 4));
+    CHECK(mslip_element_state_length(2, 0) > 0 && mslip_element_state_length(2, SIZE_MAX) == mslip_element_state_length(2, 0));
 
     CHECK(mslip_element_check(ELEMENTS) == MSLIP_OK);
     check_rejected(mslip_element_check(NULL), MSLIP_NULL_POINTER, "mslip_element_check", "element");
@@ -811,11 +817,11 @@ static void test_workspace_init(void)
     }
 }
 
-static void test_element_workspace(void)
+static void test_element_workspace(int32_t of_element)
 {
     static const char init_name[] = "mslip_element_workspace_init", size_name[] = "mslip_element_workspace_size";
     enum { MOST = 1 << 24 };
-    static const struct {
+    const struct {
         int32_t directions;
         size_t harmonics, samples;
         int32_t rule, status;
@@ -823,23 +829,22 @@ static void test_element_workspace(void)
         { 0, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
         { 3, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
         { INT32_MIN, 0, 0, 7, MSLIP_BAD_DIRECTIONS },
-        { 2, 2, 16, 0, MSLIP_NOT_AVAILABLE },
-        { 1, 2, 16, MSLIP_EVENT_DRIVEN, MSLIP_NOT_AVAILABLE },
-        { 1, 2, 16, 2, MSLIP_BAD_RULE },
-        { 1, 2, 16, -1, MSLIP_BAD_RULE },
-        { 1, 2, 16, INT32_MAX, MSLIP_BAD_RULE },
-        { 1, 0, 16, 0, MSLIP_BAD_HARMONICS },
-        { 1, 0, 0, 0, MSLIP_BAD_HARMONICS },
-        { 1, MOST + 1, SIZE_MAX, 0, MSLIP_BAD_HARMONICS },
-        { 1, SIZE_MAX / 2 + 1, 1, 0, MSLIP_BAD_HARMONICS },
-        { 1, 2, 4, 0, MSLIP_BAD_SAMPLES },
-        { 1, MOST, MOST, 0, MSLIP_BAD_SAMPLES },
-        { 1, 2, MOST + 1, 0, MSLIP_BAD_SAMPLES },
-        { 1, 2, SIZE_MAX, 0, MSLIP_BAD_SAMPLES },
-        { 1, MOST / 2 - 1, MOST, 0, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
-        { 1, 2, 16, 0, MSLIP_WORKSPACE_TOO_SHORT },
+        { of_element, 2, 16, MSLIP_EVENT_DRIVEN, MSLIP_NOT_AVAILABLE },
+        { of_element, 2, 16, 2, MSLIP_BAD_RULE },
+        { of_element, 2, 16, -1, MSLIP_BAD_RULE },
+        { of_element, 2, 16, INT32_MAX, MSLIP_BAD_RULE },
+        { of_element, 0, 16, 0, MSLIP_BAD_HARMONICS },
+        { of_element, 0, 0, 0, MSLIP_BAD_HARMONICS },
+        { of_element, MOST + 1, SIZE_MAX, 0, MSLIP_BAD_HARMONICS },
+        { of_element, SIZE_MAX / 2 + 1, 1, 0, MSLIP_BAD_HARMONICS },
+        { of_element, 2, 4, 0, MSLIP_BAD_SAMPLES },
+        { of_element, MOST, MOST, 0, MSLIP_BAD_SAMPLES },
+        { of_element, 2, MOST + 1, 0, MSLIP_BAD_SAMPLES },
+        { of_element, 2, SIZE_MAX, 0, MSLIP_BAD_SAMPLES },
+        { of_element, MOST / 2 - 1, MOST, 0, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
+        { of_element, 2, 16, 0, MSLIP_WORKSPACE_TOO_SHORT },
     };
-    const function *f = find("mslip_element_harmonic_force", MSLIP_APPROACH);
+    const function *f = find("mslip_element_harmonic_force", of_element == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
     size_t harmonics = 0, samples = 0;
     int32_t directions = -1, rule = -1;
     set_up(f);
@@ -855,14 +860,14 @@ static void test_element_workspace(void)
                            rows[i].status, init_name, "any");
         }
     }
-    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, init_name, "length");
-    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, NULL), MSLIP_NULL_POINTER, init_name, "workspace");
+    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, init_name, "length");
+    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, 1000, NULL), MSLIP_NULL_POINTER, init_name, "workspace");
     double *const bad = misaligned(memory, 8);
-    check_rejected(mslip_element_workspace_init(1, 2, 16, 0, 1000, bad), MSLIP_BAD_ALIGNMENT, init_name, "workspace");
+    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, 1000, bad), MSLIP_BAD_ALIGNMENT, init_name, "workspace");
 
     CHECK(mslip_element_workspace_size(memory, NULL, NULL, NULL, NULL) == MSLIP_OK);
     CHECK(mslip_element_workspace_size(memory, &directions, &harmonics, &samples, &rule) == MSLIP_OK);
-    CHECK(directions == 1 && harmonics == HARMONICS && samples == SAMPLES && rule == MSLIP_UNIFORM_SAMPLING);
+    CHECK(directions == of_element && harmonics == HARMONICS && samples == SAMPLES && rule == MSLIP_UNIFORM_SAMPLING);
     harmonics = samples = 7;
     directions = rule = 7;
     for (int i = 0; i < 7; ++i) {
@@ -886,6 +891,7 @@ static void test_element_workspace(void)
     double header[2];
     set_up(f);
     memcpy(header, call.workspace, sizeof header);
+    call.workspace = (double *)(void *)workspace_region->start;
     init_workspace(other, 1, 8, workspace_length_of(other, 1, 8), call.workspace);
     rejected(f, MSLIP_BAD_WORKSPACE, "the workspace of a contact");
     CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
@@ -900,13 +906,13 @@ static void test_normal_motions(const function *f)
 {
     static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
     const size_t items = items_of(f);
-    const int by_force = f->rule == MSLIP_NORMAL_FORCE;
+    const int by_force = normal_input_of(f->rule) == MSLIP_NORMAL_FORCE;
     for (size_t k = 0; k < LENGTH(sizes); ++k) {
         for (int shape = 0; shape < 4; ++shape) {
             set_up(f);
             for (size_t i = 0; i < items * COEFFICIENTS; ++i) {
-                const size_t place = i / COEFFICIENTS * ALL_COEFFICIENTS + COEFFICIENTS + i % COEFFICIENTS;
-                const double swing = shape == 0 ? 0.0 : shape == 1 ? 1.0 : shape == 2 ? 2.0 : -1.0;
+                const size_t place = ((i / COEFFICIENTS + 1) * components_of(f) - 1) * COEFFICIENTS + i % COEFFICIENTS;
+                const double swing = shape == 0 ? 0.0 : shape == 1 ? 1.0 : shape == 2 ? 3.0 : -1.0;
                 INPUT[place] *= sizes[k] * (i % COEFFICIENTS == 0 ? 1.0 : swing);
             }
             if (by_force && shape == 2 && sizes[k] > 1e-300) {
@@ -1001,6 +1007,62 @@ static void test_other_contacts(void)
     }
 }
 
+/* Elements, states and workspaces with different numbers of directions, and the tractions of two. */
+static void test_two_directions(void)
+{
+    static double pressure[ITEMS], shear[ITEMS];
+    for (int i = 0; i < FUNCTIONS; ++i) {
+        const function *f = &functions[i];
+        const int other = (f->rule + TWO_DIRECTIONS) % VARIANTS;
+        if (!(f->takes & IS_ELEMENT) || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE))) {
+            continue;
+        }
+        const int has_none = strcmp(f->name, "mslip_element_tractions") == 0;
+        for (size_t item = 0; item < items_of(f); ++item) {
+            set_up(f);
+            ELEMENTS[item] = *element_of(FLAT, other);
+            rejected(f, has_none ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_DIRECTIONS, "an element with other directions");
+            if (f->takes & IS_BATCH) {
+                ACTIVE[item] = 0;
+                accepted_except(f, item, "the element with other directions is skipped");
+                INDICES[item] = (int32_t)(item + 1) % ITEMS;
+                ACTIVE[item] = 1;
+                accepted(f, "the element with other directions is not used");
+            }
+            if (f->takes & TAKES_STATE) {
+                set_up(f);
+                CHECK(mslip_element_state_init(directions_of(other), STATE, STATES + item * STATE) == MSLIP_OK);
+                rejected(f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
+            }
+        }
+        if (f->takes & TAKES_WORKSPACE) {
+            set_up(f);
+            call.workspace = (double *)(void *)workspace_region->start;
+            CHECK(mslip_element_workspace_init(directions_of(other), 1, 8, 0, workspace_region->bytes / 8, call.workspace)
+                  == MSLIP_OK);
+            rejected(f, MSLIP_BAD_DIRECTIONS, "a workspace with other directions");
+        }
+        if (f->takes & IS_BATCH) {
+            set_up(f);
+            for (size_t item = 0; item < ITEMS; ++item) {
+                ELEMENTS[item] = *element_of(FLAT, other);
+            }
+            rejected(f, MSLIP_BAD_DIRECTIONS, "elements with other directions");
+            memset(ACTIVE, 0, ITEMS * sizeof(int32_t));
+            save_regions();
+            CHECK(f->call() == MSLIP_OK && raised() == 0 && nothing_changed_but(workspace_region));
+        }
+    }
+    for (int variant = TWO_DIRECTIONS; variant < VARIANTS; ++variant) {
+        const double x[ITEMS] = { 0.0 };
+        set_up(find("mslip_element_update", variant));
+        save_regions();
+        check_rejected(mslip_element_tractions(call.elements, STATE, call.state, ITEMS, x, pressure, shear), MSLIP_NOT_AVAILABLE,
+                       "mslip_element_tractions", "two directions");
+        CHECK(pressure[0] == 0.0 && shear[0] == 0.0);
+    }
+}
+
 int main(int argc, char **argv)
 {
     check_arguments(argc, argv);
@@ -1034,11 +1096,14 @@ int main(int argc, char **argv)
         }
     }
     test_state_functions();
-    test_element_state_functions();
+    test_element_state_functions(1);
+    test_element_state_functions(2);
     test_workspace_size(MSLIP_UNIFORM_SAMPLING);
     test_workspace_size(MSLIP_EVENT_DRIVEN);
     test_workspace_init();
-    test_element_workspace();
+    test_element_workspace(1);
+    test_element_workspace(2);
+    test_two_directions();
     test_table();
     test_other_contacts();
     test_statuses();

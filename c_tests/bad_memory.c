@@ -75,21 +75,22 @@ static void tag_bits_are_rejected(const function *f, void *tag, uint64_t bits, i
     }
 }
 
-/* One bit of a contact's tag is the geometry, two of an element's that and the normal input, one of a workspace's the rule. */
+/* One bit of a contact's tag is the geometry, three of an element's that, the normal input and the directions, one of a workspace's the
+   rule. */
 static void test_tags(const function *f)
 {
     set_up(f);
     for (size_t i = 0; i < items_of(f); ++i) {
-        const uint64_t bits = UINT64_MAX - (f->takes & IS_ELEMENT ? 3 : 1);
+        const uint64_t bits = UINT64_MAX - (f->takes & IS_ELEMENT ? 7 : 1);
         tag_bits_are_rejected(f, (double *)law_at(f, i) + tag_of_law(f), bits, status_of_law(f), "the tag of a contact or element");
     }
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
         const uint64_t most = f->takes & IS_ELEMENT ? PIECES + 1 : REVERSALS;
-        const uint64_t counts[] = { most + 1, 100, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
+        const uint64_t counts[] = { most + 1, 200, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
         double *state = STATES + i * STATE;
         const uint64_t tag = get_word(state, 0);
         tag_bits_are_rejected(f, state, kind_and_layout, MSLIP_BAD_STATE, "the tag of a state");
-        for (size_t k = 0; k < LENGTH(counts); ++k) {
+        for (size_t k = 0; directions_for(f) == 1 && k < LENGTH(counts); ++k) {
             set_word(state, 0, (tag & kind_and_layout) | counts[k]);
             rejected(f, MSLIP_BAD_STATE, "more reversals or knots than the length holds");
         }
@@ -118,10 +119,11 @@ static void test_tags(const function *f)
     }
 }
 
-/* A buffer of another kind, and random bytes. */
+/* The beginning of a buffer of another kind, and random bytes. */
+enum { COPIED = 40 };
 static void test_other_buffers(const function *f)
 {
-    double state[STATE];
+    double state[COPIED];
     set_up(find(f->takes & IS_ELEMENT ? "mslip_masing_update" : "mslip_element_update", 0));
     memcpy(state, STATES, sizeof state);
     set_up(f);
@@ -135,7 +137,7 @@ static void test_other_buffers(const function *f)
     if (f->takes & TAKES_STATE) {
         memcpy(STATES, state, sizeof state);
         rejected(f, MSLIP_BAD_STATE, "the state of an element as that of a contact, or the reverse");
-        memcpy(STATES, (double *)law_at(f, 0) + tag_of_law(f), STATE * sizeof(double));
+        memcpy(STATES, (double *)law_at(f, 0) + tag_of_law(f), COPIED * sizeof(double));
         rejected(f, MSLIP_BAD_STATE, "a contact or element as state");
     }
     if (f->takes & TAKES_WORKSPACE) {
@@ -145,7 +147,7 @@ static void test_other_buffers(const function *f)
     if (f->takes & TAKES_TABLE) {
         memcpy(call.table, state, sizeof state);
         rejected(f, MSLIP_BAD_TABLE, "a state as table");
-        memcpy(call.table, (double *)law_at(f, 0) + tag_of_law(f), STATE * sizeof(double));
+        memcpy(call.table, (double *)law_at(f, 0) + tag_of_law(f), COPIED * sizeof(double));
         rejected(f, MSLIP_BAD_TABLE, "a contact as table");
     }
     set_up(f);
@@ -162,7 +164,7 @@ static void test_element_check(void)
 {
     static mslip_element element;
     for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-        const mslip_element *valid = element_of(input == MSLIP_APPROACH ? FLAT : ELLIPSE, input);
+        const mslip_element *valid = input == MSLIP_APPROACH ? element_of(FLAT, input) : element_of(ELLIPSE, TWO_DIRECTIONS + input);
         const mslip_element *other = element_of(CYLINDER, input);
         int found = 0;
         element = *valid;
@@ -222,7 +224,8 @@ static void check_finds(size_t i, double value, const char *what)
 {
     const double valid = STATES[i];
     memcpy(&STATES[i], &value, sizeof value);
-    if (!CHECK((call.elements != NULL ? mslip_element_state_check(1, STATE, STATES) : mslip_state_check(STATE, STATES))
+    if (!CHECK((call.elements != NULL ? mslip_element_state_check(call.elements->directions, STATE, STATES)
+                                      : mslip_state_check(STATE, STATES))
                == MSLIP_BAD_STATE)) {
         printf("    %s: element %d, %g\n", what, (int)i, value);
     }
@@ -273,22 +276,24 @@ static void test_state_check(void)
 static void test_element_state_check(void)
 {
     enum { FIRST = 8, PER_KNOT = 4, LAST = FIRST + PER_KNOT * USED_PIECES };
-    for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-        const function *f = find("mslip_element_update", input);
+    for (int variant = 0; variant < VARIANTS; ++variant) {
+        const function *f = find("mslip_element_update", variant);
+        const int32_t input = normal_input_of(variant), directions = directions_of(variant);
         for (int kind = 0; kind < KINDS; ++kind) {
-            const mslip_element *element = element_of(kind, input);
+            const mslip_element *element = element_of(kind, variant);
             const double largest = input == MSLIP_APPROACH ? element->approach : element->normal_force;
             set_up(f);
-            CHECK(mslip_element_state_init(1, STATE, STATES) == MSLIP_OK);
-            CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK);
+            CHECK(mslip_element_state_init(directions, STATE, STATES) == MSLIP_OK);
+            CHECK(mslip_element_state_check(directions, STATE, STATES) == MSLIP_OK);
             for (int i = 0; i < 3000; ++i) {
                 const double u = (double)(random_bits() % 1000) / 500 - 1.0, w = (double)(random_bits() % 1000) / 800 - 0.1;
                 const double part = i % 100 < 30 ? 0.03 : 1.0; /* many pieces, or gross slip */
                 const double normal = largest * (input == MSLIP_NORMAL_FORCE ? fmax(w, 0.0) : w);
-                const double step[] = { part * u * element->approach, normal };
+                const double tangential = part * u * element->approach, across = part * element->approach * (w - 0.5);
+                const double step[] = { tangential, directions == 1 ? normal : across, normal };
                 CHECK(mslip_element_update(element, STATE, STATES, step, STATES, NULL, NULL, NULL) == MSLIP_OK);
-                if (!CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK)) {
-                    printf("    element %d, input %d, step %d\n", kind, input, i);
+                if (!CHECK(mslip_element_state_check(directions, STATE, STATES) == MSLIP_OK)) {
+                    printf("    element %d, variant %d, step %d\n", kind, variant, i);
                 }
             }
         }
@@ -298,18 +303,20 @@ static void test_element_state_check(void)
                 check_finds(i, from_bits(non_finite[k]), "not finite");
             }
         }
-        for (size_t i = 3; i < FIRST; ++i) {
+        for (size_t i = 3; directions == 1 && i < FIRST; ++i) {
             check_finds(i, -1e-3, "negative");
         }
-        for (size_t i = FIRST; i < LAST; i += PER_KNOT) {
+        for (size_t i = FIRST; directions == 1 && i < LAST; i += PER_KNOT) {
             check_finds(i, -1.0, "a size that decreases");
             check_finds(i + 1, 1.0, "a size that decreases");
             check_finds(i + 2, -1.0, "a negative force");
         }
-        check_finds(1, 1.0, "a displacement outside of the last knot");
-        check_finds(3, 1e-6 * STATES[3], "less than the last knot");
+        if (directions == 1) {
+            check_finds(1, 1.0, "a displacement outside of the last knot");
+            check_finds(3, 1e-6 * STATES[3], "less than the last knot");
+        }
         memset(&STATES[used_state(f)], 0xff, (STATE - used_state(f)) * sizeof(double));
-        CHECK(mslip_element_state_check(1, STATE, STATES) == MSLIP_OK && raised() == 0);
+        CHECK(mslip_element_state_check(directions, STATE, STATES) == MSLIP_OK && raised() == 0);
     }
 }
 
@@ -366,10 +373,11 @@ static void test_copies(const function *f)
         CHECK(scratch > 0 && same_bits(workspace, call.workspace, 2));
         CHECK(f->call() == MSLIP_OK && raised() == 0 && same_outputs_from(0));
         /* A longer workspace may be used for fewer harmonics. */
-        const size_t one = f->takes & IS_ELEMENT ? 3 * COMPONENTS : 3, lengths[3] = { 0, one * items, one * one * items };
+        const size_t one = f->takes & IS_ELEMENT ? 3 * components_of(f) : 3, lengths[3] = { 0, one * items, one * one * items };
         init_workspace(f, 1, 12, length, call.workspace);
         for (size_t i = 0; (f->takes & IS_ELEMENT) && i < f->inputs; ++i) {
-            INPUT[i] = valid_value(i % 6 < 3 ? DISPLACEMENT : APPROACH_COEFFICIENT + f->rule, i % 6 == 3 ? 0 : 1, 0.0);
+            const int normal = APPROACH_COEFFICIENT + normal_input_of(f->rule);
+            INPUT[i] = valid_value(i % one < one - 3 ? DISPLACEMENT : normal, i % one == one - 3 ? 0 : 1, 0.0);
         }
         CHECK(f->call() == MSLIP_OK && raised() == 0);
         for (int i = 1; i < 3; ++i) {
@@ -433,13 +441,16 @@ static void test_arbitrary_bytes(const function *f, int times)
         /* First with this contact or element, then with a valid one. */
         for (int valid = 0; (f->takes & TAKES_STATE) && valid < 2; ++valid) {
             double *state = STATES + random_bits() % items_of(f) * STATE;
-            set_word(state, 0, (get_word(state, 0) & kind_and_layout) | random_bits() % (REVERSALS + 1));
+            const uint64_t count = random_bits() % (REVERSALS + 1);
+            if (directions_for(f) == 1) {
+                set_word(state, 0, (get_word(state, 0) & kind_and_layout) | count);
+            }
             scatter(state, 1, STATE - 1);
             returns(f);
             mslip_state_check(STATE, state);
             mslip_state_error(STATE, state, call.out[1]);
-            mslip_element_state_check(1, STATE, state);
-            mslip_element_state_error(1, STATE, state, call.out[1]);
+            mslip_element_state_check(directions_for(f), STATE, state);
+            mslip_element_state_error(directions_for(f), STATE, state, call.out[1]);
             set_up(f);
         }
         if (f->takes & TAKES_WORKSPACE) {

@@ -73,27 +73,40 @@ static inline mslip_contact contact_of(int kind)
     return contacts[kind];
 }
 
-static inline void init_element(int kind, int32_t normal_input, mslip_element *element)
+/* Variants of elements: the normal inputs, with one direction and with two. */
+enum { VARIANTS = 4, TWO_DIRECTIONS = 2 };
+static inline int32_t normal_input_of(int variant)
 {
+    return variant % 2;
+}
+
+static inline int32_t directions_of(int variant)
+{
+    return 1 + variant / TWO_DIRECTIONS;
+}
+
+static inline void init_element(int kind, int variant, mslip_element *element)
+{
+    const int32_t directions = directions_of(variant), normal_input = normal_input_of(variant);
     mslip_parameters p = flat_parameters();
     mslip_elliptic_parameters e = elliptic_parameters();
     p.flat_half_width *= kind != CYLINDER;
     p.friction_coefficient *= kind != FRICTIONLESS;
     p.displacement_reference = kind == OPEN ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
-    CHECK((kind == ELLIPSE ? mslip_element_init_elliptic(&e, 1, normal_input, element)
-                           : mslip_element_init(&p, 1, normal_input, element)) == MSLIP_OK);
+    CHECK((kind == ELLIPSE ? mslip_element_init_elliptic(&e, directions, normal_input, element)
+                           : mslip_element_init(&p, directions, normal_input, element)) == MSLIP_OK);
 }
 
 /* The element as initialised by the first call. */
-static inline const mslip_element *element_of(int kind, int32_t normal_input)
+static inline const mslip_element *element_of(int kind, int variant)
 {
-    static mslip_element elements[KINDS][2];
-    static int is_initialised[KINDS][2];
-    if (!is_initialised[kind][normal_input]) {
-        init_element(kind, normal_input, &elements[kind][normal_input]);
-        is_initialised[kind][normal_input] = 1;
+    static mslip_element elements[KINDS][VARIANTS];
+    static int is_initialised[KINDS][VARIANTS];
+    if (!is_initialised[kind][variant]) {
+        init_element(kind, variant, &elements[kind][variant]);
+        is_initialised[kind][variant] = 1;
     }
-    return &elements[kind][normal_input];
+    return &elements[kind][variant];
 }
 
 static inline int same_bits(const double *p, const double *q, size_t n)
@@ -215,10 +228,11 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
 }
 
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
-enum { COMPONENTS = 2, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
+/* The largest numbers of components of a displacement, and of coefficients. */
+enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
 /* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
-enum { REVERSALS = 12, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 7, USED_PIECES = 5 };
+enum { REVERSALS = 100, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 73, USED_PIECES = 5 };
 
 /* Quantities, and the status of one that is not finite. */
 enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE, APPROACH_COEFFICIENT,
@@ -283,7 +297,7 @@ typedef struct {
     const char *name;
     int32_t (*call)(void);
     int takes;
-    int rule;            /* of the workspace; normal input of the elements */
+    int rule;            /* of the workspace; variant of the elements */
     int scalar;          /* quantity passed by value */
     int kind;            /* quantity of the input array; the tangential one of the displacements of an element */
     size_t inputs;       /* its length */
@@ -295,20 +309,21 @@ typedef struct {
     { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
     { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
       { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
-#define ELEMENT(input) \
-    { FUNCTION(normal_force), IS_ELEMENT | TAKES_COUNT, input, NONE, APPROACH, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
-    { FUNCTION(normal_approach), IS_ELEMENT | TAKES_COUNT, input, NONE, NORMAL_FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
-    { FUNCTION(element_update), IS_ELEMENT | TAKES_STATE, input, NONE, DISPLACEMENT, COMPONENTS, \
-      { STATE, COMPONENTS, TANGENT, 1 } }, \
-    { FUNCTION(element_path), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, input, NONE, DISPLACEMENT, ITEMS * COMPONENTS, \
-      { STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
-    { FUNCTION(element_tractions), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, input, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } }, \
-    { FUNCTION(batch_element_update), IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, input, NONE, DISPLACEMENT, \
-      ITEMS * COMPONENTS, { ITEMS * STATE, ITEMS * COMPONENTS, ITEMS * TANGENT, ITEMS } }, \
-    { FUNCTION(element_harmonic_force), IS_ELEMENT | TAKES_WORKSPACE, input, NONE, DISPLACEMENT, ALL_COEFFICIENTS, \
-      { 0, ALL_COEFFICIENTS, ELEMENT_SQUARE, 1 } }, \
-    { FUNCTION(batch_element_harmonic_force), IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, input, NONE, DISPLACEMENT, \
-      ITEMS * ALL_COEFFICIENTS, { 0, ITEMS * ALL_COEFFICIENTS, ITEMS * ELEMENT_SQUARE, ITEMS } }
+/* A variant of elements with m components. */
+#define ELEMENT(variant, m) \
+    { FUNCTION(normal_force), IS_ELEMENT | TAKES_COUNT, variant, NONE, APPROACH, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
+    { FUNCTION(normal_approach), IS_ELEMENT | TAKES_COUNT, variant, NONE, NORMAL_FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
+    { FUNCTION(element_update), IS_ELEMENT | TAKES_STATE, variant, NONE, DISPLACEMENT, m, { STATE, m, (m) * (m), 1 } }, \
+    { FUNCTION(element_path), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, variant, NONE, DISPLACEMENT, ITEMS * (m), \
+      { STATE, ITEMS * (m), ITEMS * (m) * (m), ITEMS } }, \
+    { FUNCTION(batch_element_update), IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, variant, NONE, DISPLACEMENT, \
+      ITEMS * (m), { ITEMS * STATE, ITEMS * (m), ITEMS * (m) * (m), ITEMS } }, \
+    { FUNCTION(element_harmonic_force), IS_ELEMENT | TAKES_WORKSPACE, variant, NONE, DISPLACEMENT, (m) * COEFFICIENTS, \
+      { 0, (m) * COEFFICIENTS, (m) * (m) * SQUARE, 1 } }, \
+    { FUNCTION(batch_element_harmonic_force), IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, variant, NONE, DISPLACEMENT, \
+      ITEMS * (m) * COEFFICIENTS, { 0, ITEMS * (m) * COEFFICIENTS, ITEMS * (m) * (m) * SQUARE, ITEMS } }
+#define ELEMENT_TRACTIONS(variant) \
+    { FUNCTION(element_tractions), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, variant, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } }
 static const function functions[] = {
     { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
     { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
@@ -329,8 +344,12 @@ static const function functions[] = {
       { ITEMS * STATE, ITEMS, ITEMS, ITEMS } },
     HARMONIC(MSLIP_UNIFORM_SAMPLING),
     HARMONIC(MSLIP_EVENT_DRIVEN),
-    ELEMENT(MSLIP_APPROACH),
-    ELEMENT(MSLIP_NORMAL_FORCE),
+    ELEMENT(MSLIP_APPROACH, 2),
+    ELEMENT_TRACTIONS(MSLIP_APPROACH),
+    ELEMENT(MSLIP_NORMAL_FORCE, 2),
+    ELEMENT_TRACTIONS(MSLIP_NORMAL_FORCE),
+    ELEMENT(TWO_DIRECTIONS + MSLIP_APPROACH, 3),
+    ELEMENT(TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, 3),
 };
 enum { FUNCTIONS = LENGTH(functions) };
 
@@ -350,20 +369,31 @@ static inline size_t items_of(const function *f)
     return f->takes & IS_BATCH ? ITEMS : 1;
 }
 
+/* Directions of a function's elements, and components of a displacement. */
+static inline int32_t directions_for(const function *f)
+{
+    return directions_of(f->rule);
+}
+
+static inline size_t components_of(const function *f)
+{
+    return (size_t)directions_for(f) + 1;
+}
+
 static region *contact_region, *element_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
 static region *table_region, *out_regions[OUTPUTS];
 
 /* The workspace of a function: an element has uniform sampling only. */
 static inline size_t workspace_length_of(const function *f, size_t harmonics, size_t samples)
 {
-    return f->takes & IS_ELEMENT ? mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING)
+    return f->takes & IS_ELEMENT ? mslip_element_workspace_length(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING)
                                  : mslip_harmonic_workspace_length(harmonics, samples, f->rule);
 }
 
 static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
 {
     CHECK((f->takes & IS_ELEMENT
-               ? mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
                : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
 }
 
@@ -426,31 +456,36 @@ static inline void set_law(const function *f, size_t i, int kind)
     }
 }
 
-/* The quantity of input i: displacements of an element and their coefficients are tangential and normal by turns. */
+/* The quantity of input i: displacements of an element and their coefficients are normal after one or two tangential ones. */
 static inline int kind_of_input(const function *f, size_t i)
 {
     const size_t share = f->takes & TAKES_WORKSPACE ? COEFFICIENTS : 1;
     const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
-    const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % COMPONENTS == 1;
-    return !is_normal ? f->kind : f->rule == MSLIP_APPROACH ? normal : normal + 1;
+    const size_t m = components_of(f);
+    const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % m == m - 1;
+    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_APPROACH ? normal : normal + 1;
 }
 
 /* Lengths of the shortest state, and of one for the reversals or pieces in use. */
 static inline size_t least_state(const function *f)
 {
-    return f->takes & IS_ELEMENT ? mslip_element_state_length(1, 0) : mslip_state_length(0);
+    return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), 0) : mslip_state_length(0);
 }
 
 static inline size_t used_state(const function *f)
 {
-    return f->takes & IS_ELEMENT ? mslip_element_state_length(1, USED_PIECES) : mslip_state_length(USED);
+    return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), USED_PIECES) : mslip_state_length(USED);
 }
 
-/* Doubles of a state that a step writes: all, for an element those in use, 8 and 4 for each knot, whose number is in the tag. */
+/* Doubles of a state that a step writes: all, for an element those in use, with one direction 8 and 4 for each knot, whose number is
+   in the tag. */
 static inline size_t written_state(const function *f, const double *state)
 {
     uint64_t tag;
     memcpy(&tag, state, sizeof tag);
+    if ((f->takes & IS_ELEMENT) && directions_for(f) == 2) {
+        return least_state(f);
+    }
     return f->takes & IS_ELEMENT ? 8 + 4 * (size_t)(tag & 0xff) : STATE;
 }
 
@@ -473,10 +508,11 @@ static inline double decaying(int reversals)
 static inline void fill_element_state(const mslip_element *element, double *state)
 {
     const int by_force = element->normal_input == MSLIP_NORMAL_FORCE;
-    CHECK(mslip_element_state_init(1, STATE, state) == MSLIP_OK);
+    CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
     for (int k = 0; k < USED_PIECES; ++k) {
         const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);
-        const double step[COMPONENTS] = { u, (by_force ? element->normal_force : element->approach) * (0.1 + 0.15 * k) };
+        const double w = (by_force ? element->normal_force : element->approach) * (0.1 + 0.15 * k);
+        const double step[COMPONENTS] = { u, element->directions == 1 ? w : 0.7 * u, w };
         CHECK(mslip_element_update(element, STATE, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
     }
 }

@@ -3,14 +3,14 @@
  *     element [--trap] [DIRECTORY]
  *
  * Then what the tables do not cover: mirrored motions, tables for much larger and much smaller loads, restarts, states of any
- * length, separation, loads that vanish or are the largest for the length, merged pieces, tractions. */
+ * length, separation, loads that vanish or are the largest for the length, merged pieces, two directions, tractions. */
 #include "table.h"
 
 #include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MOST_STEPS = 128, PIECES = 64, STATE = 8 + 4 * (PIECES + 1) };
+enum { MOST_STEPS = 128, PIECES = 64, STATE = 8 + 4 * (PIECES + 1), LONGEST = 300 };
 
 static const double PI = 3.14159265358979323846;
 
@@ -285,12 +285,12 @@ static void check_normal_law(void)
 
 /* Cylinder, flats of a/b = 0.5 and 0.97, sphere. */
 enum { SPHERE = 3, KINDS };
-static void init_kind(int kind, double friction_coefficient, int32_t normal_input, mslip_element *element)
+static void init_kind_of(int kind, double friction_coefficient, int32_t directions, int32_t normal_input, mslip_element *element)
 {
     static const double flats[] = { 0.0, 6e-5, 5e-4 };
     if (kind == SPHERE) {
         const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } } };
-        CHECK(mslip_element_init_elliptic(&p, 1, normal_input, element) == MSLIP_OK);
+        CHECK(mslip_element_init_elliptic(&p, directions, normal_input, element) == MSLIP_OK);
     } else {
         mslip_parameters p;
         mslip_parameters_default(&p);
@@ -301,8 +301,13 @@ static void init_kind(int kind, double friction_coefficient, int32_t normal_inpu
         p.friction_coefficient = friction_coefficient;
         p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
         p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.3;
-        CHECK(mslip_element_init(&p, 1, normal_input, element) == MSLIP_OK);
+        CHECK(mslip_element_init(&p, directions, normal_input, element) == MSLIP_OK);
     }
+}
+
+static void init_kind(int kind, double friction_coefficient, int32_t normal_input, mslip_element *element)
+{
+    init_kind_of(kind, friction_coefficient, 1, normal_input, element);
 }
 
 /* One step in place. */
@@ -463,6 +468,90 @@ static void test_merged_pieces(void)
     }
 }
 
+/* Steps of two directions: a first contact off the centre, microslip, reversals, gross slip in two directions, separation. */
+enum { STEPS_OF_TWO = 10 };
+static const double steps_of_two[STEPS_OF_TWO][3] = {
+    { 0.05, -0.02, 0.0 }, { 0.1, 0.02, 0.4 }, { 0.3, -0.1, 0.7 }, { 0.1, -0.2, 0.9 }, { 0.2, -0.2, 0.9 },
+    { 20.0, 15.0, 0.6 },  { 19.0, 16.0, 0.8 }, { 0.0, 0.0, 0.0 },  { -0.2, 0.1, 0.5 }, { -0.2, 0.1, 0.5 },
+};
+
+/* Two directions: single steps, steps in place, steps and paths whose state is discarded, paths and batches have the same bits, also
+   if fewer outputs are requested. Coulomb's law, the normal law and the signs of the energies hold. */
+static void test_two_directions(void)
+{
+    static mslip_element element;
+    static double old[LONGEST], state[LONGEST], other[LONGEST], states[2 * LONGEST];
+    const size_t length = mslip_element_state_length(2, 0);
+    CHECK(length > 0 && length <= LONGEST && mslip_element_state_length(2, 1000) == length);
+    for (int kind = 0; kind < KINDS; ++kind) {
+        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+            double path[STEPS_OF_TWO][3], forces[STEPS_OF_TWO][3], tangents[STEPS_OF_TWO][9], energies[STEPS_OF_TWO];
+            double all_forces[STEPS_OF_TWO][3], all_tangents[STEPS_OF_TWO][9], all_energies[STEPS_OF_TWO];
+            init_kind_of(kind, 0.5, 2, input, &element);
+            CHECK(element.directions == 2 && mslip_element_check(&element) == MSLIP_OK);
+            CHECK(mslip_element_state_init(2, LONGEST, old) == MSLIP_OK && mslip_element_state_check(2, LONGEST, old) == MSLIP_OK);
+            memcpy(state, old, sizeof state);
+            memcpy(other, old, sizeof other);
+            for (int i = 0; i < STEPS_OF_TWO; ++i) {
+                double force[3], tangent[9], energy, normal[2];
+                const double *s = steps_of_two[i], unit = 400.0 / element.tangential_stiffness;
+                path[i][0] = unit * s[0];
+                path[i][1] = unit * s[1];
+                path[i][2] = s[2] * (input == MSLIP_NORMAL_FORCE ? 800.0 : element.approach);
+                /* The state is discarded; with a new state; in place, with all outputs and with none. */
+                CHECK(mslip_element_update(&element, length, state, path[i], NULL, force, tangent, &energy) == MSLIP_OK);
+                memcpy(states, state, sizeof state);
+                CHECK(mslip_element_update(&element, length, state, path[i], other, forces[i], tangents[i], &energies[i])
+                      == MSLIP_OK);
+                CHECK(same(state, states, LONGEST) && same(force, forces[i], 3) && same(tangent, tangents[i], 9));
+                CHECK(energy == energies[i] && mslip_element_state_check(2, length, other) == MSLIP_OK);
+                CHECK(mslip_element_update(&element, length, state, path[i], state, force, NULL, NULL) == MSLIP_OK);
+                CHECK(same(state, other, length) && same(force, forces[i], 3));
+                CHECK(mslip_element_update(&element, length, states, path[i], states, NULL, tangent, NULL) == MSLIP_OK);
+                CHECK(same(states, other, length) && same(tangent, tangents[i], 9));
+                CHECK(hypot(force[0], force[1]) <= 0.5 * force[2] * (1.0 + 1e-12) && energy >= 0.0 && isfinite(energy));
+                if (input == MSLIP_APPROACH) {
+                    CHECK(mslip_normal_force(&element, 1, &path[i][2], &normal[0], &normal[1], NULL) == MSLIP_OK);
+                } else {
+                    normal[0] = path[i][2];
+                    normal[1] = normal[0] > 0.0;
+                }
+                CHECK(force[2] == normal[0] && (path[i][2] == 0.0 || tangent[8] == normal[1]));
+                CHECK(tangent[2] == 0.0 && tangent[5] == 0.0 && (force[2] > 0.0 || (force[0] == 0.0 && force[1] == 0.0)));
+            }
+            /* Far in gross slip the force has the direction of slip. */
+            CHECK_NEAR(forces[5][0], 0.5 * forces[5][2] * 0.8, 0.02 * 400.0);
+            CHECK_NEAR(forces[5][1], 0.5 * forces[5][2] * 0.6, 0.02 * 400.0);
+            CHECK(energies[5] > 0.0);
+            /* Paths: with a new state, in two parts in place, and with the state discarded. */
+            for (int discarded = 0; discarded < 2; ++discarded) {
+                memset(other, 0xff, sizeof other);
+                CHECK(mslip_element_path(&element, length, old, STEPS_OF_TWO, path[0], discarded ? NULL : other, all_forces[0],
+                                         all_tangents[0], all_energies) == MSLIP_OK);
+                CHECK(same(all_forces, forces, 3 * STEPS_OF_TWO) && same(all_tangents, tangents, 9 * STEPS_OF_TWO));
+                CHECK(same(all_energies, energies, STEPS_OF_TWO) && (discarded || same(other, state, length)));
+            }
+            memcpy(other, old, sizeof other);
+            CHECK(mslip_element_path(&element, length, other, 4, path[0], other, all_forces[0], NULL, NULL) == MSLIP_OK);
+            CHECK(mslip_element_path(&element, length, other, STEPS_OF_TWO - 4, path[4], other, all_forces[4], NULL, NULL) == MSLIP_OK);
+            CHECK(same(all_forces, forces, 3 * STEPS_OF_TWO) && same(other, state, length));
+            /* A batch with another motion, and a longer state. */
+            memcpy(states, old, sizeof old);
+            memcpy(states + LONGEST, old, sizeof old);
+            for (int i = 0; i < STEPS_OF_TWO; ++i) {
+                static const int32_t index[2] = { 0, 0 };
+                double both[2][3], force[2][3], tangent[2][9], energy[2];
+                memcpy(both[0], path[STEPS_OF_TWO - 1 - i], sizeof both[0]);
+                memcpy(both[1], path[i], sizeof both[1]);
+                CHECK(mslip_batch_element_update(2, 1, &element, index, NULL, LONGEST, states, both[0], states, force[0], tangent[0],
+                                                 energy) == MSLIP_OK);
+                CHECK(same(force[1], forces[i], 3) && same(tangent[1], tangents[i], 9) && energy[1] == energies[i]);
+            }
+            CHECK(same(states + LONGEST, state, length));
+        }
+    }
+}
+
 /* The tractions of a line contact obey Coulomb's law and carry the forces. */
 static void test_tractions(void)
 {
@@ -508,6 +597,7 @@ int main(int argc, char **argv)
     test_largest_load();
     test_frictionless();
     test_merged_pieces();
+    test_two_directions();
     test_tractions();
     return check_report();
 }

@@ -75,18 +75,18 @@ static mslip_contact contact_in_environment(int kind)
     return contact;
 }
 
-static mslip_element elements_in_environment[CONTACT_KINDS][2];
+static mslip_element elements_in_environment[CONTACT_KINDS][VARIANTS];
 
 static void init_elements(void)
 {
     for (int kind = 0; kind < CONTACT_KINDS; ++kind) {
         const mslip_parameters p = parameters_of(kind);
-        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-            mslip_element *element = &elements_in_environment[kind][input];
+        for (int variant = 0; variant < VARIANTS; ++variant) {
+            mslip_element *element = &elements_in_environment[kind][variant];
             if (kind < KINDS) {
-                init_element(kind, input, element);
+                init_element(kind, variant, element);
             } else {
-                CHECK(mslip_element_init(&p, 1, input, element) == MSLIP_OK);
+                CHECK(mslip_element_init(&p, directions_of(variant), normal_input_of(variant), element) == MSLIP_OK);
             }
         }
     }
@@ -214,6 +214,12 @@ static double usual_size(const function *f, int output, const double *value, siz
     return usual;
 }
 
+/* Of two directions only forces: at the onset of slip rounding decides on which side a one-sided tangent is, and whether energy is dissipated. */
+static int is_compared(const function *f, int output)
+{
+    return !(f->takes & IS_ELEMENT) || directions_for(f) == 1 || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE)) || output == 1;
+}
+
 /* Every result is compared with that of the default environment, except for subnormal amplitudes if these are flushed. */
 static void compare(int environment)
 {
@@ -230,7 +236,7 @@ static void compare(int environment)
                     const size_t n = f->out[k];
                     const double usual = usual_size(f, k, first - factor * all, all, n, factor);
                     const double scale = fmax(largest(value, n), usual), off = distance(value, other, n);
-                    if ((factor > 0 || environments[environment].flushing == 0) &&
+                    if ((factor > 0 || environments[environment].flushing == 0) && is_compared(f, k) &&
                         !CHECK(off <= tolerance(f, k, factor) * scale)) {
                         printf("    %s, %s: contact %d, factor %g, output %d: %.2g of %.2g\n", f->name,
                                environments[environment].name, kind, factors[factor], k, off, scale);
@@ -360,10 +366,10 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
             CHECK(status == MSLIP_LENGTH_TOO_SHORT && margins[m] < 1e-12);
             continue;
         }
-        static mslip_element elements[2];
+        static mslip_element elements[VARIANTS];
         int32_t element_status = MSLIP_OK;
-        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-            element_status = mslip_element_init(&p, 1, input, &elements[input]);
+        for (int variant = 0; variant < VARIANTS; ++variant) {
+            element_status = mslip_element_init(&p, directions_of(variant), normal_input_of(variant), &elements[variant]);
             check_environment(environment, "mslip_element_init", control);
             /* At the onset of its last stable size an element has no room. */
             CHECK(element_status == MSLIP_OK || (element_status == MSLIP_LENGTH_TOO_SHORT && margins[m] < 0.1));
@@ -391,7 +397,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                 call.scalar = f->scalar == NONE ? 0.0 : value;
                 for (size_t k = 0; k < f->inputs; ++k) {
                     const int kind = kind_of_input(f, k);
-                    const int alternates = f->kind == DISPLACEMENT && (f->takes & IS_ELEMENT ? k / 2 : k) % 2 == 1;
+                    const int alternates = f->kind == DISPLACEMENT && (f->takes & IS_ELEMENT ? k / components_of(f) : k) % 2 == 1;
                     INPUT[k] = kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
                     if (kind >= APPROACH) {
                         /* Up to the load of the parameters. */

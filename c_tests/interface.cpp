@@ -86,31 +86,40 @@ std::vector<double> results_of(const mslip_contact &contact, double *workspace)
     return results;
 }
 
-std::vector<double> element_workspace()
+std::vector<double> element_workspace(std::int32_t directions)
 {
-    std::vector<double> values(mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
-    accept(mslip_element_workspace_init(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING, values.size(), values.data()));
+    std::vector<double> values(mslip_element_workspace_length(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
+    accept(mslip_element_workspace_init(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING, values.size(), values.data()));
     return values;
 }
 
+// One thread's workspaces of elements with one direction and with two.
+struct ElementWorkspaces {
+    std::vector<double> values[2] = { element_workspace(1), element_workspace(2) };
+};
+
 // The results of an element with the parameters of a contact: path, new state, harmonic force and Jacobian.
-std::vector<double> results_of(const mslip_element &element, double *workspace)
+std::vector<double> results_of(const mslip_element &element, ElementWorkspaces &workspaces)
 {
-    constexpr std::size_t all = 2 * coefficients, pieces = 32;
-    std::vector<double> path(2 * steps), state(mslip_element_state_length(1, pieces)), displacement(all, 0.02 * element.approach);
+    constexpr std::size_t pieces = 32;
+    const std::size_t m = static_cast<std::size_t>(element.directions) + 1, all = m * coefficients;
+    std::vector<double> path(m * steps), state(mslip_element_state_length(element.directions, pieces)),
+        displacement(all, 0.02 * element.approach);
     for (std::size_t i = 0; i < steps; ++i) {
         const double t = static_cast<double>(i);
-        path[2 * i] = element.approach * std::sin(0.3 * t) * std::cos(0.011 * t * t);
-        path[2 * i + 1] = element.approach * (0.6 + 0.7 * std::cos(0.2 * t)); // opens
+        path[m * i] = element.approach * std::sin(0.3 * t) * std::cos(0.011 * t * t);
+        path[m * i + m - 2] += 0.2 * element.approach * std::sin(0.17 * t);
+        path[m * i + m - 1] = element.approach * (0.6 + 0.7 * std::cos(0.2 * t)); // opens
     }
     displacement[1] = 0.3 * element.approach;
-    displacement[coefficients] = 0.5 * element.approach;
-    std::vector<double> results(7 * steps + all + all * all + 1);
-    double *tangent = &results[2 * steps], *energy = tangent + 4 * steps, *force = energy + steps, *jacobian = force + all;
-    accept(mslip_element_state_init(1, state.size(), state.data()));
+    displacement[all - coefficients] = 0.5 * element.approach;
+    std::vector<double> results((m + m * m + 1) * steps + all + all * all + 1);
+    double *tangent = &results[m * steps], *energy = tangent + m * m * steps, *force = energy + steps, *jacobian = force + all;
+    accept(mslip_element_state_init(element.directions, state.size(), state.data()));
     accept(mslip_element_path(&element, state.size(), state.data(), steps, path.data(), state.data(), results.data(), tangent,
                               energy));
-    accept(mslip_element_harmonic_force(&element, workspace, displacement.data(), force, jacobian, jacobian + all * all));
+    accept(mslip_element_harmonic_force(&element, workspaces.values[m - 2].data(), displacement.data(), force, jacobian,
+                                        jacobian + all * all));
     results.insert(results.end(), state.begin(), state.end());
     return results;
 }
@@ -127,23 +136,23 @@ void test_threads()
     std::vector<mslip_element> elements(contacts);
     std::vector<std::vector<double>> alone, elements_alone, together(contacts), elements_together(contacts);
     Workspace workspace;
-    std::vector<double> of_elements = element_workspace();
+    ElementWorkspaces of_elements;
 
     for (std::size_t i = 0; i < contacts; ++i) {
         const mslip_parameters p = parameters_of(i);
         shared.push_back(initialised(i));
         alone.push_back(results_of(shared.back(), workspace.data()));
-        accept(mslip_element_init(&p, 1, MSLIP_APPROACH, &elements[i]));
-        elements_alone.push_back(results_of(elements[i], of_elements.data()));
+        accept(mslip_element_init(&p, 1 + static_cast<std::int32_t>(i % 2), MSLIP_APPROACH, &elements[i]));
+        elements_alone.push_back(results_of(elements[i], of_elements));
     }
     std::vector<std::thread> pool;
     for (std::size_t first = 0; first < threads; ++first) {
         pool.emplace_back([&shared, &elements, &together, &elements_together, first] {
             Workspace own;
-            std::vector<double> own_of_elements = element_workspace();
+            ElementWorkspaces own_of_elements;
             for (std::size_t i = first; i < contacts; i += threads) {
                 together[i] = results_of(shared[i], own.data());
-                elements_together[i] = results_of(elements[i], own_of_elements.data());
+                elements_together[i] = results_of(elements[i], own_of_elements);
             }
         });
     }

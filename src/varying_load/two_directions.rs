@@ -284,8 +284,18 @@ pub mod harmonic_force {
         /// # Errors
         /// Those of [`harmonic_force`].
         pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
-            let (size, coefficients) = (self.size, self.coefficients());
             check_coefficients(displacement)?;
+            let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
+            let mean = input.first().copied().unwrap_or(0.0);
+            let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+            if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+                return Ok(());
+            }
+            self.synthesise(element, displacement)
+        }
+
+        fn synthesise(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+            let (size, coefficients) = (self.size, self.coefficients());
             let input = displacement.get(2 * coefficients..).unwrap_or(&[]);
             let rounding = 8.0 * f64::EPSILON * input.iter().map(|value| value.abs()).sum::<f64>();
             for (index, sample) in self.samples.iter_mut().enumerate() {
@@ -335,7 +345,8 @@ pub mod harmonic_force {
         if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
             return Err(Error::BadArraySize);
         }
-        workspace.check(element, displacement)?;
+        check_coefficients(displacement)?;
+        workspace.synthesise(element, displacement)?;
         let mut state = [0.0; LENGTH];
         state_init(&mut state)?;
         let wanted = Wanted { tangent: true, energy: true };

@@ -441,7 +441,7 @@ impl Memory {
             Function::Lengths(directions, pieces, samples, rule) => {
                 let [pieces, samples] = [pieces, samples].map(|value| (value >> (value % 64)) as usize);
                 let length = mslip_element_state_length(directions % 3, pieces);
-                assert!((length > 0) == (directions % 3 == 1));
+                assert!((length > 0) == matches!(directions % 3, 1 | 2));
                 let length = mslip_element_workspace_length(directions % 3, pieces, samples, rule % 3);
                 assert!(length == 0 || (pieces > 0 && samples / 2 >= pieces));
             }
