@@ -693,11 +693,11 @@ static void test_state_functions(void)
     check_rejected(mslip_contact_check(misaligned(CONTACTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_contact_check", "contact");
 }
 
-static void test_element_state_functions(int32_t of_element)
+static void test_element_state_functions(int32_t own)
 {
     static const char *const names[] = { "mslip_element_state_init", "mslip_element_state_check", "mslip_element_state_error" };
     static const int32_t directions[] = { 0, 3, -1, INT32_MAX, INT32_MIN };
-    const function *f = find("mslip_element_update", of_element == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
+    const function *f = find("mslip_element_update", own == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
     const size_t least = least_state(f), used = used_state(f);
     double *state, *error;
     set_up(f);
@@ -714,25 +714,25 @@ static void test_element_state_functions(int32_t of_element)
             check_rejected(ELEMENT_STATE_CALL(directions[k], STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "directions");
             CHECK(mslip_element_state_length(directions[k], (size_t)k) == 0);
         }
-        check_rejected(ELEMENT_STATE_CALL(of_element, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(of_element, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(of_element, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(of_element, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        check_rejected(ELEMENT_STATE_CALL(of_element, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        check_rejected(ELEMENT_STATE_CALL(own, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(own, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(own, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
+        check_rejected(ELEMENT_STATE_CALL(own, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
+        check_rejected(ELEMENT_STATE_CALL(own, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
         for (size_t length = 0; length < (i == 0 ? least : used); ++length) {
             const int32_t status = length < least ? MSLIP_STATE_TOO_SHORT : MSLIP_BAD_STATE;
-            check_rejected(ELEMENT_STATE_CALL(of_element, length, state), status, names[i], "state_length");
+            check_rejected(ELEMENT_STATE_CALL(own, length, state), status, names[i], "state_length");
         }
         if (i > 0) {
             double *uninitialised = (double *)(void *)out_regions[4]->start;
-            check_rejected(ELEMENT_STATE_CALL(of_element, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
-            check_rejected(ELEMENT_STATE_CALL(3 - of_element, STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "the other directions");
-            CHECK(ELEMENT_STATE_CALL(of_element, STATE, state) == MSLIP_OK);
+            check_rejected(ELEMENT_STATE_CALL(own, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
+            check_rejected(ELEMENT_STATE_CALL(3 - own, STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "other directions");
+            CHECK(ELEMENT_STATE_CALL(own, STATE, state) == MSLIP_OK);
         }
     }
-    CHECK(*error >= 0.0 && mslip_element_state_error(of_element, STATE, state, NULL) == MSLIP_OK && raised() == 0);
+    CHECK(*error >= 0.0 && mslip_element_state_error(own, STATE, state, NULL) == MSLIP_OK && raised() == 0);
     save_regions();
-    check_rejected(mslip_element_state_error(of_element, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "force_error");
+    check_rejected(mslip_element_state_error(own, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "error");
     CHECK(mslip_element_state_length(1, SIZE_MAX) == SIZE_MAX && mslip_element_state_length(1, SIZE_MAX / 4) == SIZE_MAX);
     CHECK(mslip_element_state_length(1, 0) == mslip_element_state_length(1, 4));
     CHECK(mslip_element_state_length(2, 0) > 0 && mslip_element_state_length(2, SIZE_MAX) == mslip_element_state_length(2, 0));

@@ -75,8 +75,8 @@ static void tag_bits_are_rejected(const function *f, void *tag, uint64_t bits, i
     }
 }
 
-/* One bit of a contact's tag is the geometry, three of an element's that, the normal input and the directions, one of a workspace's the
-   rule. */
+/* One bit of a contact's tag is the geometry, three of an element's that, the normal input and the directions, one of a workspace's
+   the rule. */
 static void test_tags(const function *f)
 {
     set_up(f);
@@ -164,7 +164,8 @@ static void test_element_check(void)
 {
     static mslip_element element;
     for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-        const mslip_element *valid = input == MSLIP_APPROACH ? element_of(FLAT, input) : element_of(ELLIPSE, TWO_DIRECTIONS + input);
+        const int by_approach = input == MSLIP_APPROACH;
+        const mslip_element *valid = by_approach ? element_of(FLAT, input) : element_of(ELLIPSE, TWO_DIRECTIONS + input);
         const mslip_element *other = element_of(CYLINDER, input);
         int found = 0;
         element = *valid;

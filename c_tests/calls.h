@@ -477,8 +477,8 @@ static inline size_t used_state(const function *f)
     return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), USED_PIECES) : mslip_state_length(USED);
 }
 
-/* Doubles of a state that a step writes: all, for an element those in use, with one direction 8 and 4 for each knot, whose number is
-   in the tag. */
+/* Doubles of a state that a step writes: all, for an element those in use, with one direction 8 and 4 for each knot, whose number
+   is in the tag. */
 static inline size_t written_state(const function *f, const double *state)
 {
     uint64_t tag;

@@ -475,8 +475,8 @@ static const double steps_of_two[STEPS_OF_TWO][3] = {
     { 20.0, 15.0, 0.6 },  { 19.0, 16.0, 0.8 }, { 0.0, 0.0, 0.0 },  { -0.2, 0.1, 0.5 }, { -0.2, 0.1, 0.5 },
 };
 
-/* Two directions: single steps, steps in place, steps and paths whose state is discarded, paths and batches have the same bits, also
-   if fewer outputs are requested. Coulomb's law, the normal law and the signs of the energies hold. */
+/* Two directions: single steps, steps in place, steps and paths whose state is discarded, paths and batches have the same bits,
+   also if fewer outputs are requested. Coulomb's law, the normal law and the signs of the energies hold. */
 static void test_two_directions(void)
 {
     static mslip_element element;
@@ -533,7 +533,8 @@ static void test_two_directions(void)
             }
             memcpy(other, old, sizeof other);
             CHECK(mslip_element_path(&element, length, other, 4, path[0], other, all_forces[0], NULL, NULL) == MSLIP_OK);
-            CHECK(mslip_element_path(&element, length, other, STEPS_OF_TWO - 4, path[4], other, all_forces[4], NULL, NULL) == MSLIP_OK);
+            CHECK(mslip_element_path(&element, length, other, STEPS_OF_TWO - 4, path[4], other, all_forces[4], NULL, NULL)
+                  == MSLIP_OK);
             CHECK(same(all_forces, forces, 3 * STEPS_OF_TWO) && same(other, state, length));
             /* A batch with another motion, and a longer state. */
             memcpy(states, old, sizeof old);
@@ -543,8 +544,8 @@ static void test_two_directions(void)
                 double both[2][3], force[2][3], tangent[2][9], energy[2];
                 memcpy(both[0], path[STEPS_OF_TWO - 1 - i], sizeof both[0]);
                 memcpy(both[1], path[i], sizeof both[1]);
-                CHECK(mslip_batch_element_update(2, 1, &element, index, NULL, LONGEST, states, both[0], states, force[0], tangent[0],
-                                                 energy) == MSLIP_OK);
+                CHECK(mslip_batch_element_update(2, 1, &element, index, NULL, LONGEST, states, both[0], states, force[0],
+                                                 tangent[0], energy) == MSLIP_OK);
                 CHECK(same(force[1], forces[i], 3) && same(tangent[1], tangents[i], 9) && energy[1] == energies[i]);
             }
             CHECK(same(states + LONGEST, state, length));

@@ -214,7 +214,8 @@ static double usual_size(const function *f, int output, const double *value, siz
     return usual;
 }
 
-/* Of two directions only forces: at the onset of slip rounding decides on which side a one-sided tangent is, and whether energy is dissipated. */
+/* Of two directions only forces: at the onset of slip rounding decides on which side a one-sided tangent is, and whether energy is
+   dissipated. */
 static int is_compared(const function *f, int output)
 {
     return !(f->takes & IS_ELEMENT) || directions_for(f) == 1 || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE)) || output == 1;

@@ -2,11 +2,11 @@
 #include "calls.h"
 
 /* A state of few reversals. */
-enum { FEW_REVERSALS = 12, SHORT_STATE = 5 + 3 * FEW_REVERSALS };
+enum { FEW_REVERSALS = 12, SHORT = 5 + 3 * FEW_REVERSALS };
 
 static void start(double *state)
 {
-    CHECK(mslip_state_init(SHORT_STATE, state) == MSLIP_OK);
+    CHECK(mslip_state_init(SHORT, state) == MSLIP_OK);
 }
 
 /* Advances a state in place; the force. */
@@ -19,7 +19,7 @@ static double advance(const mslip_contact *contact, size_t length, double *state
 
 static double step(const mslip_contact *contact, double *state, double displacement)
 {
-    return advance(contact, SHORT_STATE, state, displacement);
+    return advance(contact, SHORT, state, displacement);
 }
 
 static double monotonic(const mslip_contact *contact, double displacement)
@@ -31,14 +31,14 @@ static double monotonic(const mslip_contact *contact, double displacement)
 
 static void test_state(void)
 {
-    double state[SHORT_STATE + 1];
-    CHECK(mslip_state_length(FEW_REVERSALS) == SHORT_STATE && mslip_state_length(0) == mslip_state_length(2));
+    double state[SHORT + 1];
+    CHECK(mslip_state_length(FEW_REVERSALS) == SHORT && mslip_state_length(0) == mslip_state_length(2));
     for (size_t reversals = 3; reversals < 100; ++reversals) {
         CHECK(mslip_state_length(reversals) > mslip_state_length(reversals - 1));
     }
-    state[SHORT_STATE] = 77.0;
+    state[SHORT] = 77.0;
     start(state);
-    CHECK(state[SHORT_STATE] == 77.0);
+    CHECK(state[SHORT] == 77.0);
 }
 
 /* From the unloaded state: the monotonic curve and a quarter of the energy of a cycle. */
@@ -46,9 +46,9 @@ static void test_initial_loading(void)
 {
     const mslip_contact contact = contact_of(FLAT);
     const double displacement = 8.126045554707419915799969e-8;
-    double state[SHORT_STATE], force, stiffness, dissipated, expected;
+    double state[SHORT], force, stiffness, dissipated, expected;
     start(state);
-    CHECK(mslip_masing_update(&contact, SHORT_STATE, state, displacement, NULL, &force, &stiffness, &dissipated) == MSLIP_OK);
+    CHECK(mslip_masing_update(&contact, SHORT, state, displacement, NULL, &force, &stiffness, &dissipated) == MSLIP_OK);
     CHECK_RELATIVE(force, monotonic(&contact, displacement), 1e-14);
     CHECK(mslip_monotonic_force(&contact, 1, &displacement, NULL, &expected, NULL) == MSLIP_OK);
     CHECK_RELATIVE(stiffness, expected, 1e-13);
@@ -61,7 +61,7 @@ static void test_return_point_memory(void)
 {
     const mslip_contact contact = contact_of(FLAT);
     const double slip = contact.slip_displacement;
-    double state[SHORT_STATE], without[SHORT_STATE], fine[SHORT_STATE], peak, force;
+    double state[SHORT], without[SHORT], fine[SHORT], peak, force;
 
     start(state);
     CHECK(step(&contact, state, 0.0) == 0.0);
@@ -106,7 +106,7 @@ static void test_dissipation(void)
 {
     const mslip_contact contact = contact_of(FLAT);
     const double amplitude = 0.7 * contact.slip_displacement;
-    double state[SHORT_STATE], force, energy, one;
+    double state[SHORT], force, energy, one;
 
     start(state);
     force = step(&contact, state, amplitude);
@@ -115,7 +115,7 @@ static void test_dissipation(void)
         double sum = 0.0, least = INFINITY;
         for (int i = 1; i <= steps; ++i) {
             const double t = fabs(4.0 * i / steps - 2.0) - 1.0;
-            CHECK(mslip_masing_update(&contact, SHORT_STATE, state, t * amplitude, state, NULL, NULL, &one) == MSLIP_OK);
+            CHECK(mslip_masing_update(&contact, SHORT, state, t * amplitude, state, NULL, NULL, &one) == MSLIP_OK);
             sum += one;
             least = fmin(least, one);
         }
@@ -123,7 +123,7 @@ static void test_dissipation(void)
         CHECK_RELATIVE(sum, energy, 1e-12);
     }
     start(state);
-    CHECK(mslip_masing_update(&contact, SHORT_STATE, state, 3.0 * contact.slip_displacement, state, NULL, NULL, &one) == MSLIP_OK);
+    CHECK(mslip_masing_update(&contact, SHORT, state, 3.0 * contact.slip_displacement, state, NULL, NULL, &one) == MSLIP_OK);
     CHECK_RELATIVE(one, contact.slip_energy / 4.0 + 2.0 * contact.slip_force * contact.slip_displacement, 1e-12);
 }
 
@@ -133,7 +133,7 @@ static void test_path(void)
     enum { STEPS = 9 };
     const mslip_contact contact = contact_of(FLAT);
     double displacement[STEPS] = { 0.3, 0.6, -0.2, 0.1, 0.0, 0.05, 0.5, 1.7, -0.4 };
-    double state[3][SHORT_STATE], out[3][3][STEPS];
+    double state[3][SHORT], out[3][3][STEPS];
 
     for (int i = 0; i < STEPS; ++i) {
         displacement[i] *= contact.slip_displacement;
@@ -143,20 +143,20 @@ static void test_path(void)
         start(state[parts]);
         for (int i = 0; i < STEPS; i += size) {
             const size_t n = (size_t)(i + size > STEPS ? STEPS - i : size);
-            CHECK(mslip_masing_path(&contact, SHORT_STATE, state[parts], n, displacement + i, state[parts], out[parts][0] + i,
+            CHECK(mslip_masing_path(&contact, SHORT, state[parts], n, displacement + i, state[parts], out[parts][0] + i,
                                     out[parts][1] + i, out[parts][2] + i) == MSLIP_OK);
         }
         CHECK(same_bits(state[parts], state[0], mslip_state_length(2)) && same_bits(out[parts][0], out[0][0], 3 * STEPS));
     }
     start(state[1]);
     for (int i = 0; i < STEPS; ++i) {
-        CHECK(mslip_masing_update(&contact, SHORT_STATE, state[1], displacement[i], state[1], out[1][0] + i, out[1][1] + i, out[1][2] + i)
+        CHECK(mslip_masing_update(&contact, SHORT, state[1], displacement[i], state[1], out[1][0] + i, out[1][1] + i, out[1][2] + i)
               == MSLIP_OK);
     }
     CHECK(same_bits(state[1], state[0], mslip_state_length(2)) && same_bits(out[1][0], out[0][0], 3 * STEPS));
     /* A path of no steps copies the state. */
-    CHECK(mslip_masing_path(&contact, SHORT_STATE, state[0], 0, displacement, state[1], NULL, NULL, NULL) == MSLIP_OK);
-    CHECK(same_bits(state[1], state[0], SHORT_STATE));
+    CHECK(mslip_masing_path(&contact, SHORT, state[0], 0, displacement, state[1], NULL, NULL, NULL) == MSLIP_OK);
+    CHECK(same_bits(state[1], state[0], SHORT));
 }
 
 /* A slowly decaying vibration, each half cycle of which adds a reversal, and the return through the displacement of each. */
@@ -239,7 +239,7 @@ static void test_longer_state(void)
 {
     enum { STEPS = 20, ENOUGH = 5 + 3 * STEPS };
     const mslip_contact contact = contact_of(FLAT);
-    double state[SHORT_STATE], moved[ENOUGH], longer[ENOUGH];
+    double state[SHORT], moved[ENOUGH], longer[ENOUGH];
     start(state);
     CHECK(mslip_state_init(ENOUGH, longer) == MSLIP_OK);
     memset(moved, 0xff, sizeof moved);
@@ -261,14 +261,14 @@ static void test_tractions(void)
     enum { POINTS = 5 };
     const mslip_contact contact = contact_of(FLAT);
     const double x[POINTS] = { 0.0, 1e-4, -2.99e-4, 3.02e-4, 4e-4 };
-    double state[SHORT_STATE], pressure[2][POINTS], loading[2][POINTS], shear[POINTS];
+    double state[SHORT], pressure[2][POINTS], loading[2][POINTS], shear[POINTS];
     start(state);
     const double force = step(&contact, state, 0.6 * contact.slip_displacement);
-    CHECK(mslip_masing_tractions(&contact, SHORT_STATE, state, POINTS, x, pressure[0], loading[0]) == MSLIP_OK);
+    CHECK(mslip_masing_tractions(&contact, SHORT, state, POINTS, x, pressure[0], loading[0]) == MSLIP_OK);
     CHECK(mslip_tractions(&contact, force, POINTS, x, pressure[1], loading[1]) == MSLIP_OK);
     const double half = 0.5 * (force - step(&contact, state, 0.1 * contact.slip_displacement));
     double reversed[POINTS];
-    CHECK(mslip_masing_tractions(&contact, SHORT_STATE, state, POINTS, x, NULL, reversed) == MSLIP_OK);
+    CHECK(mslip_masing_tractions(&contact, SHORT, state, POINTS, x, NULL, reversed) == MSLIP_OK);
     CHECK(mslip_tractions(&contact, half, POINTS, x, NULL, shear) == MSLIP_OK);
     for (int i = 0; i < POINTS; ++i) {
         CHECK_RELATIVE(pressure[0][i], pressure[1][i], 1e-14);

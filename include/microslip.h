@@ -563,11 +563,11 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       size_t samples,
                                       int32_t rule);
 
-// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread needs its
-// own.
+// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
+// needs its own.
 //
-// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES,
-// MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
+// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
 // Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_element_workspace_init(int32_t directions,
@@ -589,18 +589,18 @@ int32_t mslip_element_workspace_size(const double *workspace,
                                      int32_t *rule);
 
 // Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
-// component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m] and w,
-// T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N [N]. The normal component w of the displacement is the
-// approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact
-// derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
+// component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m]
+// and w, T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N [N]. The normal component w of the
+// displacement is the approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
+// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
 //
 // Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
 // tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
 // second one counts.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
-// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if
-// the contact would be too wide for its length at a sample.
+// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
+// MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
 //
 // Memory: `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
 // above; outputs must not alias any other argument.
@@ -615,16 +615,17 @@ int32_t mslip_element_harmonic_force(const struct mslip_element *element,
 // with the rule of the workspace. displacement [m] and force [N] are 2H+1 coefficients, [c0, cos1, sin1, cos2, sin2, ...];
 // jacobian [N/m] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated [J] is the energy per period.
 //
-// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
-// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
-// integrals; it converges more slowly than the force.
+// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal
+// are equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of
+// the integrals; it converges more slowly than the force.
 //
-// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly.
-// For displacements measured from another position, pass c0 minus the unloaded position.
+// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips
+// grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
-// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other argument.
+// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
+// argument.
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -632,10 +633,10 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
-// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest force for
-// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1 or 2: a
-// displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the normal
-// approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
+// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
+// force for which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions,
+// 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the
+// normal approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -646,9 +647,9 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
                            int32_t normal_input,
                            struct mslip_element *element);
 
-// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, > 0, is
-// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions and
-// normal_input are those of mslip_element_init.
+// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
+// 0, is the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower.
+// directions and normal_input are those of mslip_element_init.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 // MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -659,19 +660,19 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     int32_t normal_input,
                                     struct mslip_element *element);
 
-// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other functions
-// only check a tag.
+// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other
+// functions only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 //
 // Memory: `element` is NULL or valid for an element.
 int32_t mslip_element_check(const struct mslip_element *element);
 
-// The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An approach <= 0
-// gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+// The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An
+// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the contact
-// would be too wide for its length.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
+// contact would be too wide for its length.
 //
 // Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_normal_force(const struct mslip_element *element,
@@ -681,11 +682,11 @@ int32_t mslip_normal_force(const struct mslip_element *element,
                            double *stiffness,
                            double *half_width);
 
-// The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force[n] [N]. At 0 the compliance of a
-// cylinder and of an ellipse is infinite.
+// The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force[n] [N]. At 0 the
+// compliance of a cylinder and of an ellipse is infinite.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the contact
-// would be too wide for its length.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
+// contact would be too wide for its length.
 //
 // Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_normal_approach(const struct mslip_element *element,
@@ -695,9 +696,9 @@ int32_t mslip_normal_approach(const struct mslip_element *element,
                               double *compliance,
                               double *half_width);
 
-// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity of
-// `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces are
-// merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
+// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
+// of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
+// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 size_t mslip_element_state_length(int32_t directions,
                                   size_t pieces);
 
@@ -710,8 +711,8 @@ int32_t mslip_element_state_init(int32_t directions,
                                  size_t state_length,
                                  double *state);
 
-// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one direction
-// the pieces nested. Other functions only check a tag and the number of pieces.
+// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
+// direction the pieces nested. Other functions only check a tag and the number of pieces.
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
@@ -721,8 +722,8 @@ int32_t mslip_element_state_check(int32_t directions,
                                   size_t state_length,
                                   const double *state);
 
-// Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or separation.
-// For two directions, whose state merges no pieces, it is the bound that the law itself gives.
+// Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
+// separation. For two directions, whose state merges no pieces, it is the bound that the law itself gives.
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
@@ -734,18 +735,18 @@ int32_t mslip_element_state_error(int32_t directions,
                                   double *force_error);
 
 // Advances the state of an element to a displacement: [u, w] with one tangential direction, [u, v, w] with two, tangential
-// displacements [m] and the normal approach [m] or the normal force [N]. With m = 2 or 3 components, force[m] [N] is [T, N]
-// or [Tx, Ty, N], tangent[m m] [N/m] is d force_i / d displacement_j, m x m, column-major, consistent with the step and
-// one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may alias state_old; if NULL, the new state is
-// discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step the path is
-// straight in the tangential displacement and the tangential shift S of the contact size.
+// displacements [m] and the normal approach [m] or the normal force [N]. With m = 2 or 3 components, force[m] [N] is
+// [T, N] or [Tx, Ty, N], tangent[m m] [N/m] is d force_i / d displacement_j, m x m, column-major, consistent with the step
+// and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
+// state is discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step
+// the path is straight in the tangential displacement and the tangential shift S of the contact size.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
-// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too
-// wide for its length.
+// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
+// too wide for its length.
 //
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
-// does not alias any other argument.
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
+// outputs, does not alias any other argument.
 int32_t mslip_element_update(const struct mslip_element *element,
                              size_t state_length,
                              const double *state_old,
@@ -755,15 +756,15 @@ int32_t mslip_element_update(const struct mslip_element *element,
                              double *tangent,
                              double *dissipated);
 
-// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, [u, w], and m = 3
-// for two, [u, v, w], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
+// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, [u, w], and m =
+// 3 for two, [u, v, w], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
 // mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
 // direction the path is then evaluated with a capacity of at most 256 pieces.
 //
 // Returns the codes of mslip_element_update; all outputs are unchanged then.
 //
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
-// does not alias any other argument.
+// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
+// outputs, does not alias any other argument.
 int32_t mslip_element_path(const struct mslip_element *element,
                            size_t state_length,
                            const double *state_old,
@@ -774,11 +775,11 @@ int32_t mslip_element_path(const struct mslip_element *element,
                            double *tangent,
                            double *dissipated);
 
-// Pressure and shear traction [Pa] at x[n] [m] along the width after a load history; 0 outside the contact. Elliptical: on the x
-// axis. For one tangential direction.
+// Pressure and shear traction [Pa] at x[n] [m] along the width after a load history; 0 outside the contact. Elliptical: on
+// the x axis. For one tangential direction.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS
-// for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
+// MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
 //
 // Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 int32_t mslip_element_tractions(const struct mslip_element *element,
@@ -789,8 +790,8 @@ int32_t mslip_element_tractions(const struct mslip_element *element,
                                 double *pressure,
                                 double *shear);
 
-// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
-// active is not NULL and active[i] is 0, item i is skipped.
+// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL.
+// If active is not NULL and active[i] is 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
 //
@@ -808,13 +809,13 @@ int32_t mslip_batch_complex_stiffness(size_t n,
                                       double *dk_imag);
 
 // mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
-// dissipated one. states_new may alias states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is
-// not NULL and active[i] is 0, item i is skipped, and its state is not written.
+// dissipated one. states_new may alias states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
+// active is not NULL and active[i] is 0, item i is skipped, and its state is not written.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
 //
-// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
-// like the outputs, does not alias any other argument.
+// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old
+// or, like the outputs, does not alias any other argument.
 int32_t mslip_batch_masing_update(size_t n,
                                   size_t n_contacts,
                                   const struct mslip_contact *contacts,
@@ -829,8 +830,8 @@ int32_t mslip_batch_masing_update(size_t n,
                                   double *dissipated);
 
 // mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
-// dissipated one. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is not NULL and active[i] is 0, item i
-// is skipped.
+// dissipated one. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is not NULL and active[i] is
+// 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
 //
@@ -849,14 +850,15 @@ int32_t mslip_batch_harmonic_force(size_t n,
 
 // mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
 // contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
-// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If active
-// is not NULL and active[i] is 0, item i is skipped, and its state is not written; m is that of the first item that is not skipped.
+// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If
+// active is not NULL and active[i] is 0, item i is skipped, and its state is not written; m is that of the first item that is
+// not skipped.
 //
 // Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 // mslip_element_update; all outputs are unchanged then.
 //
-// Memory: `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
-// like the outputs, does not alias any other argument.
+// Memory: `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old
+// or, like the outputs, does not alias any other argument.
 int32_t mslip_batch_element_update(size_t n,
                                    size_t n_elements,
                                    const struct mslip_element *elements,
@@ -870,8 +872,8 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *tangent,
                                    double *dissipated);
 
-// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction, 3 for
-// one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
+// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
 // elements[index[i]], or elements[i] if index is NULL. If active is not NULL and active[i] is 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of

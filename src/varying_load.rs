@@ -1,9 +1,9 @@
 //! The law under a normal force that varies, with separation.
 //!
-//! One tangential direction: as the load rises and falls the contact runs through its family of sizes. The state is a diagram D(S) with |D| <= mu over the
-//! tangential shifts S of the sizes inside the contact: `T = ∫ D dN` and `u = o + ∫ D dS`. For a path that is straight in (S, u)
-//! Coulomb's law determines the diagram at the end in closed form (Jäger 1998), and this is exact for elastically similar
-//! half-planes.
+//! One tangential direction: as the load rises and falls the contact runs through its family of sizes. The state is a diagram D(S)
+//! with |D| <= mu over the tangential shifts S of the sizes inside the contact: `T = ∫ D dN` and `u = o + ∫ D dS`. For a path that
+//! is straight in (S, u) Coulomb's law determines the diagram at the end in closed form (Jäger 1998), and this is exact for
+//! elastically similar half-planes.
 //!
 //! - [`element`]: the laws N(U), S(N) and N(S) of a shape, tabulated independently of the load;
 //! - `diagram`: a step, in characteristic coordinates;

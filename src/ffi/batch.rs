@@ -33,8 +33,8 @@ trait Law {
     /// Evaluates and writes one step.
     ///
     /// # Safety
-    /// Tag and displacement are checked; `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for
-    /// as many doubles without overlap; the outputs, force, tangent and energy, are NULL, or aligned and valid.
+    /// Tag and displacement are checked; `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid
+    /// for as many doubles without overlap; the outputs, force, tangent and energy, are NULL, or aligned and valid.
     unsafe fn update(
         item: &Self::Item,
         state_length: usize,
@@ -241,8 +241,8 @@ fn item_of<T>(output: *mut T, i: usize) -> *mut T {
 const AHEAD: usize = 16;
 const CHECKED_AHEAD: usize = 32;
 
-/// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states are
-/// read in part only.
+/// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states
+/// are read in part only.
 #[inline(always)]
 fn prefetch<const LINES: usize>(state: *const f64) {
     #[cfg(target_arch = "x86_64")]
@@ -304,8 +304,8 @@ fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Opti
     output.as_mut()?.get_mut(i * length..(i + 1) * length)
 }
 
-/// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
-/// active is not NULL and active\[i\] is 0, item i is skipped.
+/// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL.
+/// If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
 ///
@@ -340,14 +340,14 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
 }
 
 /// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
-/// dissipated one. states_new may alias states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is
-/// not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
+/// dissipated one. states_new may alias states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
+/// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
 ///
 /// # Safety
-/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old or,
-/// like the outputs, does not alias any other argument.
+/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old
+/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_masing_update(
     n: size_t,
@@ -374,8 +374,8 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 }
 
 /// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
-/// dissipated one. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i
-/// is skipped.
+/// dissipated one. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is not NULL and active\[i\] is
+/// 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
 ///
@@ -417,15 +417,16 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 
 /// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
 /// contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
-/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If active
-/// is not NULL and active\[i\] is 0, item i is skipped, and its state is not written; m is that of the first item that is not skipped.
+/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If
+/// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written; m is that of the first item that is
+/// not skipped.
 ///
 /// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 /// mslip_element_update; all outputs are unchanged then.
 ///
 /// # Safety
-/// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old or,
-/// like the outputs, does not alias any other argument.
+/// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old
+/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_update(
     n: size_t,
@@ -454,8 +455,8 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     status(update())
 }
 
-/// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction, 3 for
-/// one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+/// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
+/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
 /// elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of

@@ -5,10 +5,13 @@ use crate::error::Error;
 use crate::hbm::HarmonicOutput;
 use crate::tag::Kind;
 use crate::varying_load::element::{Directions, Element};
-use crate::varying_load::path::{PathOutput, Step};
+use crate::varying_load::path::{PathOutput, StepResult};
 use crate::varying_load::state;
 use crate::varying_load::two_directions::{self, Wanted};
 use crate::varying_load::{harmonic_force, two_directions::harmonic_force as harmonic_force_2};
+
+/// Result of a step of a law.
+type StepOf<L> = StepResult<<L as ElementLaw>::Vector, <L as ElementLaw>::Tangent>;
 
 /// The law of elements with a number of tangential directions.
 pub(super) trait ElementLaw: Sized {
@@ -37,19 +40,9 @@ pub(super) trait ElementLaw: Sized {
 
     fn check_step(element: &Element, displacement: &Self::Vector) -> Result<(), Error>;
     /// A step with checked arguments whose new state is discarded.
-    fn trial(
-        element: &Element,
-        old: &[f64],
-        displacement: Self::Vector,
-        wanted: Wanted,
-    ) -> Step<Self::Vector, Self::Tangent>;
+    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
     /// The same in place.
-    fn advance(
-        element: &Element,
-        state: &mut [f64],
-        displacement: Self::Vector,
-        wanted: Wanted,
-    ) -> Step<Self::Vector, Self::Tangent>;
+    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
     fn check_path(element: &Element, path: &[f64]) -> Result<(), Error>;
     fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error>;
     /// A path whose new state is discarded.
@@ -128,12 +121,17 @@ macro_rules! implement {
             }
 
             #[inline(always)]
-            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> Step<Self::Vector, Self::Tangent> {
+            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self> {
                 $state::trial(element, old, displacement, $requested(wanted))
             }
 
             #[inline(always)]
-            fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> Step<Self::Vector, Self::Tangent> {
+            fn advance(
+                element: &Element,
+                state: &mut [f64],
+                displacement: Self::Vector,
+                wanted: Wanted,
+            ) -> StepOf<Self> {
                 $state::advance_checked(element, state, displacement, $requested(wanted))
             }
 

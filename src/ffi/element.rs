@@ -54,10 +54,10 @@ unsafe fn initialise<P>(
     status(initialise())
 }
 
-/// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest force for
-/// which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions, 1 or 2: a
-/// displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\]. normal_input is MSLIP_APPROACH, w is the normal
-/// approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
+/// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
+/// force for which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions,
+/// 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\]. normal_input is MSLIP_APPROACH, w is the
+/// normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -75,9 +75,9 @@ pub unsafe extern "C" fn mslip_element_init(
     unsafe { initialise(p, directions, normal_input, element, Element::init_rounded_flat) }
 }
 
-/// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, > 0, is
-/// the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower. directions and
-/// normal_input are those of mslip_element_init.
+/// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
+/// 0, is the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower.
+/// directions and normal_input are those of mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 /// MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -95,8 +95,8 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     unsafe { initialise(p, directions, normal_input, element, Element::init_elliptic) }
 }
 
-/// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other functions
-/// only check a tag.
+/// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other
+/// functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 ///
@@ -108,11 +108,11 @@ pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i
     status(unsafe { pointers::element(element) }.and_then(pointers::check_element))
 }
 
-/// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An approach <= 0
-/// gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+/// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
+/// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the contact
-/// would be too wide for its length.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
+/// contact would be too wide for its length.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
@@ -139,11 +139,11 @@ pub unsafe extern "C" fn mslip_normal_force(
     }
 }
 
-/// The inverse normal law: approach \[m\], compliance \[m/N\] and half-width \[m\] under normal_force\[n\] \[N\]. At 0 the compliance of a
-/// cylinder and of an ellipse is infinite.
+/// The inverse normal law: approach \[m\], compliance \[m/N\] and half-width \[m\] under normal_force\[n\] \[N\]. At 0 the
+/// compliance of a cylinder and of an ellipse is infinite.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the contact
-/// would be too wide for its length.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
+/// contact would be too wide for its length.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
@@ -170,7 +170,8 @@ pub unsafe extern "C" fn mslip_normal_approach(
     }
 }
 
-/// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the one that is computed.
+/// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
+/// one that is computed.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for n doubles, the first one for an element; outputs must not alias any other argument.
@@ -204,9 +205,9 @@ unsafe fn normal_law(
     status(compute())
 }
 
-/// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity of
-/// `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces are
-/// merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
+/// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
+/// of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
+/// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
     match directions_of(directions) {
@@ -233,8 +234,8 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
     status(init())
 }
 
-/// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one direction
-/// the pieces nested. Other functions only check a tag and the number of pieces.
+/// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
+/// direction the pieces nested. Other functions only check a tag and the number of pieces.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
@@ -255,8 +256,8 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
     status(check())
 }
 
-/// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or separation.
-/// For two directions, whose state merges no pieces, it is the bound that the law itself gives.
+/// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
+/// separation. For two directions, whose state merges no pieces, it is the bound that the law itself gives.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
@@ -290,19 +291,19 @@ fn check_header<L: ElementLaw>(state: &[f64]) -> Result<(), Error> {
 }
 
 /// Advances the state of an element to a displacement: \[u, w\] with one tangential direction, \[u, v, w\] with two, tangential
-/// displacements \[m\] and the normal approach \[m\] or the normal force \[N\]. With m = 2 or 3 components, force\[m\] \[N\] is \[T, N\]
-/// or \[Tx, Ty, N\], tangent\[m m\] \[N/m\] is d force_i / d displacement_j, m x m, column-major, consistent with the step and
-/// one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may alias state_old; if NULL, the new state is
-/// discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step the path is
-/// straight in the tangential displacement and the tangential shift S of the contact size.
+/// displacements \[m\] and the normal approach \[m\] or the normal force \[N\]. With m = 2 or 3 components, force\[m\] \[N\] is
+/// \[T, N\] or \[Tx, Ty, N\], tangent\[m m\] \[N/m\] is d force_i / d displacement_j, m x m, column-major, consistent with the step
+/// and one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
+/// state is discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step
+/// the path is straight in the tangential displacement and the tangential shift S of the contact size.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
-/// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be too
-/// wide for its length.
+/// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
+/// too wide for its length.
 ///
 /// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
-/// does not alias any other argument.
+/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
+/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_update(
     element: *const mslip_element,
@@ -356,8 +357,8 @@ unsafe fn checked_update<L: ElementLaw>(
 /// One update with checked inputs: evaluates the step, then writes.
 ///
 /// # Safety
-/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the
-/// outputs are NULL, or aligned and valid for a vector, a tangent and a double.
+/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap;
+/// the outputs are NULL, or aligned and valid for a vector, a tangent and a double.
 #[inline(never)]
 pub(super) unsafe fn update<L: ElementLaw>(
     element: &Element,
@@ -386,16 +387,16 @@ pub(super) unsafe fn update<L: ElementLaw>(
     }
 }
 
-/// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, \[u, w\], and m = 3
-/// for two, \[u, v, w\], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
+/// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, \[u, w\], and m =
+/// 3 for two, \[u, v, w\], displacement and force hold m doubles per step, tangent m x m, dissipated one; units are those of
 /// mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
 /// direction the path is then evaluated with a capacity of at most 256 pieces.
 ///
 /// Returns the codes of mslip_element_update; all outputs are unchanged then.
 ///
 /// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the outputs,
-/// does not alias any other argument.
+/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
+/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_path(
     element: *const mslip_element,
@@ -458,11 +459,11 @@ unsafe fn path<L: ElementLaw>(
     L::path(element, state, path, output)
 }
 
-/// Pressure and shear traction \[Pa\] at x\[n\] \[m\] along the width after a load history; 0 outside the contact. Elliptical: on the x
-/// axis. For one tangential direction.
+/// Pressure and shear traction \[Pa\] at x\[n\] \[m\] along the width after a load history; 0 outside the contact. Elliptical: on
+/// the x axis. For one tangential direction.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS
-/// for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
+/// MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
 ///
 /// # Safety
 /// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.

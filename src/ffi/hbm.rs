@@ -111,11 +111,11 @@ pub extern "C" fn mslip_element_workspace_length(
     check_element_rule(directions, rule).map_or(0, length)
 }
 
-/// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread needs its
-/// own.
+/// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
+/// needs its own.
 ///
-/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES,
-/// MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+/// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
+/// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
 /// # Safety
 /// `workspace` is NULL or valid for workspace_length doubles.
@@ -169,18 +169,18 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 }
 
 /// Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
-/// component, each 2H+1 coefficients \[c0, cos1, sin1, cos2, sin2, ...\]: with one tangential direction m = 2 components, u \[m\] and w,
-/// T and N \[N\], with two directions m = 3, u, v \[m\] and w, Tx, Ty and N \[N\]. The normal component w of the displacement is the
-/// approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact
-/// derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
+/// component, each 2H+1 coefficients \[c0, cos1, sin1, cos2, sin2, ...\]: with one tangential direction m = 2 components, u \[m\]
+/// and w, T and N \[N\], with two directions m = 3, u, v \[m\] and w, Tx, Ty and N \[N\]. The normal component w of the
+/// displacement is the approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
+/// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
 ///
 /// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
 /// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
 /// second one counts.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
-/// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or MSLIP_LENGTH_TOO_SHORT if
-/// the contact would be too wide for its length at a sample.
+/// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
+/// MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
 ///
 /// # Safety
 /// `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
@@ -245,17 +245,18 @@ pub(super) fn harmonic_force_dispatched(
 /// with the rule of the workspace. displacement \[m\] and force \[N\] are 2H+1 coefficients, \[c0, cos1, sin1, cos2, sin2, ...\];
 /// jacobian \[N/m\] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated \[J\] is the energy per period.
 ///
-/// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal are
-/// equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of the
-/// integrals; it converges more slowly than the force.
+/// With MSLIP_UNIFORM_SAMPLING the Jacobian is the exact derivative of the discrete force, one-sided if two samples at a reversal
+/// are equal or a sample is at the onset of gross slip. With MSLIP_EVENT_DRIVEN it is the rule applied to the exact derivative of
+/// the integrals; it converges more slowly than the force.
 ///
-/// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips grossly.
-/// For displacements measured from another position, pass c0 minus the unloaded position.
+/// The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the motion slips
+/// grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 ///
 /// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other argument.
+/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
+/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_force(
     contact: *const mslip_contact,

@@ -2,7 +2,7 @@
 
 /// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step<V, T> {
+pub struct StepResult<V, T> {
     /// Tangential forces and normal force \[N\].
     pub force: V,
     /// Derivatives of the force with respect to the tangential displacements \[N/m\] and the normal component, column by column.
@@ -27,7 +27,7 @@ pub struct PathOutput<'a> {
 pub(crate) fn advance_along<const M: usize, const MM: usize>(
     path: &[f64],
     output: PathOutput,
-    mut step: impl FnMut([f64; M]) -> Step<[f64; M], [f64; MM]>,
+    mut step: impl FnMut([f64; M]) -> StepResult<[f64; M], [f64; MM]>,
 ) {
     let PathOutput { force, tangent, dissipated } = output;
     let mut forces = force.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();

@@ -30,7 +30,7 @@ pub const fn state_length(pieces: usize) -> usize {
 }
 
 /// Result of a step: forces `[T, N]`, tangent `[∂T/∂u, ∂N/∂u, ∂T/∂w, ∂N/∂w]` (column-major) and dissipated energy.
-pub type Step = path::Step<[f64; 2], [f64; 4]>;
+pub type Step = path::StepResult<[f64; 2], [f64; 4]>;
 
 impl Step {
     const NONE: Step = Step { force: [0.0; 2], tangent: [0.0; 4], dissipated: 0.0 };

@@ -26,7 +26,7 @@ pub const fn state_length() -> usize {
 }
 
 /// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
-pub type Step = path::Step<[f64; 3], [f64; 9]>;
+pub type Step = path::StepResult<[f64; 3], [f64; 9]>;
 
 /// Results of a step that are requested besides the force.
 #[derive(Debug, Clone, Copy)]
@@ -321,16 +321,16 @@ pub mod harmonic_force {
         if c.is_multiple_of(2) && c > 0 { angle.sin() } else { angle.cos() }
     }
 
-    /// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal component,
-    /// the approach \[m\] or the normal force \[N\].
+    /// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal
+    /// component, the approach \[m\] or the normal force \[N\].
     ///
     /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their
     /// derivatives with respect to the coefficients of the motion.
     ///
     /// # Errors
-    /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-    /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
-    /// too wide for its length.
+    /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds
+    /// 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact
+    /// would become too wide for its length.
     #[inline(always)]
     pub fn harmonic_force(
         element: &Element,
