@@ -54,7 +54,7 @@ contains
     real(mslip_real), intent(inout) :: force(:), tangent(:, :)  ! on the whole contact [N], [N/m]
     real(mslip_real), intent(inout) :: dissipated               ! by this step [J]
     integer(mslip_int), intent(out) :: status
-    type(mslip_element), target :: own
+    type(mslip_element), allocatable, target :: own
     type(mslip_element), pointer :: element
     real(mslip_real), dimension(max(0, size(start) - directions - 2)) :: state, trial
     integer :: m
@@ -84,7 +84,7 @@ contains
   subroutine find_element(constants, choices, own, element, status)
     real(mslip_real), intent(in) :: constants(9)
     integer(mslip_int), intent(in) :: choices(3)
-    type(mslip_element), intent(inout), target :: own
+    type(mslip_element), intent(out), allocatable, target :: own
     type(mslip_element), intent(out), pointer :: element
     integer(mslip_int), intent(out) :: status
     type(mslip_parameters) :: p
@@ -103,6 +103,7 @@ contains
     p = mslip_parameters(flat_half_width=constants(1), edge_radius=constants(2), length=constants(3), normal_force=constants(4), &
       friction_coefficient=constants(5), material=[mslip_material(constants(6), constants(7)), &
       mslip_material(constants(8), constants(9))], displacement_reference=choices(1))
+    allocate (own)
     element => own
     call mslip_element_init(p, choices(2), choices(3), own, status)
     if (status /= MSLIP_OK .or. .not. keep) return

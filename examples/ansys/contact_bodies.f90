@@ -2,13 +2,13 @@
 ! argument lists, which could not be established from public sources: README.md tells what to pass from the lists in the files
 ! that come with ANSYS.
 !
-! `properties`: a, R, L [m], N [N] (the largest force expected), mu, E1 [Pa], nu1, E2 [Pa], nu2, sum of the areas of all points of the
-! contact [m2]. Each point has the law of the whole contact at its own relative displacement; its stress is the force over the whole
-! area, so the points share the force by their areas (../README.md).
+! `properties`: a, R, L [m], N [N] (the largest force expected), mu, E1 [Pa], nu1, E2 [Pa], nu2, sum of the areas of all points of
+! the contact [m2]. Each point has the law of the whole contact at its own relative displacement; its stress is the force over the
+! whole area, so the points share the force by their areas (../README.md).
 !
-! `start` and `finish` are the state variables of the last converged substep and of this iteration, contact_variables(ndim - 1) each;
-! 1 is the energy dissipated so far [J]. All are 0 at the start of an analysis. They must not be the same array: each iteration is a
-! trial step from the last converged substep.
+! `start` and `finish` are the state variables of the last converged substep and of this iteration, contact_variables(ndim - 1) of
+! each; 1 is the energy dissipated so far [J]. All are 0 at the start of an analysis. They must not be the same array: each
+! iteration is a trial step from the last converged substep.
 !
 ! On an error no output is modified. If increment_too_long(status), request a bisection of the substep; otherwise stop with
 ! mslip_status_text(status).
@@ -43,8 +43,8 @@ contains
     last(:ndim-1) = first(:ndim-1) + slip_increment
     last(ndim) = max(pressure, 0.0_mslip_real)*properties(10)
     if (.not. first(ndim) > 0) before(ndim+2:) = 0
-    call contact_step(properties(:9), MSLIP_CENTRE_POINT, ndim - 1, MSLIP_NORMAL_FORCE, first, last, before, finish, force, tangent, &
-      energy, status)
+    call contact_step(properties(:9), MSLIP_CENTRE_POINT, ndim - 1, MSLIP_NORMAL_FORCE, first, last, before, finish, force, &
+      tangent, energy, status)
     if (status /= MSLIP_OK) return
     shear = force(:ndim-1)/properties(10)
     shear_by_slip = tangent(:ndim-1, :ndim-1)/properties(10)
@@ -68,10 +68,8 @@ contains
     integer(mslip_int), intent(out) :: status
     real(mslip_real) :: first(ndim), last(ndim), force(ndim), tangent(ndim, ndim), energy
 
-    first = displacement_start
-    first(ndim) = first(ndim) + approach
-    last = displacement
-    last(ndim) = last(ndim) + approach
+    first = [displacement_start(:ndim-1), displacement_start(ndim) + approach]
+    last = [displacement(:ndim-1), displacement(ndim) + approach]
     call contact_step(properties(:9), MSLIP_CENTRE_POINT, ndim - 1, MSLIP_APPROACH, first, last, start, finish, force, tangent, &
       energy, status)
     if (status /= MSLIP_OK) return
