@@ -10,8 +10,8 @@ module host
   public :: contact_model, run
 
   abstract interface
-    !> One call of the user subroutine: from displacement and state variables at the start of the increment to those of the trial. The
-    !> program wants a shorter increment if `ratio` is below 1.
+    !> One call of the user subroutine: from displacement and state variables at the start of the increment to those of the trial.
+    !> A shorter increment is wanted if `ratio` is below 1.
     subroutine user_subroutine(point, x_start, x, before, after, force, tangent, dissipated, ratio)
       import :: wp
       integer, intent(in) :: point

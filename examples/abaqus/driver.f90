@@ -347,14 +347,31 @@ contains
     call check_same('UEL, perturbation: state variables', after, before)
     call check('UEL, perturbation: force', norm2(f - matmul(k2, x2)) <= 1e-12_wp*norm2(f) .and. norm2(f) > 0)
     lflags = [1, 0, 1, 0, 0, 0, 0]
+
+    ! The first increment starts from the interference, not from an open contact.
+    call call_uel(1, 0*x, x, 0*before, after, f, k, dissipated, ratio)
+    call check('UEL, first increment', norm2(f - matmul(transpose(rows(1)), two_steps(element_of(constants_of(1), MSLIP_APPROACH), &
+      [(0.0_wp, i=1, directions), interference], matmul(rows(1), x) + [(0.0_wp, i=1, directions), interference]))) <= &
+      1e-12_wp*norm2(f))
   end subroutine test_uel_flags
+
+  !> The force of the library after two steps.
+  function two_steps(element, first, second) result(force)
+    type(mslip_element), intent(in) :: element
+    real(wp), intent(in) :: first(:), second(:)
+    real(wp) :: force(size(first)), state(mslip_element_state_length(element%directions, 64_mslip_size))
+
+    call mslip_element_state_init(element%directions, state, status)
+    if (status == MSLIP_OK) call mslip_element_advance(element, state, first, status)
+    if (status == MSLIP_OK) call mslip_element_advance(element, state, second, status, force)
+    call check_status('library', status, MSLIP_OK)
+  end function two_steps
 
   !> Points without a counterpart, perturbations, the sum over the points of a contact.
   subroutine test_uinter()
     real(wp) :: before(contact_variables(directions)), after(size(before)), sfd, ratio, dissipated
     real(wp), dimension(directions + 1) :: x0, x, stress, total
     real(wp), dimension(directions + 1, directions + 1) :: k, k2
-    type(mslip_element) :: whole
     integer :: i, open_close
 
     before = 0
@@ -387,16 +404,10 @@ contains
       call call_uinter(i, x0, x, before, after, stress, k, dissipated, ratio)
       total = total + stress
     end do
-    block
-      real(wp), dimension(mslip_element_state_length(directions, 64_mslip_size)) :: state
-      real(wp) :: force(directions + 1)
-
-      whole = element_of(flat, MSLIP_APPROACH)
-      call mslip_element_state_init(directions, state, status)
-      call mslip_element_advance(whole, state, cshift(x0, 1) + [(0.0_wp, i=1, directions), interference], status)
-      call mslip_element_advance(whole, state, cshift(x, 1) + [(0.0_wp, i=1, directions), interference], status, force)
-      call check('UINTER, sum over the points', norm2(cshift(total, 1) - force) <= 1e-14_wp*norm2(force))
-    end block
+    associate (force => two_steps(element_of(flat, MSLIP_APPROACH), cshift(x0, 1) + [(0.0_wp, i=1, directions), interference], &
+        cshift(x, 1) + [(0.0_wp, i=1, directions), interference]))
+      call check('UINTER, first increment: sum over the points', norm2(cshift(total, 1) - force) <= 1e-14_wp*norm2(force))
+    end associate
   end subroutine test_uinter
 
   !> A contact that was open has lost its history: pressed without tangential force, without friction in this increment.
@@ -405,9 +416,6 @@ contains
     real(wp), dimension(directions) :: dgam, tau, ddtddp
     real(wp) :: ddtddg(directions, directions)
     real(wp), parameter :: pressure = 5e6_wp                    ! Pa
-    real(wp), dimension(mslip_element_state_length(directions, 64_mslip_size)) :: state
-    real(wp), dimension(directions + 1) :: d, force
-    type(mslip_element) :: whole
     integer :: lm
 
     statev = 0
@@ -426,15 +434,24 @@ contains
     lm = 0
     call step_fric(lm, -dgam/10, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
 
-    whole = element_of(flat, MSLIP_NORMAL_FORCE)
-    call mslip_element_state_init(directions, state, status)
-    d = 0
-    d(directions + 1) = pressure*area
-    call mslip_element_advance(whole, state, d, status)
-    d = [-dgam/10, 2*pressure*area]
-    call mslip_element_advance(whole, state, d, status, force)
-    call check('FRIC, after that: history begins anew', norm2(tau*area - force(:directions)) <= 1e-12_wp*norm2(force))
+    call check_friction('FRIC, after that: history begins anew', tau, -dgam/10, pressure)
+    statev = 0
+    lm = 0
+    call step_fric(lm, -dgam/10, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
+    call check_friction('FRIC, first increment', tau, -dgam/10, pressure)
   end subroutine test_fric
+
+  !> The shear stress of a contact that was pressed, then displaced under twice the pressure.
+  subroutine check_friction(name, tau, displacement, pressure)
+    character(len=*), intent(in) :: name
+    real(wp), intent(in) :: tau(:), displacement(:), pressure
+    real(wp) :: force(directions + 1)
+    integer :: i
+
+    force = two_steps(element_of(flat, MSLIP_NORMAL_FORCE), [(0.0_wp, i=1, directions), pressure*area], &
+      [displacement, 2*pressure*area])
+    call check(name, norm2(tau*area - force(:directions)) <= 1e-12_wp*norm2(force))
+  end subroutine check_friction
 
 end program driver
 

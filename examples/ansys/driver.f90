@@ -93,6 +93,7 @@ program driver
     end if
     call run(model('friction', MSLIP_NORMAL_FORCE))
     call run(model('interaction', MSLIP_APPROACH))
+    call test_closing()
   end do
   call report()
 
@@ -142,5 +143,27 @@ contains
     end if
     model%spring = 0.3_wp*model%elements(1)%tangential_stiffness
   end function model
+
+  !> A contact that was open has lost its history, even if the friction was not called meanwhile.
+  subroutine test_closing()
+    real(wp), dimension(contact_variables(directions)) :: initial, moved, after
+    real(wp), dimension(directions + 1) :: x0, x, force, expected
+    real(wp) :: tangent(directions + 1, directions + 1), dissipated, ratio
+
+    initial = 0
+    x0 = 0
+    x = 0
+    x(1) = 2e-6_wp
+    x(directions + 1) = 1e-6_wp
+    call call_friction(1, x0, x, initial, after, expected, tangent, dissipated, ratio)
+    moved = after
+    x0(directions + 1) = x(directions + 1)
+    call call_friction(1, x, x0, moved, after, force, tangent, dissipated, ratio)
+    moved = after
+    x0 = 0
+    call call_friction(1, x0, x, moved, after, force, tangent, dissipated, ratio)
+    call check('friction, closing: history begins anew', norm2(force - expected) <= 1e-12_wp*norm2(expected))
+    call check('friction, closing: energy so far', after(1) > moved(1) .and. moved(1) > 0)
+  end subroutine test_closing
 
 end program driver
