@@ -23,6 +23,7 @@ module host
   type :: contact_model
     character(len=32) :: name = ''
     integer :: points = 0, unknowns = 0, variables = 0          ! unknowns and state variables of each point
+    integer :: energy = 1                                       ! which state variable is the energy dissipated so far
     logical :: called_if_open = .true.
     type(mslip_element), allocatable :: elements(:)             ! of each point
     real(wp), allocatable :: to_law(:, :, :)                    ! displacement of the law at a point: to_law x + offset
@@ -60,7 +61,7 @@ contains
     print '(2a, i0, a, i0, a)', model%name, ' ', whole%n, ' increments, ', rejected, ' rejected'
     call compare_with_differences(model, whole)
     call compare_with_library(model, whole)
-    call balance_energy(model, whole)
+    call balance_energy(model, whole, final)
     call exceed_range(model, final)
   end subroutine run
 
@@ -289,9 +290,10 @@ contains
   end subroutine compare_with_library
 
   !> From open to open, the work done on a contact is the energy that it dissipates.
-  subroutine balance_energy(model, h)
+  subroutine balance_energy(model, h, final)
     type(contact_model), intent(in) :: model
     type(history), intent(in) :: h
+    real(wp), intent(in) :: final(:, :)
     real(wp) :: work, dissipated
     integer :: j
 
@@ -301,6 +303,8 @@ contains
     end do
     dissipated = sum(h%dissipated(:, :h%n))
     print '(a, es10.3, a, es10.3, a)', '  dissipated ', dissipated, ' J, work ', work, ' J'
+    call check_close(trim(model%name)//': energy in the state variables', sum(model%share*final(model%energy, :)), dissipated, &
+      1e-12_wp)
     call check(trim(model%name)//': no energy is gained', all(h%dissipated(:, :h%n) >= 0))
     ! The trapezoidal rule in some hundred increments.
     call check_close(trim(model%name)//': energy balance', dissipated, work, 0.03_wp)

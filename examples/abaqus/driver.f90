@@ -245,6 +245,7 @@ contains
     end do
     model%offset(directions + 1) = interference
     model%share = 1
+    model%energy = 7
     model%spring = model%elements(1)%tangential_stiffness
     model%call_user => call_uel
   end function uel_model
@@ -432,13 +433,13 @@ contains
     call check('FRIC, closes: no friction', lm == 2)
     call check_same('FRIC, closes: energy so far', [statev(1)], [energy])
     lm = 0
-    call step_fric(lm, -dgam/10, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
+    call step_fric(lm, -dgam/100, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
 
-    call check_friction('FRIC, after that: history begins anew', tau, -dgam/10, pressure)
+    call check_friction('FRIC, after that: history begins anew', tau, -dgam/100, pressure)
     statev = 0
     lm = 0
-    call step_fric(lm, -dgam/10, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
-    call check_friction('FRIC, first increment', tau, -dgam/10, pressure)
+    call step_fric(lm, -dgam/100, 2*pressure, pressure, statev, tau, ddtddg, ddtddp, sfd, ratio)
+    call check_friction('FRIC, first increment', tau, -dgam/100, pressure)
   end subroutine test_fric
 
   !> The shear stress of a contact that was pressed, then displaced under twice the pressure.

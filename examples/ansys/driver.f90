@@ -153,7 +153,7 @@ contains
     initial = 0
     x0 = 0
     x = 0
-    x(1) = 2e-6_wp
+    x(1) = 2e-8_wp                                              ! sticks while the contact closes
     x(directions + 1) = 1e-6_wp
     call call_friction(1, x0, x, initial, after, expected, tangent, dissipated, ratio)
     moved = after
@@ -163,7 +163,7 @@ contains
     x0 = 0
     call call_friction(1, x0, x, moved, after, force, tangent, dissipated, ratio)
     call check('friction, closing: history begins anew', norm2(force - expected) <= 1e-12_wp*norm2(expected))
-    call check('friction, closing: energy so far', after(1) > moved(1) .and. moved(1) > 0)
+    call check('friction, closing: energy so far', after(1) >= moved(1) .and. moved(1) > 0)
   end subroutine test_closing
 
 end program driver
