@@ -31,7 +31,7 @@ test: build/checked/driver build/openmp/driver
 build/%/driver: always
 	rm -rf build/$* && mkdir -p build/$*
 	cd build/$* && $(FC) $(FLAGS_$*) -std=f2008 -pedantic $(WARNINGS) -c $(SOURCES)
-	$(if $(TEMPLATES),cd build/$* && $(FC) $(FLAGS_$*) $(WARNINGS) $(PRESCRIBED) -I .. -c $(abspath $(TEMPLATES)))
+	$(if $(TEMPLATES),cd build/$* && $(FC) $(FLAGS_$*) $(WARNINGS) $(PRESCRIBED) -c $(abspath $(TEMPLATES)))
 	cd build/$* && $(FC) $(FLAGS_$*) *.o $(abspath $(PREFIX))/lib/libmicroslip.a -lm -o driver
 
 clean:
