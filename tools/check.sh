@@ -41,6 +41,8 @@ installed() {
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'CalculiX: its results are those of the library' calculix_results
+    step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
+    step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
     step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1
