@@ -3,8 +3,8 @@
 !
 ! RESULTS has law.inp and, for the jobs static and dynamic, tables of time, displacement of the tip, displacement and force of
 ! the contact, and dissipated energy; frequency.csv has the square of the lowest angular frequency; element.inp and the tables of
-! the jobs lifting, orbit and their dynamic ones are those of the element with a normal direction. JOBS has matrices.sti, .mas and .dof and
-! the loads over time; the curves of the figure are written there.
+! the jobs lifting and orbit and of their dynamic ones are those of the element with a normal direction. JOBS has matrices.sti, .mas
+! and .dof and the loads over time; the curves of the figure are written there.
 program compare
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -217,7 +217,7 @@ contains
     end do
   end subroutine compare_motion
 
-  !> As compare_motion, with the element: forces at the tip in [x], y and z; it slides in y, or x and -y, and closes in -z.
+  !> As compare_motion, with the element: forces at the tip in y and z, or x, y and z; it slides in y, or y and x, and closes in -z.
   subroutine compare_lifting(job, stiffness, mass)
     character(len=*), intent(in) :: job
     real(wp), intent(in) :: stiffness(:, :), mass(:, :)
@@ -226,16 +226,17 @@ contains
     real(wp) :: state(mslip_element_state_length(m - 1, 64_mslip_size)), rate, largest, side(size(mass, 1), m)
     real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
     real(wp), dimension(size(mass, 1), size(mass, 1)) :: matrix, inverse
-    integer :: tip_equations(m), i, j, status
+    integer :: tip_equations(m), axes(m), i, j, status
 
     call read_table(trim(jobs)//'/'//job//'_load.csv', m + 1, loads)
     call read_table(trim(results)//'/'//job//'.csv', 3*m + 2, table)
     rate = 0
     if (index(job, 'dynamic') > 0) rate = 2/loads(1, 2)
+    axes = [2, (1, i=3, m), 3]
     side = 0
     do j = 1, m
       tip_equations(j) = equation('113.'//achar(iachar('3') - m + j))
-      side(equation('103.'//achar(iachar('3') - m + j)), j) = merge(1, -1, j == 1)
+      side(equation('103.'//achar(iachar('0') + axes(j))), j) = merge(-1, 1, j == m)
     end do
     matrix = stiffness + rate**2*mass
     inverse = 0

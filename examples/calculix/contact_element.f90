@@ -10,15 +10,16 @@
 !   a, R, L, N, mu, E1, nu1, E2,
 !   nu2                                       or nu2, interference   or nu2, interference, directions of sliding (1 or 2)
 !   *DEPVAR
-!   3 + the length of a state                 or 5 + the length of the state of an element
+!   3 + the length of a state                 or 5, with two directions of sliding 7, + the length of the state of an element
 !   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3     or CONSTANTS=6
 !   direction of sliding                      or direction of sliding, direction in which the second node approaches the first
 !
 ! The displacement is that of the second node relative to the first in these directions, which do not rotate with the structure:
 ! u along the part of the direction of sliding that is normal to the approach, w along the approach and, with two directions of
-! sliding, v along w x u. The interference, negative if there is a gap, is added to the approach. With ten or eleven constants N is
-! the largest normal force expected, not a load. State variables: force, displacement (positive together), energy dissipated so
-! far, the state of the law; force and displacement have one component, or T, N and u, w, or Tx, Ty, N and u, v, w.
+! sliding, v along w x u. A line contact has u across the line and v along it. The interference, negative if there is a gap, is
+! added to the approach. With ten or eleven constants N is the largest normal force expected, not a load. State variables: force,
+! displacement (positive together), energy dissipated so far, the state of the law; force and displacement have one component, or
+! T, N and u, w, or Tx, Ty, N and u, v, w.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -72,12 +73,28 @@ contains
       law%initial_stiffness(1) = law%contact%initial_stiffness
     else
       call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_APPROACH, law%element, status)
-      law%initial_stiffness = law%element%tangential_stiffness
-      law%initial_stiffness(law%components) = law%element%normal_stiffness
       law%offset(law%components) = constants(10)
+      if (status == MSLIP_OK) call stick(law, status)
     end if
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
   end subroutine prepare
+
+  !> The initial stiffness of an element: that of a step without motion after it was pressed by N.
+  subroutine stick(law, status)
+    type(contact_law), intent(inout) :: law
+    integer(mslip_int), intent(out) :: status
+    real(wp) :: state(mslip_element_state_length(int(law%components - 1, mslip_int), 4_mslip_size))
+    real(wp) :: displacement(law%components), tangent(law%components, law%components)
+    integer :: i
+
+    tangent = 0
+    displacement = 0
+    displacement(law%components) = law%element%approach
+    call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
+    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status)
+    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status, tangent=tangent)
+    law%initial_stiffness(:law%components) = [(tangent(i, i), i=1, law%components)]
+  end subroutine stick
 
   !> Unit vectors of the components: sliding, the second direction of sliding, approach.
   function directions(element, components, property, properties) result(d)

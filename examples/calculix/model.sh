@@ -15,7 +15,7 @@
 #   lifting.inp, lifting_dynamic.inp
 #                  the same blade on the element with a normal direction: forces in y and z; the loads are time, y, z
 #   orbit.inp, orbit_dynamic.inp
-#                  the same on the element that slides in x and y; the loads are time, x, y, z
+#                  the same on the element that slides in y and x; the loads are time, x, y, z
 set -eu
 
 # Columns: x, then y, then z.
@@ -180,10 +180,10 @@ driven() {
 trapezoidal='*DYNAMIC, DIRECT, ALPHA=0.'
 driven lifting_dynamic "$trapezoidal" '1.33333333333e-5, 1.33333333333e-2' 2 3 > lifting_dynamic.inp
 
-# Two directions of sliding: x along the blade and, across it, -y. 267 state variables: 7 results, and a state. Pressed, then two
-# turns of a force that rotates in x and y while the normal force swings twice per turn.
+# Two directions of sliding: y as before, and x. 267 state variables: 7 results, and a state. Pressed, then two turns of a force
+# that rotates in x and y while the normal force swings twice per turn.
 sed 's/=10/=11/; $s/$/, 2./' element.inp > two_directions.inp
-blade_on 267 '1., 0., 0.' two_directions.inp > orbit_blade.inp
+blade_on 267 '0., 1., 0.' two_directions.inp > orbit_blade.inp
 awk 'BEGIN {
     pi = atan2(0, -1)
     print "0., 0., 0., 0."

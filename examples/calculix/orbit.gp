@@ -23,13 +23,13 @@ do for [extension in 'svg png'] {
   set output sprintf('results/orbit.%s', extension)
   set multiplot layout 1, 2 margins 0.075, 0.985, 0.13, 0.92 spacing 0.09
   set title 'two turns of the load'
-  set xlabel 'displacement u along the blade (µm)' offset 0, 0.3
-  set ylabel 'displacement v across the blade (µm)' offset 0.8, 0
-  plot [-3.25:0.25] [-1.75:1.75] 'results/orbit.csv' using (1e3*$5):(1e3*$6) with linespoints ls 1 title 'CalculiX'
+  set xlabel 'displacement v along the blade (µm)' offset 0, 0.3
+  set ylabel 'displacement u across the blade (µm)' offset 0.8, 0
+  plot [-3.25:0.25] [-1.75:1.75] 'results/orbit.csv' using (1e3*$6):(1e3*$5) with linespoints ls 1 title 'CalculiX'
   set title 'tangential over normal force'
-  set xlabel 'T_x/N along the blade' offset 0, 0.3
-  set ylabel 'T_y/N across the blade' offset 0.8, 0
-  plot [-0.6:0.6] [-0.6:0.6] 'results/orbit.csv' using ($8/$10):($9/$10) with linespoints ls 1 title 'CalculiX', \
+  set xlabel 'T_y/N along the blade' offset 0, 0.3
+  set ylabel 'T_x/N across the blade' offset 0.8, 0
+  plot [-0.6:0.6] [-0.6:0.6] 'results/orbit.csv' using ($9/$10):($8/$10) with linespoints ls 1 title 'CalculiX', \
        [t=0:2*pi] '+' using (0.5*cos(t)):(0.5*sin(t)) with lines ls 2 title 'μ'
   unset multiplot
   unset output
