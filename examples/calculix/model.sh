@@ -188,7 +188,7 @@ awk 'BEGIN {
     pi = atan2(0, -1)
     print "0., 0., 0., 0."
     for (n = 0; n <= 100; n++)
-        printf "%.12g, %.12g, %.12g, %.12g\n", 1 + n/50, 800*cos(2*pi*n/50), 220*sin(2*pi*n/50), -50 - 15*sin(4*pi*n/50)
+        printf "%.12g, %.12g, %.12g, %.12g\n", 1 + n/50, 1000*cos(2*pi*n/50), 300*sin(2*pi*n/50), -50 - 15*sin(4*pi*n/50)
 }' > orbit_load.csv
 driven orbit '*STATIC' '0.02, 3., 1.e-5, 0.02' 1 2 3 > orbit.inp
 

@@ -25,7 +25,7 @@ do for [extension in 'svg png'] {
   set title 'two turns of the load'
   set xlabel 'displacement v along the blade (µm)' offset 0, 0.3
   set ylabel 'displacement u across the blade (µm)' offset 0.8, 0
-  plot [-3.25:0.25] [-1.75:1.75] 'results/orbit.csv' using (1e3*$6):(1e3*$5) with linespoints ls 1 title 'CalculiX'
+  plot [-3.5:0.5] [-2:2] 'results/orbit.csv' using (1e3*$6):(1e3*$5) with linespoints ls 1 title 'CalculiX'
   set title 'tangential over normal force'
   set xlabel 'T_y/N along the blade' offset 0, 0.3
   set ylabel 'T_x/N across the blade' offset 0.8, 0
