@@ -51,7 +51,7 @@ contains
       call fail(element, 'its material must be a *USER MATERIAL with 9 to 11 constants, the last of 11 being 1 or 2')
   end function count_components
 
-  !> The contact of the element's material. It is initialised in every call, in 20 us, or 0.2 ms with a normal direction: CalculiX
+  !> The contact of the element's material. It is initialised in every call, in 20 us, or 0.25 ms with a normal direction: CalculiX
   !> calls from several threads, and nothing is kept between calls.
   subroutine prepare(element, kind_and_count, constants, law)
     integer, intent(in) :: element, kind_and_count
