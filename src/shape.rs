@@ -21,6 +21,7 @@ pub(crate) mod tractions;
 
 pub use hertz_ellipse::HertzEllipse;
 pub use rounded_flat::RoundedFlat;
+pub(crate) use rounded_punch::{RoundedPunch, TINY};
 
 /// A nested family of contact sizes in absolute terms. A size is given by a parameter w \[m\] that is 0 for the smallest one.
 pub trait Shape {
@@ -45,6 +46,15 @@ pub trait Shape {
     /// K_t = dS/dN \[m/N\].
     fn tangential_compliance(&self, w: f64) -> f64;
 
+    /// K_n \[m/N\] of a flat punch of the half-width s below that of the flat; not used without a flat.
+    fn compliance_under_flat(&self, half_width: f64) -> f64;
+
+    /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
+    fn pressure_weight(&self, w: f64) -> f64;
+
+    /// d(w²)/dN \[m²/N\].
+    fn size_slope(&self, w: f64) -> f64;
+
     /// The size w that carries a normal force \[N\].
     fn at_load(&self, load: f64) -> f64;
 
@@ -64,6 +74,18 @@ pub trait Shape {
     /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ
     /// for the argument `x (1 + ρ)`.
     fn series(&self, w: f64, relation: Relation) -> Series;
+}
+
+/// A shape under forces in both directions of the plane of contact, x and y.
+pub(crate) struct Plane<'a> {
+    pub shape: &'a dyn Shape,
+    /// S = `per_approach` U + `per_load` N in each direction.
+    pub per_approach: [f64; 2],
+    pub per_load: [f64; 2],
+    /// Half-width of the flat \[m\].
+    pub flat: f64,
+    /// The largest size for which the laws hold.
+    pub largest: f64,
 }
 
 /// Number of Taylor coefficients in a [`Series`].

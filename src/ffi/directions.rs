@@ -7,7 +7,7 @@ use crate::tag::Kind;
 use crate::varying_load::element::{Directions, Element};
 use crate::varying_load::path::{PathOutput, StepResult};
 use crate::varying_load::state;
-use crate::varying_load::two_directions::{self, Wanted};
+use crate::varying_load::two_directions::{self, Requested};
 use crate::varying_load::{harmonic_force, two_directions::harmonic_force as harmonic_force_2};
 
 /// Result of a step of a law.
@@ -40,9 +40,9 @@ pub(super) trait ElementLaw: Sized {
 
     fn check_step(element: &Element, displacement: &Self::Vector) -> Result<(), Error>;
     /// A step with checked arguments whose new state is discarded.
-    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
+    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// The same in place.
-    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self>;
+    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     fn check_path(element: &Element, path: &[f64]) -> Result<(), Error>;
     fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error>;
     /// A path whose new state is discarded.
@@ -121,8 +121,8 @@ macro_rules! implement {
             }
 
             #[inline(always)]
-            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, wanted: Wanted) -> StepOf<Self> {
-                $state::trial(element, old, displacement, $requested(wanted))
+            fn trial(element: &Element, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self> {
+                $state::trial(element, old, displacement, $requested(requested))
             }
 
             #[inline(always)]
@@ -130,9 +130,9 @@ macro_rules! implement {
                 element: &Element,
                 state: &mut [f64],
                 displacement: Self::Vector,
-                wanted: Wanted,
+                requested: Requested,
             ) -> StepOf<Self> {
-                $state::advance_checked(element, state, displacement, $requested(wanted))
+                $state::advance_checked(element, state, displacement, $requested(requested))
             }
 
             fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
@@ -191,13 +191,13 @@ macro_rules! implement {
     };
 }
 
-implement!(OneDirection, state, harmonic_force, 2, |wanted: Wanted| wanted.energy, {
+implement!(OneDirection, state, harmonic_force, 2, |requested: Requested| requested.energy, {
     const DIRECTIONS: Directions = Directions::One;
     const STATE_LENGTH: usize = state::state_length(0);
     const OTHER_STATE: Kind = Kind::TwoDirectionsState;
 });
 
-implement!(TwoDirections, two_directions, harmonic_force_2, 3, |wanted| wanted, {
+implement!(TwoDirections, two_directions, harmonic_force_2, 3, |requested| requested, {
     const DIRECTIONS: Directions = Directions::Two;
     const STATE_LENGTH: usize = two_directions::state_length();
     const OTHER_STATE: Kind = Kind::ElementState;

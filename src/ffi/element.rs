@@ -11,7 +11,7 @@ use crate::varying_load::element::{Directions, Element, NormalInput, NormalPoint
 use crate::varying_load::path::PathOutput;
 use crate::varying_load::state;
 use crate::varying_load::tractions::tractions;
-use crate::varying_load::two_directions::{self, Wanted};
+use crate::varying_load::two_directions::{self, Requested};
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -368,18 +368,18 @@ pub(super) unsafe fn update<L: ElementLaw>(
     state_new: *mut f64,
     [force, tangent, dissipated]: [*mut f64; 3],
 ) {
-    let wanted = Wanted { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
+    let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // SAFETY: by the function's contract; no reference to the old state is left when the new one, which may be the same memory, is
     // written.
     unsafe {
         let step = if state_new.is_null() {
-            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, wanted)
+            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, requested)
         } else {
             let state = slice::from_raw_parts_mut(state_new, state_length);
             if !ptr::eq(state_old, state_new) {
                 L::copy_used(slice::from_raw_parts(state_old, state_length), state);
             }
-            L::advance(element, state, *displacement, wanted)
+            L::advance(element, state, *displacement, requested)
         };
         force.cast::<L::Vector>().as_mut().into_iter().for_each(|force| *force = step.force);
         tangent.cast::<L::Tangent>().as_mut().into_iter().for_each(|tangent| *tangent = step.tangent);

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::parameters::{EllipticParameters, Pair};
 use crate::range::in_range;
 use crate::shape::rounded_punch::TINY;
-use crate::shape::{ORDER, Relation, Series, Shape};
+use crate::shape::{ORDER, Plane, Relation, Series, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// An elliptical Hertz contact.
@@ -33,16 +33,30 @@ pub struct HertzEllipse {
     /// C_n and C_t \[m/N\].
     normal: f64,
     tangential: f64,
+    /// C_t for a force along y.
+    lateral: f64,
 }
 
 impl HertzEllipse {
     /// No shape, for memory of another kind.
-    pub(crate) const EMPTY: HertzEllipse =
-        HertzEllipse { semi_axis_x: 0.0, semi_axis_y: 0.0, normal_force: 0.0, normal: 0.0, tangential: 0.0 };
+    pub(crate) const EMPTY: HertzEllipse = HertzEllipse {
+        semi_axis_x: 0.0,
+        semi_axis_y: 0.0,
+        normal_force: 0.0,
+        normal: 0.0,
+        tangential: 0.0,
+        lateral: 0.0,
+    };
 
     /// S/U = C_t/C_n, the same for all sizes.
     pub(crate) fn tangential_ratio(&self) -> f64 {
         self.tangential / self.normal
+    }
+
+    /// Both directions in the plane of contact.
+    pub(crate) fn plane(&self) -> Plane<'_> {
+        let per_approach = [self.tangential_ratio(), self.lateral / self.normal];
+        Plane { shape: self, per_approach, per_load: [0.0; 2], flat: 0.0, largest: self.largest_size() }
     }
 
     /// The shape of parameters that were checked, N > 0.
@@ -71,6 +85,7 @@ impl HertzEllipse {
             normal_force,
             normal: sum(&|nu| (1.0 - nu) * all),
             tangential: sum(&|nu| (1.0 - nu) * all + nu * cosine),
+            lateral: sum(&|nu| (1.0 - nu) * all + nu * (all - cosine)),
         })
     }
 
@@ -110,6 +125,18 @@ impl Shape for HertzEllipse {
 
     fn tangential_compliance(&self, w: f64) -> f64 {
         self.tangential * (self.semi_axis_x / w.max(TINY))
+    }
+
+    fn compliance_under_flat(&self, _: f64) -> f64 {
+        0.0
+    }
+
+    fn pressure_weight(&self, _: f64) -> f64 {
+        1.0
+    }
+
+    fn size_slope(&self, w: f64) -> f64 {
+        2.0 / 3.0 * (w / self.load(w).max(TINY)) * w
     }
 
     fn at_load(&self, load: f64) -> f64 {

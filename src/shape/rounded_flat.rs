@@ -18,7 +18,7 @@ use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
-use crate::shape::{ORDER, Relation, Reversed, Series, Shape, tractions};
+use crate::shape::{ORDER, Plane, Relation, Reversed, Series, Shape, tractions};
 use core::f64::consts::{LN_2, PI};
 
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
@@ -35,6 +35,8 @@ pub struct RoundedFlat {
     /// κ of U and of S.
     normal_constant: f64,
     tangential_constant: f64,
+    /// S along the line from U and N: S_y = `lateral[0]` U + `lateral[1]` N K_t/K.
+    lateral: [f64; 2],
     /// The size under the normal force of the parameters: its half-width b, and the punch with lengths over b.
     reference: (f64, RoundedPunch),
 }
@@ -48,12 +50,31 @@ impl RoundedFlat {
         compliance_scale: 0.0,
         normal_constant: 0.0,
         tangential_constant: 0.0,
+        lateral: [0.0; 2],
         reference: (0.0, RoundedPunch { flat: 0.0, w: 0.0, half_width: 0.0, psi: 0.0 }),
     };
 
     /// (S - U)/N = K_t - K_n, the same for all sizes \[m/N\].
     pub(crate) fn shift_less_approach(&self) -> f64 {
         self.compliance_scale * (self.tangential_constant - self.normal_constant)
+    }
+
+    /// Both directions in the plane of contact, x across the line. Along it, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`:
+    /// with the mean of 1/r over a line of length L, that of Boussinesq, and that of x²/r³, which is 1,
+    /// `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
+    pub(crate) fn plane(&self) -> Plane<'_> {
+        let [per_approach, per_load] = self.lateral;
+        // K_y = 1/16 or more, as for the other two.
+        let bound = (SMALLEST_COMPLIANCE - per_load) / per_approach - self.normal_constant;
+        let (half_width, flat) = (2.0 * self.length * (-bound).exp(), self.flat);
+        let (less, more) = (half_width - flat, half_width + flat);
+        Plane {
+            shape: self,
+            per_approach: [1.0, per_approach],
+            per_load: [self.shift_less_approach(), per_load * self.compliance_scale],
+            flat,
+            largest: self.largest_size().min(less.signum() * (less.abs() * more).sqrt()),
+        }
     }
 
     /// The shape of parameters that were checked, N > 0.
@@ -73,13 +94,17 @@ impl RoundedFlat {
             _ => [1.0, pair.mean(|nu| (1.0 - 2.0 * nu) / (1.0 - nu))]
                 .map(|factor| strip_correction(factor / slenderness)),
         };
+        let kappa = pair.mean(|nu| nu / (1.0 - nu));
+        let end_correction =
+            if parameters.displacement_reference == CENTRE_POINT { 0.0 } else { 8.0 / (PI * PI) / slenderness };
         let shape = RoundedFlat {
             flat,
             length,
             load_scale: length * modulus / (4.0 * edge_radius),
             compliance_scale: 2.0 / (PI * modulus * length),
             normal_constant: -normal,
-            tangential_constant: pair.mean(|nu| nu / (1.0 - nu)) - tangential,
+            tangential_constant: kappa - tangential,
+            lateral: [1.0 + kappa, -kappa * (1.0 - end_correction)],
             reference,
         };
         if slenderness > 0.5 && shape.reference_compliance() > 0.0 { Ok(shape) } else { Err(Error::LengthTooShort) }
@@ -176,6 +201,18 @@ impl Shape for RoundedFlat {
 
     fn tangential_compliance(&self, w: f64) -> f64 {
         self.compliance_scale * self.log_compliance(&self.punch_at(w), self.tangential_constant)
+    }
+
+    fn compliance_under_flat(&self, half_width: f64) -> f64 {
+        self.compliance_scale * ((2.0 * self.length / half_width.max(TINY)).ln() + self.normal_constant)
+    }
+
+    fn pressure_weight(&self, w: f64) -> f64 {
+        self.punch_at(w).psi
+    }
+
+    fn size_slope(&self, w: f64) -> f64 {
+        0.5 / (self.load_scale * self.punch_at(w).psi).max(TINY)
     }
 
     fn at_load(&self, load: f64) -> f64 {

@@ -6,9 +6,11 @@ use crate::error::Error;
 use crate::numerics::fp_class::{in_0_to, le};
 use crate::parameters::{EllipticParameters, Pair, Parameters};
 use crate::range::in_range;
-use crate::shape::{HertzEllipse, Relation, RoundedFlat, Shape};
+use crate::shape::{HertzEllipse, Plane, Relation, RoundedFlat, Shape};
 use crate::tag::LAYOUT;
 use crate::varying_load::table::{PIECES, Table};
+use crate::varying_load::two_directions::edge::{Pressed, PressedSlopes};
+use crate::varying_load::two_directions::springs::Springs;
 use core::array::from_fn;
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
@@ -73,6 +75,12 @@ pub struct Element {
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: [f64; PIECES],
+    /// For two directions: S along y = `lateral[0]` U + `lateral[1]` N, the shift across under the normal force of the parameters, its
+    /// size w, and the springs.
+    lateral: [f64; 2],
+    shift: f64,
+    size: f64,
+    pub(crate) springs: Springs,
 }
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
@@ -152,7 +160,7 @@ impl Element {
         in_range(&[normal_force], &[length, flat.half_width()])?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&flat, [normal_force, friction_coefficient], directions, input)?;
+        self.init(&flat.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
         (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
@@ -182,7 +190,7 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[normal_force], &[axis, composite_modulus])?;
         }
-        self.init(&ellipse, [normal_force, friction_coefficient], directions, input)?;
+        self.init(&ellipse.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
@@ -193,12 +201,14 @@ impl Element {
     /// Checks all ranges, then writes what depends on the shape only through its trait.
     fn init(
         &mut self,
-        shape: &dyn Shape,
+        plane: &Plane,
         [normal_force, friction_coefficient]: [f64; 2],
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
-        let (w, largest) = (shape.at_load(normal_force), shape.largest_size());
+        let shape = plane.shape;
+        let largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
+        let w = shape.at_load(normal_force);
         if w >= largest {
             return Err(Error::LengthTooShort);
         }
@@ -222,6 +232,13 @@ impl Element {
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        self.lateral = [plane.per_approach[1], plane.per_load[1]];
+        (self.shift, self.size) = (shift, w);
+        if directions == Directions::Two {
+            self.springs.fill(plane, w);
+        } else {
+            self.springs = Springs::EMPTY;
+        }
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
@@ -242,6 +259,35 @@ impl Element {
             *value = shape.potential(shape.at_shift(middle));
         }
         Ok(())
+    }
+
+    /// The unit of shifts: S across the line under the normal force of the parameters \[m\].
+    pub(crate) fn shift_unit(&self) -> f64 {
+        self.shift
+    }
+
+    /// The normal state in the units of the springs, from a load > 0 and its shift.
+    pub(crate) fn pressed(&self, load: f64, shift: f64) -> Pressed {
+        let approach = (shift - self.shift_per_load * load) / self.shift_per_approach;
+        let lateral = self.lateral[0] * approach + self.lateral[1] * load;
+        let size = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force)) / self.size;
+        let per_shift = 1.0 / self.shift;
+        Pressed { load: load / self.normal_force, shift: [shift * per_shift, lateral * per_shift], size: size * size }
+    }
+
+    /// Derivatives of the normal state with respect to the input.
+    pub(crate) fn pressed_slopes(&self, normal: &Normal) -> PressedSlopes {
+        let Normal { load, load_slope, shift_slope, .. } = *normal;
+        let approach = (shift_slope - self.shift_per_load * load_slope) / self.shift_per_approach;
+        let lateral = self.lateral[0] * approach + self.lateral[1] * load_slope;
+        let w = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force));
+        let size = self.shape().size_slope(w) * load_slope / self.size / self.size;
+        let per_shift = 1.0 / self.shift;
+        PressedSlopes {
+            load: load_slope / self.normal_force,
+            shift: [shift_slope * per_shift, lateral * per_shift],
+            size,
+        }
     }
 
     /// Whether the tag is that of an element initialised by this version.
@@ -612,6 +658,10 @@ const EMPTY: Element = Element {
     of_input: Table::EMPTY,
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
+    lateral: [0.0; 2],
+    shift: 0.0,
+    size: 0.0,
+    springs: Springs::EMPTY,
 };
 
-const _: () = assert!(size_of::<Element>() <= 20_000);
+const _: () = assert!(size_of::<Element>() <= 34_000);

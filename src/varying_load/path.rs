@@ -11,6 +11,10 @@ pub struct StepResult<V, T> {
     pub dissipated: f64,
 }
 
+impl StepResult<[f64; 3], [f64; 9]> {
+    pub(crate) const NONE: Self = StepResult { force: [0.0; 3], tangent: [0.0; 9], dissipated: 0.0 };
+}
+
 /// Outputs of a path, step after step; `None` is not computed.
 #[derive(Debug)]
 pub struct PathOutput<'a> {

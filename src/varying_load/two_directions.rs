@@ -1,11 +1,32 @@
-//! The law for two tangential directions: state, steps and harmonic force. A displacement is `[u, v, w]` or `[u, v, N]`, a force
-//! `[Tx, Ty, N]`.
+//! The law for two tangential directions. A displacement is `[u, v, w]` or `[u, v, N]`, a force `[Tx, Ty, N]`.
 //!
-//! Provisional: one spring of the stiffness of the whole contact, with Coulomb's limit for the magnitude of its force.
+//! The contact is a family of nested sizes, as in one direction, but slip has a direction of its own at each point. Springs at nodes of
+//! the family carry the displacement of the sizes within; the tractions at one point of each shell are a triangular map of them, and
+//! Coulomb's law holds at these points, with slip in the direction of the traction.
+//!
+//! - `springs`: the nodes of a shape and the map, independent of the load;
+//! - `edge`: the shell that ends at the present size;
+//! - `slip`: Coulomb's law at the points, by Newton's method;
+//! - `fine`: correction by a finer bank of springs;
+//! - `step`, `sensitivity`: a step, and its derivatives;
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
+//!
+//! A motion on a line parallel to x is that of one direction: as long as v does not change, the state is the memory diagram of
+//! [`crate::varying_load::state`]. The first step with a change of v turns it into springs, the next separation back.
 //!
 //! ```text
-//! [tag, u, v, normal component, Tx, Ty, N, 0, ...]
+//! on a line:  [tag 0, v, state of one direction]
+//! springs:    [tag 1, v, u, normal component, N, S, 0, 0, springs, tractions, reach, pressure, fine bank]
 //! ```
+
+pub mod harmonic_force;
+
+pub(crate) mod edge;
+pub(crate) mod fine;
+pub(crate) mod sensitivity;
+pub(crate) mod slip;
+pub(crate) mod springs;
+pub(crate) mod step;
 
 use crate::constant_load::contact::check_displacement;
 use crate::error::Error;
@@ -13,11 +34,18 @@ use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::path::{self, advance_along};
+use crate::varying_load::state;
+use edge::{Edge, Map, Pressed};
+use sensitivity::{MotionColumns, ROWS, SCRATCH};
+use springs::{Both, FINE, SPRINGS};
+use step::{Memory, Motion};
 
 pub use crate::varying_load::path::PathOutput;
 
-const LENGTH: usize = 260;
-const HEADER: usize = 7;
+const HEADER: usize = 8;
+const LENGTH: usize = HEADER + 6 * SPRINGS + 2 * FINE;
+/// Values before the state of one direction.
+const LINE: usize = 2;
 
 /// Number of doubles in a state.
 #[must_use]
@@ -30,7 +58,7 @@ pub type Step = path::StepResult<[f64; 3], [f64; 9]>;
 
 /// Results of a step that are requested besides the force.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Wanted {
+pub(crate) struct Requested {
     pub tangent: bool,
     pub energy: bool,
 }
@@ -42,9 +70,14 @@ pub(crate) struct Wanted {
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     let state = state.get_mut(..LENGTH).ok_or(Error::StateTooShort)?;
     state.fill(0.0);
-    state.iter_mut().take(1).for_each(|tag| *tag = Kind::TwoDirectionsState.tag(0));
-    Ok(())
+    let Some((header, line)) = state.split_first_chunk_mut::<LINE>() else { return Err(Error::StateTooShort) };
+    header[0] = Kind::TwoDirectionsState.tag(ON_LINE);
+    state::state_init(line)
 }
+
+/// Counts in the tag: the two kinds of states.
+const ON_LINE: usize = 0;
+const SPRUNG: usize = 1;
 
 /// Checks the length and the tag of a state.
 ///
@@ -55,28 +88,54 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < LENGTH {
         return Err(Error::StateTooShort);
     }
-    check_tag(state.first().copied().unwrap_or(0.0), state.len())
+    check_tag(state.first().copied().unwrap_or(0.0), state.len())?;
+    match line_of(state) {
+        Some(line) => state::check_header(line),
+        None => Ok(()),
+    }
 }
 
 /// Rejects the tag of what is no state of that length.
 #[inline(always)]
 pub(crate) fn check_tag(tag: f64, _state_length: usize) -> Result<(), Error> {
-    if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
+    match Kind::TwoDirectionsState.count(tag) {
+        Some(ON_LINE | SPRUNG) => Ok(()),
+        _ => Err(Error::BadState),
+    }
 }
 
-/// Validates a state in full. For states from outside the process.
+/// The state of one direction in a state on a line.
+fn line_of(state: &[f64]) -> Option<&[f64]> {
+    let on_line = Kind::TwoDirectionsState.count(*state.first()?) == Some(ON_LINE);
+    state.get(LINE..LENGTH).filter(|_| on_line)
+}
+
+/// Validates a state in full: finite values, springs and tractions within their limits. For states from outside the process.
 ///
 /// # Errors
 /// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
-    if state.iter().take(LENGTH).all(|value| is_finite(*value)) { Ok(()) } else { Err(Error::BadState) }
+    let used = state.get(..LENGTH).ok_or(Error::StateTooShort)?;
+    if !used.iter().all(|value| is_finite(*value)) {
+        return Err(Error::BadState);
+    }
+    if let Some(line) = line_of(state) {
+        return state::state_check(line);
+    }
+    let (header, memory) = read(state);
+    let bounded = |x: f64, y: f64| x * x + y * y <= 1.0 + 1e-9;
+    let [x, y] = &memory.tractions;
+    let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
+    let positive = memory.reach.iter().chain(&memory.pressure).all(|value| *value >= 0.0);
+    let loads = header.load > 0.0 && header.shift > 0.0;
+    if within && positive && loads { Ok(()) } else { Err(Error::BadState) }
 }
 
-/// A bound on the error of the force \[N\]; 0.
+/// A bound on the error of the force \[N\] from merging pieces of the diagram on a line; 0 otherwise.
 #[must_use]
-pub fn force_error(_state: &[f64]) -> f64 {
-    0.0
+pub fn force_error(state: &[f64]) -> f64 {
+    line_of(state).map_or(0.0, state::force_error)
 }
 
 /// Checks the displacement of a step.
@@ -90,20 +149,259 @@ pub(crate) fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result
     element.check_input(input)
 }
 
+/// Where a contact with springs is.
+#[derive(Debug, Clone, Copy)]
+struct Header {
+    displacement: Both<f64>,
+    input: f64,
+    load: f64,
+    shift: f64,
+}
+
+/// Header and memory of a state of springs.
+fn read(state: &[f64]) -> (Header, Memory) {
+    let [_, v, u, input, load, shift, ..] = *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
+    let mut memory = Memory::RELAXED;
+    let mut from = state.get(HEADER..).unwrap_or(&[]);
+    let mut take = |to: &mut [f64]| {
+        if let Some((values, rest)) = from.split_at_checked(to.len()) {
+            to.copy_from_slice(values);
+            from = rest;
+        }
+    };
+    memory.springs.iter_mut().for_each(|row| take(row));
+    memory.tractions.iter_mut().for_each(|row| take(row));
+    take(&mut memory.reach);
+    take(&mut memory.pressure);
+    memory.fine.iter_mut().for_each(|row| take(row));
+    (Header { displacement: [u, v], input, load, shift }, memory)
+}
+
+/// Writes a state of springs.
+fn write(state: &mut [f64], header: &Header, memory: &Memory) {
+    let Some((place, mut rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
+    let Header { displacement: [u, v], input, load, shift } = *header;
+    *place = [Kind::TwoDirectionsState.tag(SPRUNG), v, u, input, load, shift, 0.0, 0.0];
+    let mut put = |from: &[f64]| {
+        if let Some((values, behind)) = core::mem::take(&mut rest).split_at_mut_checked(from.len()) {
+            values.copy_from_slice(from);
+            rest = behind;
+        }
+    };
+    memory.springs.iter().for_each(|row| put(row));
+    memory.tractions.iter().for_each(|row| put(row));
+    put(&memory.reach);
+    put(&memory.pressure);
+    memory.fine.iter().for_each(|row| put(row));
+}
+
 /// A step whose new state is discarded, with a state and a displacement that were checked.
-pub(crate) fn trial(element: &Element, old: &[f64], displacement: [f64; 3], wanted: Wanted) -> Step {
-    let header = old.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
-    step(element, header, displacement, wanted)
+pub(crate) fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
+    let mut copy = [0.0; LENGTH];
+    copy_used(old, &mut copy);
+    advance_checked(element, &mut copy, displacement, requested)
 }
 
 /// A step in place, with a state and a displacement that were checked.
-pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 3], wanted: Wanted) -> Step {
-    let step = trial(element, state, displacement, wanted);
-    if let Some([_, header @ ..]) = state.first_chunk_mut::<HEADER>() {
-        let ([u, v, input], [x, y, normal]) = (displacement, step.force);
-        *header = [u, v, input, x, y, normal];
+pub(crate) fn advance_checked(
+    element: &Element,
+    state: &mut [f64],
+    [u, v, input]: [f64; 3],
+    requested: Requested,
+) -> Step {
+    let Some(state) = state.first_chunk_mut::<LENGTH>() else { return Step::NONE };
+    let closes = element.is_closed(input);
+    let (from, mut memory) = match line_of(state.as_slice()) {
+        Some(line) => {
+            let (old_v, there) = (state[1], state::view(line));
+            // Without friction, or open before and after, only the position changes.
+            let free = element.friction_coefficient == 0.0 || (there.load == 0.0 && !closes);
+            if old_v == v || free {
+                let lateral = requested.tangent && !free && closes;
+                let start = lateral.then(|| {
+                    let header = there.header(old_v);
+                    let memory = of_diagram(element, &header, there.knots);
+                    (header, memory)
+                });
+                let Some((header, line)) = state.split_first_chunk_mut::<LINE>() else { return Step::NONE };
+                header[1] = v;
+                let step = state::advance_checked(element, line, [u, input], requested.energy);
+                let ([x, normal], [xx, _, xw, ww]) = (step.force, step.tangent);
+                // Of the third component, the diagram has no stiffness: that of the springs.
+                let yy = start.map_or(0.0, |(header, mut memory)| {
+                    let requested = Requested { tangent: true, energy: false };
+                    advance_springs(element, &header, &mut memory, [u, v, input], requested).0.tangent[4]
+                });
+                return Step {
+                    force: [x, 0.0, normal],
+                    tangent: [xx, 0.0, 0.0, 0.0, yy, 0.0, xw, 0.0, ww],
+                    dissipated: step.dissipated,
+                };
+            }
+            let header = there.header(old_v);
+            (header, of_diagram(element, &header, there.knots))
+        }
+        None => read(state.as_slice()),
+    };
+    let (step, header) = advance_springs(element, &from, &mut memory, [u, v, input], requested);
+    if header.load > 0.0 {
+        write(state, &header, &memory);
+    } else {
+        // Separated: the line of the next contact begins here.
+        state.fill(0.0);
+        let _ = state_init(state);
+        if let Some((header, line)) = state.split_first_chunk_mut::<LINE>() {
+            header[1] = v;
+            state::advance_checked(element, line, [u, input], false);
+        }
     }
     step
+}
+
+impl state::View<'_> {
+    fn header(&self, v: f64) -> Header {
+        Header { displacement: [self.displacement, v], input: self.input, load: self.load, shift: self.shift }
+    }
+}
+
+/// The springs of a diagram: their displacements are those of the sizes from theirs on.
+fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory {
+    let mut memory = Memory::RELAXED;
+    if header.load <= 0.0 {
+        return memory;
+    }
+    let springs = &element.springs;
+    let (unit, now) = (element.shift_unit(), element.pressed(header.load, header.shift));
+    let mu = element.friction_coefficient;
+    let [u, _] = header.displacement;
+    let at = |shift: f64| {
+        // P(S) of the polygon; beyond its end the displacement is that of the contact.
+        let target = shift * unit;
+        let mut inner = knots.first().copied().unwrap_or([u, u, 0.0, 0.0]);
+        for knot in knots {
+            let [xi, eta, ..] = *knot;
+            let end = 0.5 * (eta - xi) / mu;
+            if end > target {
+                let start = 0.5 * (inner[1] - inner[0]) / mu;
+                let part = ((target - start) / (end - start).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+                let position = |knot: &[f64; 4]| 0.5 * (knot[0] - u) + 0.5 * (knot[1] - u);
+                return -(position(&inner) + part * (position(knot) - position(&inner))) / (mu * unit);
+            }
+            inner = *knot;
+        }
+        0.0
+    };
+    let edge = Edge::new(springs, &now, None);
+    for j in 0..SPRINGS {
+        if j <= edge.last {
+            memory.springs[0][j] = at(springs.shift[0][j]);
+        }
+    }
+    for j in 0..FINE {
+        if springs.fine_shift[0][j] < now.shift[0] {
+            memory.fine[0][j] = at(springs.fine_shift[0][j]);
+        }
+    }
+    let map = Map::new(springs, &edge);
+    let mut scaled = memory.springs;
+    for j in 0..SPRINGS {
+        scaled[0][j] *= map.root[0][j];
+    }
+    for i in 0..SPRINGS {
+        if i <= edge.last {
+            let [x, _] = map.traction(&scaled, i);
+            memory.tractions[0][i] = (x / edge.pressure[i]).clamp(-1.0, 1.0);
+        }
+    }
+    (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
+    memory
+}
+
+/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is proportional.
+const LONGEST: f64 = 1e9;
+
+/// A step of springs, from a contact that may be open.
+fn advance_springs(
+    element: &Element,
+    from: &Header,
+    memory: &mut Memory,
+    [u, v, input]: [f64; 3],
+    requested: Requested,
+) -> (Step, Header) {
+    let (was_closed, closed) = (from.load > 0.0, element.is_closed(input));
+    let same = was_closed && input.to_bits() == from.input.to_bits();
+    let normal = if closed { element.normal(input) } else { Normal::OPEN };
+    let to = Header { displacement: [u, v], input, load: normal.load, shift: normal.shift };
+    // The part of the path in contact, as in one direction.
+    let start = if was_closed { from.input } else { from.input.min(0.0) };
+    let end = if closed { input } else { input.min(0.0) };
+    let approach = element.by_approach();
+    let part = match (was_closed, closed) {
+        (true, false) if approach => start / (start - end),
+        (false, true) if approach => end / (end - start),
+        _ => 1.0,
+    };
+    let distance = [u - from.displacement[0], v - from.displacement[1]];
+    let unit = element.friction_coefficient * element.shift_unit();
+    let energy_unit = element.friction_coefficient * element.normal_force * unit;
+    let by = distance.map(|distance| part * distance / unit);
+    let longest = by[0].abs().max(by[1].abs());
+    let stretch = if longest > LONGEST { longest / LONGEST } else { 1.0 };
+    let by = by.map(|by| by / stretch);
+    let before = if was_closed { element.pressed(from.load, from.shift) } else { Pressed::default() };
+    let mut step = Step { force: [0.0, 0.0, normal.load], tangent: [0.0; 9], dissipated: 0.0 };
+    step.tangent[8] = normal.load_slope;
+    if !closed {
+        if was_closed && requested.energy {
+            let motion = Motion { before, now: Pressed::default(), by, constant_load: false };
+            step.dissipated = energy_unit * stretch * step::separated(&element.springs, memory, &motion);
+        }
+        *memory = Memory::RELAXED;
+        return (step, to);
+    }
+    if !was_closed {
+        *memory = Memory::RELAXED;
+    }
+    let now = if same { before } else { element.pressed(normal.load, normal.shift) };
+    let motion = Motion { before, now, by, constant_load: same };
+    let old = if requested.tangent { Some(*memory) } else { None };
+    let mut course = step::Course::NONE;
+    let outcome = step::step(&element.springs, memory, &motion, [requested.energy, requested.tangent], &mut course);
+    let force_unit = element.friction_coefficient * element.normal_force;
+    (step.force[0], step.force[1]) = (force_unit * outcome.force[0], force_unit * outcome.force[1]);
+    step.dissipated = energy_unit * stretch * outcome.dissipated;
+    if let Some(old) = old {
+        let slopes = element.pressed_slopes(&normal);
+        // Columns u, v, w.
+        let (along, zero) = (part / unit / stretch, [0.0; 4]);
+        let growth = if was_closed || !approach { 0.0 } else { -start / ((end - start) * (end - start)) };
+        let by_input = distance.map(|distance| distance * growth / unit / stretch);
+        let columns = MotionColumns {
+            by: [&[along, 0.0, by_input[0], 0.0], &[0.0, along, by_input[1], 0.0]],
+            load: &[0.0, 0.0, slopes.load, 0.0],
+            shift: [&[0.0, 0.0, slopes.shift[0], 0.0], &[0.0, 0.0, slopes.shift[1], 0.0]],
+            size: &[0.0, 0.0, slopes.size, 0.0],
+            before: [&zero, &zero],
+        };
+        let (mut rows, mut scratch) = ([0.0; 4 * ROWS], [0.0; 4 * SCRATCH]);
+        let (mut x, mut y) = ([0.0; 4], [0.0; 4]);
+        let memories = [&old, &*memory];
+        sensitivity::step(
+            &element.springs,
+            memories,
+            &motion,
+            &course,
+            &columns,
+            &mut rows,
+            &mut scratch,
+            [&mut x, &mut y],
+        );
+        for column in 0..3 {
+            step.tangent[3 * column] = force_unit * x[column];
+            step.tangent[3 * column + 1] = force_unit * y[column];
+        }
+    }
+    (step, to)
 }
 
 /// A step in place.
@@ -113,7 +411,7 @@ pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     check_header(state)?;
     check_step(element, &displacement)?;
-    Ok(advance_checked(element, state, displacement, Wanted { tangent: true, energy: true }))
+    Ok(advance_checked(element, state, displacement, Requested { tangent: true, energy: true }))
 }
 
 /// Checks a path: three doubles per step.
@@ -131,8 +429,8 @@ pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
-    let wanted = Wanted { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
-    advance_along(path, output, |displacement| advance_checked(element, state, displacement, wanted));
+    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
+    advance_along(path, output, |displacement| advance_checked(element, state, displacement, requested));
     Ok(())
 }
 
@@ -148,230 +446,5 @@ pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], outp
 pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
     if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
         *to = *from;
-    }
-}
-
-fn step(element: &Element, old: &[f64; HEADER], [u, v, input]: [f64; 3], wanted: Wanted) -> Step {
-    let &[_, old_u, old_v, _, old_x, old_y, _] = old;
-    let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
-    let (stiffness, limit) = (element.tangential_stiffness, element.friction_coefficient * normal.load);
-    let trial = [old_x + stiffness * (u - old_u), old_y + stiffness * (v - old_v)];
-    let magnitude = trial[0].hypot(trial[1]);
-    let slips = magnitude > limit;
-    // Compilers evaluate quotients also if they are not used.
-    let divisor = magnitude.max(f64::MIN_POSITIVE);
-    let [cos, sin] = if slips { trial.map(|force| force / divisor) } else { [0.0; 2] };
-    let [x, y] = if slips { [limit * cos, limit * sin] } else { trial };
-    let mut step = Step { force: [x, y, normal.load], tangent: [0.0; 9], dissipated: 0.0 };
-    if wanted.energy {
-        step.dissipated = limit * ((magnitude - limit).max(0.0) / stiffness);
-    }
-    if wanted.tangent {
-        let slope = element.friction_coefficient * normal.load_slope;
-        let across = if slips { stiffness * (limit.min(magnitude) / divisor) } else { stiffness };
-        step.tangent = [
-            across * (1.0 - cos * cos),
-            -across * cos * sin,
-            0.0,
-            -across * cos * sin,
-            across * (1.0 - sin * sin),
-            0.0,
-            slope * cos,
-            slope * sin,
-            normal.load_slope,
-        ];
-    }
-    step
-}
-
-/// Harmonic force of a periodic motion, by uniform sampling.
-pub mod harmonic_force {
-    use super::{LENGTH, Step, Wanted, advance_checked, state_init};
-    use crate::error::Error;
-    use crate::hbm::check_coefficients;
-    use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout};
-    use crate::tag::Kind;
-    use crate::varying_load::element::Element;
-    use core::f64::consts::TAU;
-
-    pub use crate::hbm::HarmonicOutput;
-
-    /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
-    #[must_use]
-    pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-        Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
-    }
-
-    /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
-    ///
-    /// # Errors
-    /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
-    pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-        Layout::init(harmonics, samples, workspace)
-    }
-
-    /// Number of doubles in an initialised workspace, from its header.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised.
-    pub fn workspace_extent(header: &[f64; TAGS]) -> Result<usize, Error> {
-        Layout::read(header).map(|layout| layout.length())
-    }
-
-    /// Harmonics and samples of an initialised workspace, from its header.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised.
-    pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize), Error> {
-        Layout::read(header).map(|Layout(size)| (size.harmonics, size.samples))
-    }
-
-    struct Layout(Size);
-
-    impl WorkspaceLayout for Layout {
-        const KIND: Kind = Kind::TwoDirectionsSampling;
-
-        fn of(size: Size) -> Layout {
-            Layout(size)
-        }
-
-        fn size(&self) -> Size {
-            self.0
-        }
-
-        fn max_rows(&self) -> usize {
-            2 * self.0.samples + 16
-        }
-
-        fn tables_length(&self) -> usize {
-            0
-        }
-
-        fn length(&self) -> usize {
-            HEADER + 4 * self.0.samples
-        }
-
-        fn fill_tables(&self, _tables: &mut Parts) -> Result<(), Error> {
-            Ok(())
-        }
-    }
-
-    /// An opened workspace.
-    #[derive(Debug)]
-    pub struct Workspace<'a> {
-        size: Size,
-        samples: &'a mut [[f64; 4]],
-    }
-
-    impl<'a> Workspace<'a> {
-        /// Opens an initialised workspace.
-        ///
-        /// # Errors
-        /// `BadWorkspace` if uninitialised or too short.
-        pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-            let (Layout(size), mut parts) = Layout::open(memory)?;
-            Ok(Workspace { size, samples: parts.take_blocks(size.samples)? })
-        }
-
-        /// 2H + 1.
-        #[must_use]
-        pub fn coefficients(&self) -> usize {
-            self.size.coefficients()
-        }
-
-        /// Checks a motion: all of a batch are checked before the first output is written.
-        ///
-        /// # Errors
-        /// Those of [`harmonic_force`].
-        pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
-            check_coefficients(displacement)?;
-            let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
-            let mean = input.first().copied().unwrap_or(0.0);
-            let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-            if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
-                return Ok(());
-            }
-            self.synthesise(element, displacement)
-        }
-
-        fn synthesise(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
-            let (size, coefficients) = (self.size, self.coefficients());
-            let input = displacement.get(2 * coefficients..).unwrap_or(&[]);
-            let rounding = 8.0 * f64::EPSILON * input.iter().map(|value| value.abs()).sum::<f64>();
-            for (index, sample) in self.samples.iter_mut().enumerate() {
-                *sample = [0.0; 4];
-                for (values, place) in displacement.chunks_exact(coefficients).zip(sample.iter_mut()) {
-                    *place = values.iter().enumerate().map(|(c, value)| value * basis(c, index, size.samples)).sum();
-                }
-                if !element.by_approach() {
-                    if sample[2] < -rounding {
-                        return Err(Error::BadNormalForce);
-                    }
-                    sample[2] = sample[2].max(0.0);
-                }
-                element.check_input(sample[2])?;
-            }
-            Ok(())
-        }
-    }
-
-    /// Function c of the order `[1, cos t, sin t, ...]` at a sample.
-    fn basis(c: usize, index: usize, samples: usize) -> f64 {
-        let angle = TAU * (c.div_ceil(2) * index).checked_rem(samples).unwrap_or(0) as f64 / samples as f64;
-        if c.is_multiple_of(2) && c > 0 { angle.sin() } else { angle.cos() }
-    }
-
-    /// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal
-    /// component, the approach \[m\] or the normal force \[N\].
-    ///
-    /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their
-    /// derivatives with respect to the coefficients of the motion.
-    ///
-    /// # Errors
-    /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds
-    /// 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact
-    /// would become too wide for its length.
-    #[inline(always)]
-    pub fn harmonic_force(
-        element: &Element,
-        workspace: &mut Workspace,
-        displacement: &[f64],
-        output: HarmonicOutput,
-    ) -> Result<(), Error> {
-        let (coefficients, count) = (workspace.coefficients(), workspace.size.samples);
-        let HarmonicOutput { mut force, mut jacobian, dissipated } = output;
-        let n = 3 * coefficients;
-        let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
-        if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
-            return Err(Error::BadArraySize);
-        }
-        check_coefficients(displacement)?;
-        workspace.synthesise(element, displacement)?;
-        let mut state = [0.0; LENGTH];
-        state_init(&mut state)?;
-        let wanted = Wanted { tangent: true, energy: true };
-        force.as_deref_mut().unwrap_or(&mut []).fill(0.0);
-        jacobian.as_deref_mut().unwrap_or(&mut []).fill(0.0);
-        let mut energy = 0.0;
-        for (index, position) in (0..count).chain(0..count).enumerate() {
-            let &[u, v, input, _] = workspace.samples.get(position).unwrap_or(&[0.0; 4]);
-            let Step { force: values, tangent, dissipated } =
-                advance_checked(element, &mut state, [u, v, input], wanted);
-            if index < count {
-                continue;
-            }
-            energy += dissipated;
-            let weight = |c: usize| if c == 0 { 1.0 } else { 2.0 } / count as f64 * basis(c, position, count);
-            for (i, place) in force.as_deref_mut().unwrap_or(&mut []).iter_mut().enumerate() {
-                *place += weight(i % coefficients) * values.get(i / coefficients).unwrap_or(&0.0);
-            }
-            for (k, place) in jacobian.as_deref_mut().unwrap_or(&mut []).iter_mut().enumerate() {
-                let (i, j) = (k % n, k / n);
-                let slope = tangent.get(i / coefficients + 3 * (j / coefficients)).unwrap_or(&0.0);
-                *place += weight(i % coefficients) * slope * basis(j % coefficients, position, count);
-            }
-        }
-        dissipated.into_iter().for_each(|place| *place = energy);
-        Ok(())
     }
 }

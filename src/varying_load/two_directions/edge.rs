@@ -1,0 +1,165 @@
+//! The shell at the edge of the contact, which ends at the present size, and the map from springs to tractions with it.
+
+use super::springs::{Both, Row, SPRINGS, Springs, dot, root_difference};
+use crate::shape::TINY;
+
+/// Normal state in the units of the springs: N, S of both directions, w².
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pressed {
+    pub load: f64,
+    pub shift: Both<f64>,
+    pub size: f64,
+}
+
+/// Derivatives of [`Pressed`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PressedSlopes {
+    pub load: f64,
+    pub shift: Both<f64>,
+    pub size: f64,
+}
+
+/// Nodes closer to the present size than this part of it do not count as inside: their shell would be lost in rounding.
+const THINNEST: f64 = 1e-9;
+
+/// The last shell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    /// Its node.
+    pub last: usize,
+    /// S_b - S and the root of the stiffness of its spring.
+    pub step: Both<f64>,
+    pub root: Both<f64>,
+    /// W of the shell.
+    pub secant: Both<f64>,
+    /// F_i of the shell at the points x_i, and the pressure there.
+    pub reach: Row,
+    pub pressure: Row,
+}
+
+impl Edge {
+    pub const NONE: Edge = Edge {
+        last: 0,
+        step: [1.0; 2],
+        root: [1.0; 2],
+        secant: [0.0; 2],
+        reach: [0.0; SPRINGS],
+        pressure: [0.0; SPRINGS],
+    };
+
+    /// The edge of a contact; `cached` are reach and pressure under the same load.
+    #[inline(always)]
+    pub fn new(springs: &Springs, now: &Pressed, cached: Option<(&Row, &Row)>) -> Edge {
+        let mut last = springs.under_flat;
+        for j in 0..SPRINGS {
+            if j > springs.under_flat && springs.shift[0][j] < now.shift[0] * (1.0 - THINNEST) {
+                last = j;
+            }
+        }
+        let last = last.min(SPRINGS - 1);
+        let mut edge = Edge {
+            last,
+            step: [0.0; 2],
+            root: [0.0; 2],
+            secant: [0.0; 2],
+            reach: [0.0; SPRINGS],
+            pressure: [0.0; SPRINGS],
+        };
+        for k in 0..2 {
+            edge.step[k] = (now.shift[k] - springs.shift[k][last]).max(TINY);
+            edge.secant[k] = (now.load - springs.load[last]) / edge.step[k];
+            let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
+            edge.root[k] = (edge.secant[k] - before).max(TINY).sqrt();
+        }
+        if let Some((reach, pressure)) = cached {
+            (edge.reach, edge.pressure) = (*reach, *pressure);
+            return edge;
+        }
+        let mut weights = [0.0; SPRINGS];
+        for j in 0..SPRINGS {
+            let distance = springs.shift[0][last] - springs.shift[0][j];
+            weights[j] = springs.root[0][j] * if j < last { distance } else { 0.0 };
+        }
+        for i in 0..SPRINGS {
+            if i < last {
+                let difference = root_difference(now.size, springs.size[last], springs.point[i]);
+                edge.reach[i] = springs.weight[last] * difference * springs.unit[i];
+                edge.pressure[i] = dot(&springs.traction[i][0], &weights) + edge.reach[i];
+            }
+        }
+        (edge.reach[last], edge.pressure[last]) = (1.0, 1.0);
+        edge
+    }
+
+    /// g of the last shell at a point.
+    #[inline(always)]
+    pub fn slope(&self, k: usize, i: usize) -> f64 {
+        self.reach[i] / self.step[k]
+    }
+}
+
+/// The map from `sqrt(w_j) v_j` to the tractions q_i under the present load.
+pub(super) struct Map<'a> {
+    springs: &'a Springs,
+    pub last: usize,
+    /// Roots of the stiffnesses, 0 beyond the contact.
+    pub root: Both<Row>,
+    /// Entries of the last spring.
+    pub column: Both<Row>,
+    /// 1 for the springs before the last one, 0 for others.
+    inside: Row,
+}
+
+impl Map<'_> {
+    #[inline(always)]
+    pub fn new<'a>(springs: &'a Springs, edge: &Edge) -> Map<'a> {
+        let last = edge.last;
+        let mut map = Map { springs, last, root: springs.root, column: [[0.0; SPRINGS]; 2], inside: [0.0; SPRINGS] };
+        for j in 0..SPRINGS {
+            map.inside[j] = if j < last { 1.0 } else { 0.0 };
+        }
+        for k in 0..2 {
+            let mut inner = [0.0; SPRINGS];
+            for j in 0..SPRINGS {
+                map.root[k][j] = if j < last { springs.root[k][j] } else { 0.0 };
+                inner[j] = map.root[k][j];
+            }
+            map.root[k][last] = edge.root[k];
+            let per_root = 1.0 / edge.root[k];
+            for i in 0..SPRINGS {
+                if i < last {
+                    let slope = dot(&springs.traction[i][k], &inner);
+                    map.column[k][i] = (edge.slope(k, i) - slope) * per_root;
+                }
+            }
+            map.column[k][last] = edge.slope(k, last) * per_root;
+        }
+        map
+    }
+
+    /// Row i for direction k.
+    #[inline(always)]
+    pub fn row(&self, k: usize, i: usize) -> Row {
+        let mut row = [0.0; SPRINGS];
+        let fixed = &self.springs.traction[i][k];
+        if i < self.last {
+            for j in 0..SPRINGS {
+                row[j] = fixed[j] * self.inside[j];
+            }
+        }
+        row[self.last] = self.column[k][i];
+        row
+    }
+
+    /// Entry (i, i).
+    #[inline(always)]
+    pub fn diagonal(&self, k: usize, i: usize) -> f64 {
+        if i < self.last { self.springs.traction[i][k][i] } else { self.column[k][i] }
+    }
+
+    /// The traction at point i.
+    #[inline(always)]
+    pub fn traction(&self, z: &Both<Row>, i: usize) -> Both<f64> {
+        core::array::from_fn(|k| dot(&self.row(k, i), &z[k]))
+    }
+}

@@ -1,0 +1,282 @@
+//! A step of a closed contact in both directions.
+//!
+//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If the traction at no point then
+//! exceeds the pressure, this is the end of the step; otherwise the points slip. All in the units of the springs.
+
+use super::edge::{Edge, Map, Pressed};
+use super::fine::{self, FineEdge, FineRow, Share};
+use super::slip::{Problem, Slip, product};
+use super::springs::{Both, Row, SPRINGS, Springs, dot};
+use crate::shape::TINY;
+
+/// Displacements of the springs, tractions over the pressure at the points, and the fine bank; reach and pressure of the edge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Memory {
+    pub springs: Both<Row>,
+    pub tractions: Both<Row>,
+    pub reach: Row,
+    pub pressure: Row,
+    pub fine: Both<FineRow>,
+}
+
+impl Memory {
+    pub const RELAXED: Memory = Memory {
+        springs: [[0.0; SPRINGS]; 2],
+        tractions: [[0.0; SPRINGS]; 2],
+        reach: [0.0; SPRINGS],
+        pressure: [0.0; SPRINGS],
+        fine: [[0.0; super::springs::FINE]; 2],
+    };
+}
+
+/// A step, straight in S and in the displacement.
+pub(super) struct Motion {
+    pub before: Pressed,
+    pub now: Pressed,
+    pub by: Both<f64>,
+    /// Whether the load is that of the memory.
+    pub constant_load: bool,
+}
+
+/// What a step leads through.
+pub(super) struct Course {
+    pub edge: Edge,
+    pub fine: FineEdge,
+    /// The slip, if there is any.
+    pub slip: Option<Slipped>,
+    /// Sum of the forces of the springs, before Coulomb's bound.
+    pub sum: Both<f64>,
+}
+
+impl Course {
+    pub const NONE: Course = Course { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] };
+}
+
+/// A step with slip: its end in units of the roots, and the start of its tractions.
+pub(super) struct Slipped {
+    pub slip: Slip,
+    pub end: Both<Row>,
+    pub start: Both<Row>,
+    pub overshoot: Row,
+}
+
+/// Force and dissipated energy.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outcome {
+    pub force: Both<f64>,
+    pub dissipated: f64,
+}
+
+#[inline(always)]
+pub(super) fn step(
+    springs: &Springs,
+    memory: &mut Memory,
+    motion: &Motion,
+    [energy, record]: [bool; 2],
+    course: &mut Course,
+) -> Outcome {
+    let Motion { before, now, by, constant_load } = motion;
+    let edge = Edge::new(springs, now, constant_load.then_some((&memory.reach, &memory.pressure)));
+    let last = edge.last;
+    let share = Share::new(before, now);
+    let old = memory.springs;
+    let (mut trial, mut limits) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
+    for k in 0..2 {
+        for j in 0..SPRINGS {
+            let limit = now.shift[k] - springs.shift[k][j];
+            limits[k][j] = limit;
+            let inside = j <= last && j < springs.used;
+            trial[k][j] = if inside { old[k][j] + by[k] * share.of(k, limit) } else { 0.0 };
+        }
+    }
+    let mut root = springs.root;
+    for k in 0..2 {
+        root[k][last] = edge.root[k];
+    }
+    // Tractions of the trial state.
+    let mut sticks = true;
+    let mut tractions = [[0.0; SPRINGS]; 2];
+    let map = if *constant_load {
+        for k in 0..2 {
+            let per_step = by[k] / edge.step[k];
+            for i in 0..SPRINGS {
+                tractions[k][i] = memory.tractions[k][i] * edge.pressure[i] + edge.reach[i] * per_step;
+            }
+        }
+        None
+    } else {
+        let map = Map::new(springs, &edge);
+        let z = scaled(&trial, &map.root);
+        for i in 0..SPRINGS {
+            if i <= last {
+                [tractions[0][i], tractions[1][i]] = map.traction(&z, i);
+            }
+        }
+        Some(map)
+    };
+    for i in 0..SPRINGS {
+        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
+        sticks &= x * x + y * y <= p * p || i > last;
+    }
+    let mut dissipated = 0.0;
+    let mut slip = None;
+    let mut end = trial;
+    if !sticks {
+        let map = map.unwrap_or_else(|| Map::new(springs, &edge));
+        let slipped = slide(memory, &edge, &map, &trial, &limits, &tractions, record);
+        for k in 0..2 {
+            for j in 0..SPRINGS {
+                let per_root = if j == last { 1.0 / edge.root[k] } else { springs.per_root[k][j] };
+                end[k][j] = slipped.end[k][j] * per_root;
+            }
+        }
+        if energy && *constant_load {
+            dissipated = pointwise(&slipped, &map, &edge);
+        }
+        for i in 0..SPRINGS {
+            if i <= last {
+                [tractions[0][i], tractions[1][i]] = map.traction(&slipped.end, i);
+            }
+        }
+        slip = Some(slipped);
+    }
+    let mut sum = [0.0; 2];
+    for k in 0..2 {
+        let mut weights = [0.0; SPRINGS];
+        for j in 0..SPRINGS {
+            weights[j] = if j <= last { root[k][j] * root[k][j] } else { 0.0 };
+        }
+        sum[k] = dot(&weights, &end[k]);
+        if energy && !constant_load {
+            for j in 0..SPRINGS {
+                dissipated += 0.5 * weights[j] * (old[k][j] + end[k][j]) * (trial[k][j] - end[k][j]);
+            }
+        }
+    }
+    if energy && !constant_load {
+        dissipated = dissipated.max(0.0) + separated_from(springs, &old, motion, Some(last));
+    }
+    for i in 0..SPRINGS {
+        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i].max(TINY));
+        let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).sqrt() } else { 0.0 };
+        (memory.tractions[0][i], memory.tractions[1][i]) = (x * scale, y * scale);
+    }
+    memory.springs = end;
+    (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
+    let fine = FineEdge::new(springs, now, &edge);
+    let (addition, loss) = fine::step(springs, &fine, &mut memory.fine, before, now, by, *constant_load);
+    sum = [sum[0] + addition[0], sum[1] + addition[1]];
+    let over = (product(&sum, &sum).sqrt() / now.load).max(1.0);
+    let force = [sum[0] / over, sum[1] / over];
+    *course = Course { edge, fine, slip, sum };
+    Outcome { force, dissipated: (dissipated + loss).max(0.0) }
+}
+
+fn scaled(springs: &Both<Row>, root: &Both<Row>) -> Both<Row> {
+    let mut scaled = *springs;
+    for k in 0..2 {
+        for j in 0..SPRINGS {
+            scaled[k][j] *= root[k][j];
+        }
+    }
+    scaled
+}
+
+/// The slip from a trial state that exceeds Coulomb's bound.
+#[inline(never)]
+fn slide(
+    memory: &Memory,
+    edge: &Edge,
+    map: &Map,
+    trial: &Both<Row>,
+    limits: &Both<Row>,
+    tractions: &Both<Row>,
+    record: bool,
+) -> Slipped {
+    let last = edge.last;
+    let mut overshoot = [0.0; SPRINGS];
+    let mut directions = [[0.0; 2]; SPRINGS];
+    for i in 0..SPRINGS {
+        if i <= last {
+            let (x, y) = (trial[0][i] / limits[0][i].max(TINY), trial[1][i] / limits[1][i].max(TINY));
+            let over = (x * x + y * y).sqrt();
+            overshoot[i] = (over - 1.0).max(0.0);
+            directions[i] = [x / over.max(TINY), y / over.max(TINY)];
+        }
+    }
+    let exceeds = |i: usize| {
+        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
+        let length = (x * x + y * y).sqrt();
+        if overshoot[i] > 0.0 {
+            Some(directions[i])
+        } else if length > p {
+            Some([x / length, y / length])
+        } else {
+            None
+        }
+    };
+    let mut slip = Slip::new(exceeds, last);
+    let trial = scaled(trial, &map.root);
+    let problem =
+        Problem { map, trial: &trial, pressure: &edge.pressure, start: &memory.tractions, overshoot: &overshoot };
+    let (mut end, _) = slip.solve(&problem, record);
+    if !slip.converged {
+        // Each spring returns to its own limit.
+        for k in 0..2 {
+            for j in 0..SPRINGS {
+                end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
+            }
+        }
+    }
+    Slipped { slip, end, start: memory.tractions, overshoot }
+}
+
+/// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at the end.
+fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
+    let Slipped { slip, start, .. } = slipped;
+    let mut energy = 0.0;
+    for i in 0..SPRINGS {
+        if i > edge.last || !slip.slips[i] {
+            continue;
+        }
+        let sigma = [slip.sigma[0][i], slip.sigma[1][i]];
+        let p = edge.pressure[i];
+        let (end, r) = ([p * slip.e[i][0], p * slip.e[i][1]], [p * start[0][i], p * start[1][i]]);
+        let compliance: Both<f64> = core::array::from_fn(|k| {
+            let row = map.row(k, i);
+            dot(&row, &row)
+        });
+        let path: Both<f64> = core::array::from_fn(|k| end[k] + compliance[k] * sigma[k] - r[k]);
+        let (square, along) = (product(&path, &path), product(&r, &path));
+        let inside = (p * p - product(&r, &r)).max(0.0);
+        let root = (along * along + square * inside).sqrt();
+        let part = (inside / (along + root).max(TINY)).min(1.0);
+        let part = if along > 0.0 { part } else { ((root - along) / square.max(TINY)).min(1.0) };
+        let exit = [r[0] + part * path[0], r[1] + part * path[1]];
+        energy += (0.5 * (product(&sigma, &exit) + product(&sigma, &end))).max(0.0);
+    }
+    energy
+}
+
+/// Energy dissipated if the contact opens.
+pub(super) fn separated(springs: &Springs, memory: &Memory, motion: &Motion) -> f64 {
+    separated_from(springs, &memory.springs, motion, None)
+}
+
+/// Energy of the springs beyond the last one, which lose contact in a step: they slip from where they are to nothing.
+fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Motion, last: Option<usize>) -> f64 {
+    let Motion { before, now, by, .. } = motion;
+    let mut energy = 0.0;
+    for j in 0..SPRINGS {
+        let stays = last.is_some_and(|last| j <= last);
+        if stays || j >= springs.used || springs.shift[0][j] >= before.shift[0] {
+            continue;
+        }
+        for k in 0..2 {
+            let part = (before.shift[k] - springs.shift[k][j]) / (before.shift[k] - now.shift[k]).max(TINY);
+            let weight = springs.root[k][j] * springs.root[k][j];
+            energy += (0.5 * weight * old[k][j] * (old[k][j] + part * by[k])).max(0.0);
+        }
+    }
+    energy
+}
