@@ -180,9 +180,6 @@ contains
             directions = 2
           else
             self%is_linear(first + 1) = .true.
-            if (inputs(i)%second_direction == with_spring) then
-              self%spring(first + 1) = inputs(i)%count * self%prepared(i)%initial_stiffness
-            end if
           end if
         end if
         normal_force = parameters%normal_force
@@ -192,6 +189,9 @@ contains
         call mslip_normal_approach(element, normal_force, status, compliance=compliance)
         call require(status, self%name(i))
         self%normal_stiffness(last) = inputs(i)%count / compliance
+        if (last == first + 2 .and. inputs(i)%second_direction == with_spring) then
+          self%spring(first + 1) = inputs(i)%count * second_stiffness(parameters, normal_force, self%name(i))
+        end if
         self%offset(last) = inputs(i)%interference
         if (inputs(i)%law == law_element) then
           call add_element(self%batches(directions), i, [first, first + 1, last], element)
@@ -222,6 +222,24 @@ contains
     call make_slider_tables(harmonics, samples, self%tables)
     self%fine_basis = series_basis(harmonics, 256)
   end subroutine prepare
+
+  !> Stiffness of a stuck contact in the second tangential direction: that of the first small step after it is pressed.
+  real(wp) function second_stiffness(parameters, normal_force, name) result(stiffness)
+    type(mslip_parameters), intent(in) :: parameters
+    real(wp), intent(in) :: normal_force
+    character(len=*), intent(in) :: name
+    integer(mslip_int), parameter :: directions = 2
+    type(mslip_element) :: element
+    real(wp) :: state(mslip_element_state_length(directions, max_reversals)), tangent(3, 3)
+    integer(mslip_int) :: status
+
+    tangent = 0.0_wp
+    call mslip_element_init(parameters, directions, MSLIP_NORMAL_FORCE, element, status)
+    if (status == MSLIP_OK) call mslip_element_state_init(directions, state, status)
+    if (status == MSLIP_OK) call mslip_element_advance(element, state, [0.0_wp, 0.0_wp, normal_force], status, tangent=tangent)
+    call require(status, name)
+    stiffness = tangent(2, 2)
+  end function second_stiffness
 
   !> `places` are the components of the contact, of which an element of one tangential direction has the first and the last.
   subroutine add_element(batch, contact, places, element)
