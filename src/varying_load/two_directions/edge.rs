@@ -12,7 +12,7 @@ pub(crate) struct Pressed {
 }
 
 /// Derivatives of [`Pressed`].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct PressedSlopes {
     pub load: f64,
     pub shift: Both<f64>,
