@@ -42,7 +42,7 @@ do for [extension in 'svg png'] {
   set key top right Left reverse samplen 2 title 'excitation' font ',12.5'
   plot for [i=1:loads] 'results/interlock_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 2 lc rgb colours[i] \
     title sprintf('%g N', excitation[i])
-  set lmargin at screen 0.55; set rmargin at screen 0.975
+  set lmargin at screen 0.565; set rmargin at screen 0.975
   set title 'friction in one direction'
   unset ylabel
   set key top right notitle
@@ -68,7 +68,7 @@ do for [extension in 'svg png'] {
          with lines lw 6 lc rgb '#b0b0b0' title 'time integration', \
        '' using (shown(most, micro(column('contact_displacement_m')) - mean_x)):(micro(column('contact_displacement_y_m')) - mean_y) \
          with lines ls 1 title sprintf('%g harmonics', most)
-  set lmargin at screen 0.55; set rmargin at screen 0.975
+  set lmargin at screen 0.565; set rmargin at screen 0.975
   set title 'force'
   set xlabel 'along the face (N)'
   set ylabel 'radial (N)' offset 1, 0
