@@ -1,4 +1,4 @@
-//! Pictures: panels one below the other, orbits side by side above them, axes with units, and lines that differ in dashes and in colour.
+//! Pictures: orbits side by side, panels one below the other, axes with units, and lines that differ in dashes and in colour.
 
 use crate::canvas::{Bitmap, Canvas, Format, Point, Stroke, Svg};
 use crate::number::format_number;

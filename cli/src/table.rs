@@ -74,8 +74,8 @@ pub struct ColumnSpec<'a> {
     pub quantity: Quantity,
 }
 
-/// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if it
-/// is selected or has its default name in the header; and the first of the alternatives of which that is true.
+/// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if
+/// it is selected or has its default name in the header; and the first of the alternatives of which that is true.
 pub fn read_columns(
     path: &Path,
     columns: [&ColumnSpec; 2],

@@ -24,6 +24,8 @@ stats 'results/interlock_waveforms.csv' using (shown(0, micro(column('contact_di
 mean_x = STATS_mean
 stats 'results/interlock_waveforms.csv' using (shown(0, micro(column('contact_displacement_y_m')))) nooutput
 mean_y = STATS_mean
+x(dummy) = micro(column('contact_displacement_m')) - mean_x
+y(dummy) = micro(column('contact_displacement_y_m')) - mean_y
 
 do for [extension in 'svg png'] {
   @set_terminal
@@ -50,7 +52,8 @@ do for [extension in 'svg png'] {
          lc rgb colours[i] notitle, \
        for [i=1:loads] 'results/interlock_free_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 1.4 dt (6,4) \
          lc rgb colours[i] notitle, \
-       NaN with lines lw 2 lc rgb '#222222' title 'radially stuck', NaN with lines lw 1.4 dt (6,4) lc rgb '#222222' title 'radially free'
+       NaN with lines lw 2 lc rgb '#222222' title 'radially stuck', \
+       NaN with lines lw 1.4 dt (6,4) lc rgb '#222222' title 'radially free'
   unset logscale
   set tmargin at screen 0.46; set bmargin at screen 0.075
   set autoscale
@@ -64,9 +67,9 @@ do for [extension in 'svg png'] {
   set yrange [-9:9]
   set key top left Left reverse samplen 2
   plot 'results/interlock_waveforms.csv' \
-         using (shown(0, micro(column('contact_displacement_m')) - mean_x)):(micro(column('contact_displacement_y_m')) - mean_y) \
+         using (shown(0, x(0))):(y(0)) \
          with lines lw 6 lc rgb '#b0b0b0' title 'time integration', \
-       '' using (shown(most, micro(column('contact_displacement_m')) - mean_x)):(micro(column('contact_displacement_y_m')) - mean_y) \
+       '' using (shown(most, x(0))):(y(0)) \
          with lines ls 1 title sprintf('%g harmonics', most)
   set lmargin at screen 0.565; set rmargin at screen 0.975
   set title 'force'

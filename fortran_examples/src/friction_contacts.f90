@@ -68,7 +68,7 @@ module friction_contacts
     type(slider_tables) :: tables                           !! of the spring-sliders
     type(element_batch) :: batches(2)                       !! by the number of tangential directions
     real(wp), allocatable :: offset(:)                      !! of each component without any displacement of the structure
-    real(wp), allocatable :: normal_stiffness(:)            !! of each component: of normal ones at the normal force of the case, else 0
+    real(wp), allocatable :: normal_stiffness(:)            !! of normal components, at the normal force of the case; else 0
     logical, allocatable :: is_linear(:)                    !! whether the force of a component is that of a spring,
     real(wp), allocatable :: spring(:)                      !! and its stiffness
     real(wp), allocatable :: workspace(:)
@@ -492,8 +492,8 @@ contains
     call require(status, self%name(i))
   end function min_stick_half_width
 
-  !> Smallest and largest normal force of a contact of two or three components during a period, and the fraction of the period in which it
-  !> is open; `coefficients` are those of the approach.
+  !> Smallest and largest normal force of a contact of two or three components during a period, and the fraction of the period in
+  !> which it is open; `coefficients` are those of the approach.
   subroutine normal_extremes(self, i, coefficients, smallest, largest, open_fraction)
     class(contact_set), intent(in) :: self
     integer, intent(in) :: i
