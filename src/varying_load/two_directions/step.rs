@@ -29,6 +29,9 @@ impl Memory {
     };
 }
 
+/// Excess of the square of a traction over that of its limit by which a state that has slipped may round: it sticks.
+const ROUNDING: f64 = 1e-14;
+
 /// A step, straight in S and in the displacement.
 pub(super) struct Motion {
     pub before: Pressed,
@@ -116,7 +119,7 @@ pub(super) fn step(
     };
     for i in 0..SPRINGS {
         let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        sticks &= x * x + y * y <= p * p || i > last;
+        sticks &= x * x + y * y <= p * p * (1.0 + ROUNDING) || i > last;
     }
     let mut dissipated = 0.0;
     let mut slip = None;
@@ -272,11 +275,13 @@ fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Motion, last: Opt
         if stays || j >= springs.used || springs.shift[0][j] >= before.shift[0] {
             continue;
         }
+        let mut of_spring = 0.0;
         for k in 0..2 {
             let part = (before.shift[k] - springs.shift[k][j]) / (before.shift[k] - now.shift[k]).max(TINY);
             let weight = springs.root[k][j] * springs.root[k][j];
-            energy += (0.5 * weight * old[k][j] * (old[k][j] + part * by[k])).max(0.0);
+            of_spring += 0.5 * weight * old[k][j] * (old[k][j] + part * by[k]);
         }
+        energy += of_spring.max(0.0);
     }
     energy
 }
