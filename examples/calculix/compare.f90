@@ -3,8 +3,8 @@
 !
 ! RESULTS has law.inp and, for the jobs static and dynamic, tables of time, displacement of the tip, displacement and force of
 ! the contact, and dissipated energy; frequency.csv has the square of the lowest angular frequency; element.inp and the tables of
-! the jobs lifting and lifting_dynamic are those of the element with a normal direction. JOBS has matrices.sti, .mas and .dof and
-! the loads over time; the curves of the figure are written there.
+! the jobs lifting and orbit and of their dynamic ones are those of the element with a normal direction. JOBS has matrices.sti, .mas
+! and .dof and the loads over time; the curves of the figure are written there.
 program compare
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -20,17 +20,21 @@ program compare
   character(len=256) :: results, jobs
   type(mslip_contact) :: contact
   type(mslip_element) :: element
+  integer :: m = 2                                                                ! components of its displacement
   integer :: passed = 0, failed = 0
-  external :: dposv, dsygv
+  external :: dgesv, dposv, dsygv
 
   call get_command_argument(1, results)
   call get_command_argument(2, jobs)
   call initialise_contact()
   call compare_law('static', 100)
   call compare_law('dynamic', 2)
-  call initialise_element()
+  call initialise_element(1)
   call compare_element('lifting')
   call compare_element('lifting_dynamic')
+  call initialise_element(2)
+  call compare_element('orbit')
+  call compare_element('orbit_dynamic')
   if (jobs /= '') call compare_structure()
   print '(i0, a, i0, a)', passed, ' passed, ', failed, ' failed'
   if (failed > 0) stop 1
@@ -52,7 +56,9 @@ contains
     call require(status)
   end subroutine initialise_contact
 
-  subroutine initialise_element()
+  !> The element with one or two directions of sliding.
+  subroutine initialise_element(directions)
+    integer, intent(in) :: directions
     type(mslip_parameters) :: p
     real(wp) :: c(10)
     integer :: unit, status
@@ -63,35 +69,39 @@ contains
     close (unit)
     p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
       material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
-    call mslip_element_init(p, 1, MSLIP_APPROACH, element, status)
+    call mslip_element_init(p, directions, MSLIP_APPROACH, element, status)
     call require(status)
+    m = directions + 1
   end subroutine initialise_element
 
   !> The element along the displacements that CalculiX printed, a step for each increment.
   subroutine compare_element(job)
     character(len=*), intent(in) :: job
-    integer, parameter :: u = 4, t = 6, energy = 8     ! columns: u, w, T, N, dissipated
     real(wp), allocatable :: table(:, :), f(:, :), dissipated(:), state(:)
     real(wp) :: slip, error_u, error_w, error_t
-    integer :: i, n, status
+    integer :: i, n, u, w, t, energy, status            ! columns: time, tip, tangential displacement and w, T and N, dissipated
 
-    call read_table(trim(results)//'/'//job//'.csv', 8, table)
+    u = m + 2
+    w = 2*m + 1
+    t = w + 1
+    energy = 3*m + 2
+    call read_table(trim(results)//'/'//job//'.csv', energy, table)
     n = size(table, 2)
-    allocate (f(2, n), dissipated(n), state(mslip_element_state_length(1, 64_mslip_size)))
-    call mslip_element_state_init(1, state, status)
-    call mslip_element_path_advance(element, state, table(u:u + 1, :), status, force=f, dissipated=dissipated)
+    allocate (f(m, n), dissipated(n), state(mslip_element_state_length(m - 1, 64_mslip_size)))
+    call mslip_element_state_init(m - 1, state, status)
+    call mslip_element_path_advance(element, state, table(u:w, :), status, force=f, dissipated=dissipated)
     call require(status)
-    error_u = rounding*maxval(abs(table(u, :)))
-    error_w = rounding*maxval(abs(table(u + 1, :)))
-    slip = element%friction_coefficient*maxval(f(2, :))
+    error_u = rounding*maxval(norm2(table(u:w - 1, :), 1))
+    error_w = rounding*maxval(abs(table(w, :)))
+    slip = element%friction_coefficient*maxval(f(m, :))
     error_t = 2*element%tangential_stiffness*error_u + 2*element%friction_coefficient*element%normal_stiffness*error_w &
       + rounding*slip
-    call check(job//': normal force along the path', maxval(abs(f(2, :) - table(t + 1, :))), &
-      element%normal_stiffness*error_w + rounding*maxval(f(2, :)), maxval(f(2, :)))
-    call check(job//': force along the path', maxval(abs(f(1, :) - table(t, :))), error_t, slip)
+    call check(job//': normal force along the path', maxval(abs(f(m, :) - table(w + m, :))), &
+      element%normal_stiffness*error_w + rounding*maxval(f(m, :)), maxval(f(m, :)))
+    call check(job//': force along the path', maxval(norm2(f(:m - 1, :) - table(t:t + m - 2, :), 1)), error_t, slip)
     dissipated = [(sum(dissipated(:i)), i=1, n)]
     call check(job//': energy along the path', maxval(abs(dissipated - table(energy, :))), &
-      20*(slip*error_u + error_t*maxval(abs(table(u, :)))) + rounding*dissipated(n), dissipated(n))
+      20*(slip*error_u + error_t*maxval(norm2(table(u:w - 1, :), 1))) + rounding*dissipated(n), dissipated(n))
   end subroutine compare_element
 
   !> The law along the displacements that CalculiX printed, with straight segments of `parts` steps between them.
@@ -149,8 +159,12 @@ contains
     call read_table(trim(results)//'/dynamic.csv', 5, table)
     call compare_motion('dynamic', table, loads(2, 2:), 2/loads(1, 2), stiffness, mass, end, rubbing)
 
+    call initialise_element(1)
     call compare_lifting('lifting', stiffness, mass)
     call compare_lifting('lifting_dynamic', stiffness, mass)
+    call initialise_element(2)
+    call compare_lifting('orbit', stiffness, mass)
+    call compare_lifting('orbit_dynamic', stiffness, mass)
 
     call read_table(trim(results)//'/frequency.csv', 1, table)
     stiffness(rubbing, rubbing) = stiffness(rubbing, rubbing) + contact%initial_stiffness
@@ -203,27 +217,27 @@ contains
     end do
   end subroutine compare_motion
 
-  !> As compare_motion, with the element: forces at the tip in y and z; it slides in y and closes in -z. Dynamic if the loads have
-  !> the times of the results.
+  !> As compare_motion, with the element: forces at the tip in y and z, or x, y and z; it slides in y, or y and x, and closes in -z.
   subroutine compare_lifting(job, stiffness, mass)
     character(len=*), intent(in) :: job
     real(wp), intent(in) :: stiffness(:, :), mass(:, :)
-    character(len=*), parameter :: names(2:7) = [character(len=23) :: 'tip in y', 'tip in z', 'displacement', 'approach', 'force', &
-      'normal force']
+    character(len=*), parameter :: names(3) = [character(len=12) :: 'tip', 'displacement', 'force']
     real(wp), allocatable :: loads(:, :), table(:, :), own(:, :)
-    real(wp) :: state(mslip_element_state_length(1, 64_mslip_size)), rate, largest, side(size(mass, 1), 2)
+    real(wp) :: state(mslip_element_state_length(m - 1, 64_mslip_size)), rate, largest, side(size(mass, 1), m)
     real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
     real(wp), dimension(size(mass, 1), size(mass, 1)) :: matrix, inverse
-    integer :: tip_equations(2), i, status
+    integer :: tip_equations(m), axes(m), i, j, status
 
-    call read_table(trim(jobs)//'/'//job//'_load.csv', 3, loads)
-    call read_table(trim(results)//'/'//job//'.csv', 8, table)
+    call read_table(trim(jobs)//'/'//job//'_load.csv', m + 1, loads)
+    call read_table(trim(results)//'/'//job//'.csv', 3*m + 2, table)
     rate = 0
-    if (size(loads, 2) == size(table, 2) + 1) rate = 2/loads(1, 2)
-    tip_equations = [equation('113.2'), equation('113.3')]
+    if (index(job, 'dynamic') > 0) rate = 2/loads(1, 2)
+    axes = [2, (1, i=3, m), 3]
     side = 0
-    side(equation('103.2'), 1) = 1
-    side(equation('103.3'), 2) = -1
+    do j = 1, m
+      tip_equations(j) = equation('113.'//achar(iachar('3') - m + j))
+      side(equation('103.'//achar(iachar('0') + axes(j))), j) = merge(-1, 1, j == m)
+    end do
     matrix = stiffness + rate**2*mass
     inverse = 0
     do i = 1, size(mass, 1)
@@ -231,7 +245,7 @@ contains
     end do
     call dposv('U', size(mass, 1), size(mass, 1), matrix, size(mass, 1), inverse, size(mass, 1), status)
     if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
-    call mslip_element_state_init(1, state, status)
+    call mslip_element_state_init(m - 1, state, status)
     allocate (own, mold=table)
     u = 0
     velocity = 0
@@ -239,30 +253,31 @@ contains
     do i = 1, size(table, 2)
       inertia = rate**2*u + 2*rate*velocity + acceleration
       u = matmul(mass, inertia)
-      u(tip_equations) = u(tip_equations) + [at_time(loads(1:2, :), table(1, i)), at_time(loads(1:3:2, :), table(1, i))]
+      u(tip_equations) = u(tip_equations) + [(at_time(loads(1:j + 1:j, :), table(1, i)), j=1, m)]
       u = matmul(inverse, u)
-      call element_equilibrium(matmul(u, side), matmul(transpose(side), matmul(inverse, side)), state, own(4:5, i), own(6:7, i))
-      u = u - matmul(inverse, matmul(side, own(6:7, i)))
-      own(2:3, i) = u(tip_equations)
+      call element_equilibrium(matmul(u, side), matmul(transpose(side), matmul(inverse, side)), state, &
+        own(m + 2:2*m + 1, i), own(2*m + 2:3*m + 1, i))
+      u = u - matmul(inverse, matmul(side, own(2*m + 2:3*m + 1, i)))
+      own(2:m + 1, i) = u(tip_equations)
       inertia = rate**2*u - inertia  ! the new acceleration
       if (rate > 0) velocity = velocity + (acceleration + inertia)/rate
       acceleration = inertia
     end do
-    do i = 2, 7
+    do i = 2, 3*m + 1
       largest = maxval(abs(own(i, :)))
-      call check(job//': structural solution, '//trim(names(i)), maxval(abs(own(i, :) - table(i, :))), lifting_tolerance*largest, &
-        largest)
+      call check(job//': structural solution, '//trim(names((i - 2)/m + 1))//' '//achar(iachar('1') + mod(i - 2, m)), &
+        maxval(abs(own(i, :) - table(i, :))), lifting_tolerance*largest, largest)
     end do
   end subroutine compare_lifting
 
   !> Equilibrium u = free - compliance*force of element and structure: Newton's method with the tangent of the element; a step that
   !> does not reduce the residual is halved.
   subroutine element_equilibrium(free, compliance, state, u, f)
-    real(wp), intent(in) :: free(2), compliance(2, 2)
+    real(wp), intent(in) :: free(m), compliance(m, m)
     real(wp), intent(inout) :: state(:)
-    real(wp), intent(out) :: u(2), f(2)
-    real(wp) :: trial(size(state)), tangent(2, 2), matrix(2, 2), residual(2), step(2), last
-    integer :: i, status
+    real(wp), intent(out) :: u(m), f(m)
+    real(wp) :: trial(size(state)), tangent(m, m), matrix(m, m), residual(m), step(m), last
+    integer :: i, j, status, pivots(m)
 
     u = free
     step = 0
@@ -278,10 +293,11 @@ contains
       u = u + step
       last = norm2(residual)
       matrix = matmul(compliance, tangent)
-      matrix(1, 1) = matrix(1, 1) + 1
-      matrix(2, 2) = matrix(2, 2) + 1
-      step = [matrix(2, 2)*residual(1) - matrix(1, 2)*residual(2), matrix(1, 1)*residual(2) - matrix(2, 1)*residual(1)]
-      step = step/(matrix(1, 1)*matrix(2, 2) - matrix(1, 2)*matrix(2, 1))
+      do j = 1, m
+        matrix(j, j) = matrix(j, j) + 1
+      end do
+      step = residual
+      call dgesv(m, 1, matrix, m, pivots, step, m, status)
     end do
     if (i > 200) call stop_with('no equilibrium')
     call mslip_element_update(element, state, u, trial, status, f)

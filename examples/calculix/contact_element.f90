@@ -1,44 +1,58 @@
 ! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one direction and, with a tenth
-! constant, press on each other and separate. The routines below have the names and arguments that CalculiX calls for this element,
-! and replace those of its own U1, a beam.
+! constant, press on each other and separate; with an eleventh, they slide in one or two directions. The routines below have the
+! names and arguments that CalculiX calls for this element, and replace those of its own U1, a beam.
 !
 !   *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
 !   *ELEMENT, TYPE=U1, ELSET=rubbing
 !   number, first node, second node
 !   *MATERIAL, NAME=law
-!   *USER MATERIAL, CONSTANTS=9               or CONSTANTS=10
+!   *USER MATERIAL, CONSTANTS=9               or CONSTANTS=10        or CONSTANTS=11
 !   a, R, L, N, mu, E1, nu1, E2,
-!   nu2                                       or nu2, interference
+!   nu2                                       or nu2, interference   or nu2, interference, directions of sliding (1 or 2)
 !   *DEPVAR
-!   3 + the length of a state                 or 5 + the length of the state of an element
+!   3 + the length of a state                 or 5, with two directions of sliding 7, + the length of the state of an element
 !   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3     or CONSTANTS=6
 !   direction of sliding                      or direction of sliding, direction in which the second node approaches the first
 !
-! The displacement is that of the second node relative to the first in these directions, which are normalised and do not rotate with
-! the structure; the interference, negative if there is a gap, is added to the approach. With ten constants N is the largest normal
-! force expected, not a load. State variables: force, displacement (positive together), energy dissipated so far, the state of the
-! law; or tangential and normal force, tangential displacement and approach, energy, state.
+! The displacement is that of the second node relative to the first in these directions, which do not rotate with the structure:
+! u along the part of the direction of sliding that is normal to the approach, w along the approach and, with two directions of
+! sliding, v along w x u. A line contact has u across the line and v along it. The interference, negative if there is a gap, is
+! added to the approach. With ten or eleven constants N is the largest normal force expected, not a load. State variables: force,
+! displacement (positive together), energy dissipated so far, the state of the law; force and displacement have one component, or
+! T, N and u, w, or Tx, Ty, N and u, v, w.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
   implicit none
   private
-  public :: prepare, directions, update, fail
+  public :: prepare, count_components, directions, update, fail
 
   integer, parameter, public :: wp = mslip_real
 
   type, public :: contact_law
-    integer :: components = 1                !! 1: constant normal force, 2: tangential and normal
+    integer :: components = 1                !! of the displacement: 1 at constant normal force, else tangential ones and normal
     type(mslip_contact) :: contact
     type(mslip_element) :: element
-    real(wp) :: offset(2) = 0                !! added to the displacement
-    real(wp) :: initial_stiffness(2) = 0     !! sticking, at N
+    real(wp) :: offset(3) = 0                !! added to the displacement
+    real(wp) :: initial_stiffness(3) = 0     !! sticking, at N
   end type contact_law
 
 contains
 
-  !> The contact of the element's material. It is initialised in every call, in 20 us: CalculiX calls from several threads, and
-  !> nothing is kept between calls.
+  !> Components of the displacement, from the number of constants (CalculiX passes -100 less that number) and the eleventh.
+  function count_components(element, kind_and_count, constants) result(components)
+    integer, intent(in) :: element, kind_and_count
+    real(wp), intent(in) :: constants(*)
+    integer :: components
+
+    components = -kind_and_count - 108
+    if (components == 3) components = 1 + nint(constants(11))
+    if (kind_and_count > -109 .or. kind_and_count < -111 .or. components < 1 .or. components > 3) &
+      call fail(element, 'its material must be a *USER MATERIAL with 9 to 11 constants, the last of 11 being 1 or 2')
+  end function count_components
+
+  !> The contact of the element's material. It is initialised in every call, in 20 us, or 0.25 ms with a normal direction: CalculiX
+  !> calls from several threads, and nothing is kept between calls.
   subroutine prepare(element, kind_and_count, constants, law)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
@@ -46,9 +60,7 @@ contains
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    law%components = -kind_and_count - 108
-    if (law%components /= 1 .and. law%components /= 2) &
-      call fail(element, 'its material must be a *USER MATERIAL with 9 or 10 constants')
+    law%components = count_components(element, kind_and_count, constants)
     call mslip_parameters_default(p)
     p%flat_half_width = constants(1)
     p%edge_radius = constants(2)
@@ -60,26 +72,61 @@ contains
       call mslip_contact_init(p, law%contact, status)
       law%initial_stiffness(1) = law%contact%initial_stiffness
     else
-      call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, law%element, status)
-      law%initial_stiffness = [law%element%tangential_stiffness, law%element%normal_stiffness]
-      law%offset(2) = constants(10)
+      call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_APPROACH, law%element, status)
+      law%offset(law%components) = constants(10)
+      if (status == MSLIP_OK) call stick(law, status)
     end if
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
   end subroutine prepare
 
-  !> Unit vectors of sliding and approach.
+  !> The initial stiffness of an element: that of a step without motion after it was pressed by N.
+  subroutine stick(law, status)
+    type(contact_law), intent(inout) :: law
+    integer(mslip_int), intent(out) :: status
+    real(wp) :: state(mslip_element_state_length(int(law%components - 1, mslip_int), 4_mslip_size))
+    real(wp) :: displacement(law%components), tangent(law%components, law%components)
+    integer :: i
+
+    tangent = 0
+    displacement = 0
+    displacement(law%components) = law%element%approach
+    call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
+    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status)
+    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status, tangent=tangent)
+    law%initial_stiffness(:law%components) = [(tangent(i, i), i=1, law%components)]
+  end subroutine stick
+
+  !> Unit vectors of the components: sliding, the second direction of sliding, approach.
   function directions(element, components, property, properties) result(d)
     integer, intent(in) :: element, components, property
     real(wp), intent(in) :: properties(*)
-    real(wp) :: d(3, components)
-    integer :: i
+    real(wp) :: d(3, components), second(3)
 
-    d = reshape(properties(property + 1:property + 3*components), [3, components])
-    do i = 1, components
-      if (.not. norm2(d(:, i)) > 0) call fail(element, 'its *USER SECTION must have the directions')
-      d(:, i) = d(:, i)/norm2(d(:, i))
-    end do
+    d(:, 1) = properties(property + 1:property + 3)
+    if (components > 1) then
+      d(:, components) = unit_vector(element, properties(property + 4:property + 6))
+      second = cross(d(:, components), d(:, 1))
+      if (components == 3) d(:, 2) = unit_vector(element, second)
+      d(:, 1) = cross(second, d(:, components))
+    end if
+    d(:, 1) = unit_vector(element, d(:, 1))
   end function directions
+
+  function unit_vector(element, a)
+    integer, intent(in) :: element
+    real(wp), intent(in) :: a(3)
+    real(wp) :: unit_vector(3)
+
+    if (.not. norm2(a) > 0) call fail(element, 'the directions of its *USER SECTION must be neither zero nor parallel')
+    unit_vector = a/norm2(a)
+  end function unit_vector
+
+  pure function cross(a, b)
+    real(wp), intent(in) :: a(3), b(3)
+    real(wp) :: cross(3)
+
+    cross = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+  end function cross
 
   !> A trial step: forces and stiffness at a displacement, from the variables of the last accepted increment to those of this
   !> attempt. `accepted` is false if the displacement is not finite or beyond the range of the law: Newton's method has diverged.
@@ -104,14 +151,15 @@ contains
       if (law%components == 1) then
         call mslip_state_init(state, status)
       else
-        call mslip_element_state_init(1_mslip_int, state, status)
+        call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
       end if
     end if
     if (status == MSLIP_OK) then
       if (law%components == 1) then
         call mslip_masing_update(law%contact, state, displacement(1), trial, status, force(1), stiffness(1, 1), dissipated)
       else
-        call mslip_element_update(law%element, state, displacement + law%offset, trial, status, force, stiffness, dissipated)
+        call mslip_element_update(law%element, state, displacement + law%offset(:law%components), trial, status, force, stiffness, &
+          dissipated)
       end if
     end if
     accepted = all(status /= [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT])
@@ -193,8 +241,12 @@ contains
     end if
 
     ! The matrix of CalculiX is symmetric: the tangential force follows the normal one, not the reverse, and this coupling is
-    ! left to the iterations.
-    if (icmd /= 3) xstiff(1:size(force), 1, i) = [(stiffness(j, j), j=1, size(force))]
+    ! left to the iterations, as is the antisymmetric part of the coupling of the tangential directions.
+    associate (m => size(force))
+      stiffness(:m - 1, m) = 0
+      stiffness(m, :m - 1) = 0
+      if (icmd /= 3) xstiff(1:m**2, 1, i) = [(stiffness + transpose(stiffness))/2]
+    end associate
     nodal_force = matmul(d, force)
     if (calcul_fn == 1) then
       fn(1:3, second) = fn(1:3, second) + nodal_force
@@ -225,30 +277,30 @@ subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nele
     ntie, nasym, ielprop, prop)
   use contact_element
   implicit none
-  integer :: nelem, mi(*), nelcon(2, *), ielmat(mi(3), *), ielprop(*)
-  real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*)
+  integer :: nelem, mi(*), nelcon(2, *), ielmat(mi(3), *), ielprop(*), ncmat_, ntmat_
+  real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*), elcon(0:ncmat_, ntmat_, *)
   ! Not used.
   character(len=8) :: lakonl
   character(len=20) :: sideload(*)
   character(len=80) :: matname(*)
   character(len=81) :: tieset(3, *)
-  integer :: kon(*), nbody, nmethod, nrhcon(*), nalcon(*), ielorien(*), norien, ntmat_, ithermal(*)
-  integer :: iperturb(*), nelemload(*), nload, idist, iexpl, nplicon(*), nplkcon(*), npmat_, ncmat_, mass(*), stiffness
+  integer :: kon(*), nbody, nmethod, nrhcon(*), nalcon(*), ielorien(*), norien, ithermal(*)
+  integer :: iperturb(*), nelemload(*), nload, idist, iexpl, nplicon(*), nplkcon(*), npmat_, mass(*), stiffness
   integer :: buckling, rhsi, intscheme, istep, iinc, coriolis, ipompc(*), nodempc(*), nmpc, ikmpc(*), ilmpc(*), ne0
   integer :: ipkon(*), integerglob(*), istartset(*), iendset(*), ialset(*), ntie, nasym
-  real(wp) :: co(*), p1(*), p2(*), omx, bodyfx(*), elcon(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), vold(*)
+  real(wp) :: co(*), p1(*), p2(*), omx, bodyfx(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), vold(*)
   real(wp) :: xload(*), sti(*), stx(*), plicon(*), plkcon(*), dtime, ttime, time, xloadold(*), reltime, coefmpc(*)
   real(wp) :: veold(*), thicke(*), doubleglob(*)
-  real(wp) :: row(6), d(3, 2)
-  integer :: components, j
+  real(wp) :: d(3, 3), k(3, 3)
+  integer :: m
 
-  components = -nelcon(1, ielmat(1, nelem)) - 108
-  d(:, :components) = directions(nelem, components, ielprop(nelem), prop)
-  s(1:6, 1:6) = 0
-  do j = 1, components
-    row = [-d(:, j), d(:, j)]
-    s(1:6, 1:6) = s(1:6, 1:6) + xstiff(j, 1, nelem)*spread(row, 2, 6)*spread(row, 1, 6)
-  end do
+  m = count_components(nelem, nelcon(1, ielmat(1, nelem)), elcon(1, 1, ielmat(1, nelem)))
+  d(:, :m) = directions(nelem, m, ielprop(nelem), prop)
+  k = matmul(d(:, :m), matmul(reshape(xstiff(1:m**2, 1, nelem), [m, m]), transpose(d(:, :m))))
+  s(1:3, 1:3) = k
+  s(4:6, 4:6) = k
+  s(1:3, 4:6) = -k
+  s(4:6, 1:3) = -k
   sm(1:6, 1:6) = 0
   ff(1:6) = 0
 end subroutine e_c3d_u1

@@ -14,6 +14,8 @@
 #   *_load.csv     force at the tip over time, linear in between
 #   lifting.inp, lifting_dynamic.inp
 #                  the same blade on the element with a normal direction: forces in y and z; the loads are time, y, z
+#   orbit.inp, orbit_dynamic.inp
+#                  the same on the element that slides in y and x; the loads are time, x, y, z
 set -eu
 
 # Columns: x, then y, then z.
@@ -126,18 +128,22 @@ cat > element.inp << 'END'
 0.33, 0.
 END
 
-cat > lifting_blade.inp << 'END'
+# blade_on STATE_VARIABLES DIRECTION FILE: the blade on the element with the constants in this file, which slides in this direction.
+blade_on() {
+    cat << END
 *INCLUDE, INPUT=blade_alone.inp
 *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
 *ELEMENT, TYPE=U1, ELSET=rubbing
 5000, 5000, 103
 *MATERIAL, NAME=law
-*INCLUDE, INPUT=element.inp
+*INCLUDE, INPUT=$3
 *DEPVAR
-273
+$1
 *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=6
-0., 1., 0., 0., 0., -1.
+$2, 0., 0., -1.
 END
+}
+blade_on 273 '0., 1., 0.' element.inp > lifting_blade.inp
 
 # Pressed, loaded sideways beyond gross slip, unloaded, lifted, pressed again while displaced, and slid back.
 lifting='0,0 0,-40 400,-40 400,-15 100,20 -300,20 -300,-40 -450,-40 300,-25 0,-40'
@@ -156,9 +162,36 @@ awk 'BEGIN {
     pi = atan2(0, -1)
     for (n = 0; n <= 1000; n++) { t = n/75000; printf "%.12g, %.12g, %.12g\n", t, 150*sin(2*pi*200*t), -8*sin(2*pi*300*t) }
 }' > lifting_dynamic_load.csv
-awk -F, '{ print $1 "," $2 }' lifting_dynamic_load.csv > sideways.csv
-awk -F, '{ print $1 "," $3 }' lifting_dynamic_load.csv > across.csv
-printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' "$tip" '*AMPLITUDE, NAME=sideways' '*INCLUDE, INPUT=sideways.csv' \
-    '*AMPLITUDE, NAME=across' '*INCLUDE, INPUT=across.csv' \
-    '*STEP, INC=2000' '*DYNAMIC, DIRECT, ALPHA=0.' '1.33333333333e-5, 1.33333333333e-2' "$controls" \
-    '*CLOAD, AMPLITUDE=sideways' '113, 2, 1.' '*CLOAD, AMPLITUDE=across' '113, 3, 1.' "$output" '*END STEP' > lifting_dynamic.inp
+# driven JOB PROCEDURE TIMES DIRECTION...: a step in which each column of JOB_load.csv drives the tip in its direction.
+driven() {
+    job=$1 procedure=$2 times=$3
+    shift 3
+    printf '%s\n' "*INCLUDE, INPUT=${job%_dynamic}_blade.inp" "$tip"
+    column=1
+    for direction; do
+        column=$((column + 1))
+        printf '%s\n' "*AMPLITUDE, NAME=force$direction"
+        cut -d , -f 1,$column "${job}_load.csv"
+    done
+    printf '%s\n' '*STEP, INC=2000' "$procedure" "$times" "$controls"
+    for direction; do printf '%s\n' "*CLOAD, AMPLITUDE=force$direction" "113, $direction, 1."; done
+    printf '%s\n' "$output" '*END STEP'
+}
+trapezoidal='*DYNAMIC, DIRECT, ALPHA=0.'
+driven lifting_dynamic "$trapezoidal" '1.33333333333e-5, 1.33333333333e-2' 2 3 > lifting_dynamic.inp
+
+# Two directions of sliding: y as before, and x. 285 state variables: 7 results, and a state. Pressed, then two turns of a force
+# that rotates in x and y while the normal force swings twice per turn.
+sed 's/=10/=11/; $s/$/, 2./' element.inp > two_directions.inp
+blade_on 285 '0., 1., 0.' two_directions.inp > orbit_blade.inp
+awk 'BEGIN {
+    pi = atan2(0, -1)
+    print "0., 0., 0., 0."
+    for (n = 0; n <= 100; n++)
+        printf "%.12g, %.12g, %.12g, %.12g\n", 1 + n/50, 1000*cos(2*pi*n/50), 300*sin(2*pi*n/50), -50 - 15*sin(4*pi*n/50)
+}' > orbit_load.csv
+driven orbit '*STATIC' '0.02, 3., 1.e-5, 0.02' 1 2 3 > orbit.inp
+
+# The first half of the dynamic loads above, and no force in x: bending drives the contact there.
+sed 's/,/, 0.,/; 501q' lifting_dynamic_load.csv > orbit_dynamic_load.csv
+driven orbit_dynamic "$trapezoidal" '1.33333333333e-5, 6.66666666667e-3' 1 2 3 > orbit_dynamic.inp

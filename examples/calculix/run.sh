@@ -62,23 +62,27 @@ table() {
          NF == 46 && $1 == 5000     { print time "," tip "," $4 "," $3 "," $5 }' "$1.dat"
 }
 
-# table_element NAME: the same of the element with a normal direction.
+# table_element HEADER NAME: the same of the element with a normal direction and, according to the header, m components.
 table_element() {
-    awk 'BEGIN { print "time,tip_y,tip_z,displacement,approach,force,normal_force,dissipated" }
+    echo "$1"
+    awk -v m=$(($(echo "$1" | tr -cd , | wc -c) / 3)) '
+         function append(first) { for (i = first; i < first + m; i++) line = line "," $i }
          / and time /               { time = $NF }
-         NF == 4 && $1 == 113       { tip = $3 "," $4 }
-         NF == 101 && $1 == 5000     { print time "," tip "," $5 "," $6 "," $3 "," $4 "," $7 }' "$1.dat"
+         NF == 4 && $1 == 113       { line = time; append(5 - m) }
+         NF > 46 && $1 == 5000      { append(3 + m); append(3); print line "," $(3 + 2*m) }' "$2.dat"
 }
 
-for name in static dynamic frequency matrices lifting lifting_dynamic; do job "$name"; done
+for name in static dynamic frequency matrices lifting lifting_dynamic orbit orbit_dynamic; do job "$name"; done
 cp static.rout resumed.rin
 job resumed
 table static > ../../results/static.csv
 table dynamic > ../../results/dynamic.csv
 table resumed > resumed.csv
 awk '$1 == 1 && NF == 5 { print $2; exit }' frequency.dat > ../../results/frequency.csv
-table_element lifting > ../../results/lifting.csv
-table_element lifting_dynamic > ../../results/lifting_dynamic.csv
+header='time,tip_y,tip_z,displacement,approach,force,normal_force,dissipated'
+for name in lifting lifting_dynamic; do table_element "$header" $name > ../../results/$name.csv; done
+header='time,tip_x,tip_y,tip_z,displacement_u,displacement_v,approach,force_x,force_y,normal_force,dissipated'
+for name in orbit orbit_dynamic; do table_element "$header" $name > ../../results/$name.csv; done
 cp law.inp element.inp ../../results/
 
 tail -n +2 resumed.csv > resumed.tail
@@ -92,3 +96,4 @@ cd ../..
 build/compare results build/jobs
 "$GNUPLOT" loops.gp
 "$GNUPLOT" lifting.gp
+"$GNUPLOT" orbit.gp

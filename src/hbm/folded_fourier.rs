@@ -313,7 +313,7 @@ mod tests {
                 let orders = 2 * harmonics;
                 let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples, orders)];
                 fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
-                let mut parts = Parts::new(&mut memory);
+                let mut parts = Parts::of(&mut memory);
                 let mut fourier = FoldedFourier::take(&mut parts, samples, orders).unwrap();
                 fourier.take_scratch(&mut parts).unwrap();
                 let function = |c: usize, n: usize| {
@@ -344,7 +344,7 @@ mod tests {
         let (samples, orders) = (22, 6);
         let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples, orders)];
         fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
-        let fourier = FoldedFourier::take(&mut Parts::new(&mut memory), samples, orders).unwrap();
+        let fourier = FoldedFourier::take(&mut Parts::of(&mut memory), samples, orders).unwrap();
         let mut values = vec![0.0; sample_length(samples)];
         fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);
         assert!((0..11).all(|n| values[n] == -values[n + 11]));

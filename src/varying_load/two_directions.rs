@@ -36,9 +36,9 @@ use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::path::{self, advance_along};
 use crate::varying_load::state;
 use edge::{Edge, Map, Pressed};
-use sensitivity::{MotionColumns, ROWS, SCRATCH};
-use springs::{Both, FINE, SPRINGS};
-use step::{Memory, Motion};
+use sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
+use springs::{Both, FINE, SPRINGS, Springs};
+use step::{Course, Memory, Motion};
 
 pub use crate::varying_load::path::PathOutput;
 
@@ -61,6 +61,19 @@ pub type Step = path::StepResult<[f64; 3], [f64; 9]>;
 pub(crate) struct Requested {
     pub tangent: bool,
     pub energy: bool,
+    pub kernel: Kernel,
+}
+
+/// A step of springs and its derivatives, compiled for a kind of processor.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kernel {
+    pub step: fn(&Springs, &mut Memory, &Motion, [bool; 2], &mut Course) -> step::Outcome,
+    pub differentiate: for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut [f64], &mut [f64], Both<&mut [f64]>),
+}
+
+impl Kernel {
+    /// For any processor.
+    pub const BASELINE: Kernel = Kernel { step: step::step, differentiate: sensitivity::step };
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
@@ -229,7 +242,7 @@ pub(crate) fn advance_checked(
                 let ([x, normal], [xx, _, xw, ww]) = (step.force, step.tangent);
                 // Of the third component, the diagram has no stiffness: that of the springs.
                 let yy = start.map_or(0.0, |(header, mut memory)| {
-                    let requested = Requested { tangent: true, energy: false };
+                    let requested = Requested { tangent: true, energy: false, ..requested };
                     advance_springs(element, &header, &mut memory, [u, v, input], requested).0.tangent[4]
                 });
                 return Step {
@@ -307,10 +320,10 @@ fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory 
     for j in 0..SPRINGS {
         scaled[0][j] *= map.root[0][j];
     }
+    let [tractions, _] = map.tractions(&scaled, 0);
     for i in 0..SPRINGS {
         if i <= edge.last {
-            let [x, _] = map.traction(&scaled, i);
-            memory.tractions[0][i] = (x / edge.pressure[i]).clamp(-1.0, 1.0);
+            memory.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
         }
     }
     (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
@@ -320,88 +333,135 @@ fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is proportional.
 const LONGEST: f64 = 1e9;
 
+/// A step of springs from a contact, open or closed, to another one.
+struct Passage {
+    to: Header,
+    normal: Normal,
+    closed: bool,
+    was_closed: bool,
+    /// In the units of the springs, which follow the part of the distance that is in contact.
+    motion: Motion,
+    distance: Both<f64>,
+    part: f64,
+    /// Derivatives of the part with respect to the normal component at the start and at the end.
+    part_slopes: [f64; 2],
+    /// Displacement per unit of the springs, and the factor by which a motion was shortened.
+    unit: f64,
+    stretch: f64,
+}
+
+impl Passage {
+    fn new(element: &Element, from: &Header, [u, v, input]: [f64; 3]) -> Passage {
+        let (was_closed, closed) = (from.load > 0.0, element.is_closed(input));
+        let same = was_closed && input.to_bits() == from.input.to_bits();
+        let normal = if closed { element.normal(input) } else { Normal::OPEN };
+        let to = Header { displacement: [u, v], input, load: normal.load, shift: normal.shift };
+        // The part of the path in contact, as in one direction.
+        let (start, end) = (from.input, input);
+        let (part, part_slopes) = match (was_closed, closed) {
+            (true, false) if element.by_approach() => (start / (start - end.min(0.0)), [0.0; 2]),
+            (false, true) if element.by_approach() => {
+                let (start, per) = (start.min(0.0), 1.0 / (end - start.min(0.0)));
+                (end * per, [end * per * per, -start * per * per])
+            }
+            _ => (1.0, [0.0; 2]),
+        };
+        let distance = [u - from.displacement[0], v - from.displacement[1]];
+        let unit = element.friction_coefficient * element.shift_unit();
+        let by = distance.map(|distance| part * distance / unit);
+        let longest = by[0].abs().max(by[1].abs());
+        let stretch = if longest > LONGEST { longest / LONGEST } else { 1.0 };
+        let before = if was_closed { element.pressed(from.load, from.shift) } else { Pressed::default() };
+        let now = match (closed, same) {
+            (true, true) => before,
+            (true, false) => element.pressed(normal.load, normal.shift),
+            _ => Pressed::default(),
+        };
+        let motion = Motion { before, now, by: by.map(|by| by / stretch), constant_load: same };
+        Passage { to, normal, closed, was_closed, motion, distance, part, part_slopes, unit, stretch }
+    }
+
+    /// Advances the memory. The tangent is that of the normal force only.
+    fn advance(&self, element: &Element, memory: &mut Memory, requested: Requested, course: &mut Course) -> Step {
+        let force_unit = element.friction_coefficient * element.normal_force;
+        let energy_unit = force_unit * self.unit * self.stretch;
+        let mut step = Step::NONE;
+        (step.force[2], step.tangent[8]) = (self.normal.load, self.normal.load_slope);
+        if !self.closed {
+            if self.was_closed && requested.energy {
+                step.dissipated = energy_unit * step::separated(&element.springs, memory, &self.motion);
+            }
+            *memory = Memory::RELAXED;
+            return step;
+        }
+        if !self.was_closed {
+            *memory = Memory::RELAXED;
+        }
+        let flags = [requested.energy, requested.tangent];
+        let outcome = (requested.kernel.step)(&element.springs, memory, &self.motion, flags, course);
+        (step.force[0], step.force[1]) = (force_unit * outcome.force[0], force_unit * outcome.force[1]);
+        step.dissipated = energy_unit * outcome.dissipated;
+        step
+    }
+
+    /// Derivative of the motion by a displacement.
+    fn per_distance(&self) -> f64 {
+        self.part / self.unit / self.stretch
+    }
+
+    /// Derivatives of the motion by the normal component at the start and at the end.
+    fn per_input(&self, k: usize) -> [f64; 2] {
+        self.part_slopes.map(|slope| self.distance[k] * slope / self.unit / self.stretch)
+    }
+}
+
 /// A step of springs, from a contact that may be open.
 fn advance_springs(
     element: &Element,
     from: &Header,
     memory: &mut Memory,
-    [u, v, input]: [f64; 3],
+    displacement: [f64; 3],
     requested: Requested,
 ) -> (Step, Header) {
-    let (was_closed, closed) = (from.load > 0.0, element.is_closed(input));
-    let same = was_closed && input.to_bits() == from.input.to_bits();
-    let normal = if closed { element.normal(input) } else { Normal::OPEN };
-    let to = Header { displacement: [u, v], input, load: normal.load, shift: normal.shift };
-    // The part of the path in contact, as in one direction.
-    let start = if was_closed { from.input } else { from.input.min(0.0) };
-    let end = if closed { input } else { input.min(0.0) };
-    let approach = element.by_approach();
-    let part = match (was_closed, closed) {
-        (true, false) if approach => start / (start - end),
-        (false, true) if approach => end / (end - start),
-        _ => 1.0,
+    let passage = Passage::new(element, from, displacement);
+    let old = *memory;
+    let mut course = Course::NONE;
+    let mut step = passage.advance(element, memory, requested, &mut course);
+    if requested.tangent && passage.closed {
+        let old = if passage.was_closed { old } else { Memory::RELAXED };
+        tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
+    }
+    (step, passage.to)
+}
+
+/// The tangent of a step of springs: its derivatives for the columns u, v, w.
+#[inline(never)]
+fn tangent(
+    element: &Element,
+    passage: &Passage,
+    memories: [&Memory; 2],
+    course: &Course,
+    kernel: Kernel,
+    tangent: &mut [f64; 9],
+) {
+    let slopes = element.pressed_slopes(&passage.normal);
+    let per_distance = passage.per_distance();
+    let columns = MotionColumns {
+        by: [&[per_distance, 0.0, passage.per_input(0)[1], 0.0], &[0.0, per_distance, passage.per_input(1)[1], 0.0]],
+        load: &[0.0, 0.0, slopes.load, 0.0],
+        shift: [&[0.0, 0.0, slopes.shift[0], 0.0], &[0.0, 0.0, slopes.shift[1], 0.0]],
+        size: &[0.0, 0.0, slopes.size, 0.0],
+        before: [&[0.0; 4], &[0.0; 4]],
     };
-    let distance = [u - from.displacement[0], v - from.displacement[1]];
-    let unit = element.friction_coefficient * element.shift_unit();
-    let energy_unit = element.friction_coefficient * element.normal_force * unit;
-    let by = distance.map(|distance| part * distance / unit);
-    let longest = by[0].abs().max(by[1].abs());
-    let stretch = if longest > LONGEST { longest / LONGEST } else { 1.0 };
-    let by = by.map(|by| by / stretch);
-    let before = if was_closed { element.pressed(from.load, from.shift) } else { Pressed::default() };
-    let mut step = Step { force: [0.0, 0.0, normal.load], tangent: [0.0; 9], dissipated: 0.0 };
-    step.tangent[8] = normal.load_slope;
-    if !closed {
-        if was_closed && requested.energy {
-            let motion = Motion { before, now: Pressed::default(), by, constant_load: false };
-            step.dissipated = energy_unit * stretch * step::separated(&element.springs, memory, &motion);
-        }
-        *memory = Memory::RELAXED;
-        return (step, to);
+    let (mut rows, mut scratch) = ([0.0; 4 * ROWS], [0.0; 4 * SCRATCH]);
+    let (mut x, mut y) = ([0.0; 4], [0.0; 4]);
+    let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
+    (kernel.differentiate)(&taken, &columns, &mut rows, &mut scratch, [&mut x, &mut y]);
+    let unit = element.friction_coefficient * element.normal_force;
+    for column in 0..3 {
+        tangent[3 * column] = unit * x[column];
+        tangent[3 * column + 1] = unit * y[column];
     }
-    if !was_closed {
-        *memory = Memory::RELAXED;
-    }
-    let now = if same { before } else { element.pressed(normal.load, normal.shift) };
-    let motion = Motion { before, now, by, constant_load: same };
-    let old = if requested.tangent { Some(*memory) } else { None };
-    let mut course = step::Course::NONE;
-    let outcome = step::step(&element.springs, memory, &motion, [requested.energy, requested.tangent], &mut course);
-    let force_unit = element.friction_coefficient * element.normal_force;
-    (step.force[0], step.force[1]) = (force_unit * outcome.force[0], force_unit * outcome.force[1]);
-    step.dissipated = energy_unit * stretch * outcome.dissipated;
-    if let Some(old) = old {
-        let slopes = element.pressed_slopes(&normal);
-        // Columns u, v, w.
-        let (along, zero) = (part / unit / stretch, [0.0; 4]);
-        let growth = if was_closed || !approach { 0.0 } else { -start / ((end - start) * (end - start)) };
-        let by_input = distance.map(|distance| distance * growth / unit / stretch);
-        let columns = MotionColumns {
-            by: [&[along, 0.0, by_input[0], 0.0], &[0.0, along, by_input[1], 0.0]],
-            load: &[0.0, 0.0, slopes.load, 0.0],
-            shift: [&[0.0, 0.0, slopes.shift[0], 0.0], &[0.0, 0.0, slopes.shift[1], 0.0]],
-            size: &[0.0, 0.0, slopes.size, 0.0],
-            before: [&zero, &zero],
-        };
-        let (mut rows, mut scratch) = ([0.0; 4 * ROWS], [0.0; 4 * SCRATCH]);
-        let (mut x, mut y) = ([0.0; 4], [0.0; 4]);
-        let memories = [&old, &*memory];
-        sensitivity::step(
-            &element.springs,
-            memories,
-            &motion,
-            &course,
-            &columns,
-            &mut rows,
-            &mut scratch,
-            [&mut x, &mut y],
-        );
-        for column in 0..3 {
-            step.tangent[3 * column] = force_unit * x[column];
-            step.tangent[3 * column + 1] = force_unit * y[column];
-        }
-    }
-    (step, to)
 }
 
 /// A step in place.
@@ -411,7 +471,12 @@ fn advance_springs(
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     check_header(state)?;
     check_step(element, &displacement)?;
-    Ok(advance_checked(element, state, displacement, Requested { tangent: true, energy: true }))
+    Ok(advance_checked(
+        element,
+        state,
+        displacement,
+        Requested { tangent: true, energy: true, kernel: Kernel::BASELINE },
+    ))
 }
 
 /// Checks a path: three doubles per step.
@@ -427,18 +492,35 @@ pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
 /// # Errors
 /// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    path_by(element, state, path, output, Kernel::BASELINE)
+}
+
+/// As [`path`], with a kernel.
+pub(crate) fn path_by(
+    element: &Element,
+    state: &mut [f64],
+    path: &[f64],
+    output: PathOutput,
+    kernel: Kernel,
+) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
-    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
+    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some(), kernel };
     advance_along(path, output, |displacement| advance_checked(element, state, displacement, requested));
     Ok(())
 }
 
-/// As [`path`], from a copy of the state.
-pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
+/// As [`path_by`], from a copy of the state.
+pub(crate) fn path_in_copy(
+    element: &Element,
+    state: &[f64],
+    steps: &[f64],
+    output: PathOutput,
+    kernel: Kernel,
+) -> Result<(), Error> {
     let mut copy = [0.0; LENGTH];
     copy_used(state, &mut copy);
-    path(element, &mut copy, steps, output)
+    path_by(element, &mut copy, steps, output, kernel)
 }
 
 /// Copies what is in use of a state whose header was checked to one that is as long.

@@ -15,10 +15,10 @@
 //! For slipping points `σ = S (B z* - q)` with S the inverse of `B B'` on them, so the angles of e_i are the only unknowns.
 
 use super::edge::Map;
-use super::springs::{Both, Row, SPRINGS, axpy, dot};
+use super::springs::{Both, Row, SPRINGS, axpy_from, dot_from};
 use crate::shape::TINY;
 
-pub(super) type Matrix = [Row; SPRINGS];
+pub(crate) type Matrix = [Row; SPRINGS];
 
 /// Newton's steps for one set of slipping points, and changes of that set.
 const STEPS: usize = 20;
@@ -27,21 +27,23 @@ const ROUNDS: usize = 8;
 const CONVERGED: f64 = 1e-11;
 /// The slip, relative to the terms whose difference it is, below which only that difference converges.
 const ROUNDING: f64 = 1e-3;
+/// A turn whose square is below that: the next iterate has converged.
+const SMALL_TURN: f64 = 1e-6;
 /// The largest change of an angle.
 const LARGEST_TURN: f64 = 0.8;
 
 #[inline(always)]
-pub(super) fn product(one: &Both<f64>, two: &Both<f64>) -> f64 {
+pub(crate) fn product(one: &Both<f64>, two: &Both<f64>) -> f64 {
     one[0] * two[0] + one[1] * two[1]
 }
 
 #[inline(always)]
-pub(super) fn cross(one: &Both<f64>, two: &Both<f64>) -> f64 {
+pub(crate) fn cross(one: &Both<f64>, two: &Both<f64>) -> f64 {
     one[0] * two[1] - one[1] * two[0]
 }
 
 /// What the slip depends on besides the map.
-pub(super) struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub map: &'a Map<'a>,
     /// z*.
     pub trial: &'a Both<Row>,
@@ -53,7 +55,7 @@ pub(super) struct Problem<'a> {
 
 /// Direction e + β r of the slip at a point, and its derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Direction {
+pub(crate) struct Direction {
     pub vector: Both<f64>,
     pub by_angle: Both<f64>,
     /// By r_i, both components of the vector for each, and by τ_i.
@@ -91,7 +93,7 @@ impl Direction {
 }
 
 /// The slip at all points.
-pub(super) struct Slip {
+pub(crate) struct Slip {
     /// The innermost point that may slip, and which ones do.
     pub first: usize,
     pub slips: [bool; SPRINGS],
@@ -105,36 +107,31 @@ pub(super) struct Slip {
 }
 
 impl Slip {
-    /// From the points whose springs exceed their limits, in the direction of those.
-    pub fn new(limits: impl Fn(usize) -> Option<Both<f64>>, last: usize) -> Slip {
-        let mut slip = Slip {
-            first: last,
-            slips: [false; SPRINGS],
-            e: [[0.0; 2]; SPRINGS],
-            sigma: [[0.0; SPRINGS]; 2],
-            inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
-            factors: [[0.0; SPRINGS]; SPRINGS],
-            converged: false,
-        };
-        for i in (0..SPRINGS).rev() {
-            if i <= last
-                && let Some(direction) = limits(i)
-            {
-                slip.slips[i] = true;
-                slip.e[i] = direction;
-                slip.first = i;
-            }
-        }
-        slip
+    pub const NONE: Slip = Slip {
+        first: SPRINGS,
+        slips: [false; SPRINGS],
+        e: [[0.0; 2]; SPRINGS],
+        sigma: [[0.0; SPRINGS]; 2],
+        inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
+        factors: [[0.0; SPRINGS]; SPRINGS],
+        converged: false,
+    };
+
+    /// Begins with slip at a point, the traction in a direction.
+    #[inline(always)]
+    pub fn begin(&mut self, i: usize, direction: Both<f64>) {
+        self.slips[i] = true;
+        self.e[i] = direction;
+        self.first = self.first.min(i);
     }
 
     fn sigma_at(&self, i: usize) -> Both<f64> {
         [self.sigma[0][i], self.sigma[1][i]]
     }
 
-    /// Solves the problem. The springs at the end are `z* - B'σ`; z and the tractions at all points are returned.
+    /// Solves the problem: springs and tractions at the end.
     #[inline(always)]
-    pub fn solve(&mut self, problem: &Problem, factored: bool) -> (Both<Row>, Both<Row>) {
+    pub fn solve(&mut self, problem: &Problem, factored: bool, end: [&mut Both<Row>; 2]) {
         let Problem { map, pressure, .. } = *problem;
         let last = map.last.min(SPRINGS - 1);
         for round in 0..ROUNDS {
@@ -163,11 +160,11 @@ impl Slip {
             }
             if !changed || round + 1 == ROUNDS {
                 self.converged &= !changed;
-                return (z, q);
+                (*end[0], *end[1]) = (z, q);
+                return;
             }
             self.first = (0..SPRINGS).find(|i| self.slips[*i]).unwrap_or(last);
         }
-        (*problem.trial, [[0.0; SPRINGS]; 2])
     }
 
     /// Springs and tractions after the slip.
@@ -178,17 +175,11 @@ impl Slip {
         for i in 0..SPRINGS {
             if self.slips[i] {
                 for k in 0..2 {
-                    axpy(&mut z[k], -self.sigma[k][i], &map.row(k, i));
+                    axpy_from(i, &mut z[k], -self.sigma[k][i], &map.row(k, i));
                 }
             }
         }
-        let mut q = [[0.0; SPRINGS]; 2];
-        for i in 0..SPRINGS {
-            if i <= map.last {
-                [q[0][i], q[1][i]] = map.traction(&z, i);
-            }
-        }
-        (z, q)
+        (z, map.tractions(&z, 0))
     }
 
     /// S and `S B z*` of the slipping points: with U the inverse of the block of B from the first one on, `S = U'U` without the points
@@ -208,7 +199,7 @@ impl Slip {
                 let mut sum = [0.0; SPRINGS];
                 for j in i + 1..SPRINGS {
                     if j <= last {
-                        axpy(&mut sum, -row[j], &inverse[j]);
+                        axpy_from(first, &mut sum, -row[j], &inverse[j]);
                     }
                 }
                 sum[i] += 1.0;
@@ -223,10 +214,10 @@ impl Slip {
                     continue;
                 }
                 let row = inverse[m];
-                axpy(&mut constant[k], trial[k][m], &row);
+                axpy_from(first, &mut constant[k], trial[k][m], &row);
                 for i in m..SPRINGS {
                     if i <= last {
-                        axpy(&mut square[i], row[i], &row);
+                        axpy_from(first, &mut square[i], row[i], &row);
                     }
                 }
             }
@@ -240,7 +231,7 @@ impl Slip {
                 for i in 0..SPRINGS {
                     if i >= first && i <= last {
                         let factor = row[i] * reciprocal;
-                        axpy(&mut square[i], -factor, &row);
+                        axpy_from(first, &mut square[i], -factor, &row);
                         constant[k][i] -= factor * constant_there;
                     }
                 }
@@ -257,6 +248,7 @@ impl Slip {
         let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
         self.converged = false;
         self.sigma = [[0.0; SPRINGS]; 2];
+        let mut last_turn = f64::MAX;
         for _ in 0..STEPS {
             // p e, and its derivative by the angle.
             let (mut q, mut by_angle) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
@@ -266,6 +258,7 @@ impl Slip {
                     (by_angle[0][i], by_angle[1][i]) = (-q[1][i], q[0][i]);
                 }
             }
+            let finishes = last_turn <= SMALL_TURN;
             let mut residual = [0.0; SPRINGS];
             let mut largest: f64 = 0.0;
             for i in 0..SPRINGS {
@@ -278,9 +271,13 @@ impl Slip {
                     continue;
                 }
                 let rows = [&self.inverse[0][i], &self.inverse[1][i]];
-                let (free, held) = ([constant[0][i], constant[1][i]], [dot(rows[0], &q[0]), dot(rows[1], &q[1])]);
+                let free = [constant[0][i], constant[1][i]];
+                let held = [dot_from(first, rows[0], &q[0]), dot_from(first, rows[1], &q[1])];
                 let sigma = [free[0] - held[0], free[1] - held[1]];
                 (self.sigma[0][i], self.sigma[1][i]) = (sigma[0], sigma[1]);
+                if finishes && !factored {
+                    continue;
+                }
                 let direction = Direction::new(&self.e[i], &[start[0][i], start[1][i]], overshoot[i]);
                 let n = direction.vector;
                 residual[i] = -cross(&sigma, &n);
@@ -294,7 +291,7 @@ impl Slip {
                 }
                 row[i] += cross(&sigma, &direction.by_angle);
             }
-            self.converged = largest <= CONVERGED * CONVERGED;
+            self.converged = finishes || largest <= CONVERGED * CONVERGED;
             if self.converged && !factored {
                 return;
             }
@@ -304,6 +301,7 @@ impl Slip {
             }
             solve(&self.factors, first, last, &mut residual);
             let largest = residual.iter().fold(0.0f64, |largest, turn| largest.max(turn.abs()));
+            last_turn = largest;
             let damping = if largest > LARGEST_TURN { LARGEST_TURN / largest } else { 1.0 };
             for i in 0..SPRINGS {
                 if self.slips[i] {
@@ -335,7 +333,7 @@ fn factorise(matrix: &mut Matrix, first: usize, last: usize) {
             if i <= last {
                 let factor = matrix[i][p] * reciprocal;
                 if factor != 0.0 {
-                    axpy(&mut matrix[i], -factor, &row);
+                    axpy_from(p, &mut matrix[i], -factor, &row);
                     matrix[i][p] = factor;
                 }
             }
@@ -349,10 +347,8 @@ fn solve(factors: &Matrix, first: usize, last: usize, right: &mut Row) {
     for i in 0..SPRINGS {
         if i >= first && i <= last {
             let mut sum = right[i];
-            for j in 0..i {
-                if j >= first {
-                    sum -= factors[i][j] * right[j];
-                }
+            for j in first..i {
+                sum -= factors[i][j] * right[j];
             }
             right[i] = sum;
         }
@@ -372,7 +368,7 @@ fn solve(factors: &Matrix, first: usize, last: usize, right: &mut Row) {
 
 /// Solves with the factors for rows of n columns.
 #[inline(always)]
-pub(super) fn solve_columns(factors: &Matrix, first: usize, last: usize, rows: &mut [f64], n: usize) {
+pub(crate) fn solve_columns(factors: &Matrix, first: usize, last: usize, rows: &mut [f64], n: usize) {
     let add = |rows: &mut [f64], to: usize, a: f64, from: usize| {
         let (low, high) = rows.split_at_mut((to.max(from) * n).min(rows.len()));
         let (one, two) = if to > from {
