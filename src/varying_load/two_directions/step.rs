@@ -283,7 +283,7 @@ fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Motion, last: Opt
         }
         let mut of_spring = 0.0;
         for k in 0..2 {
-            let part = (before.shift[k] - springs.shift[k][j]) / (before.shift[k] - now.shift[k]).max(TINY);
+            let part = (before.shift[k] - springs.shift[k][j]).max(0.0) / (before.shift[k] - now.shift[k]).max(TINY);
             let weight = springs.root[k][j] * springs.root[k][j];
             of_spring += 0.5 * weight * old[k][j] * (old[k][j] + part * by[k]);
         }
