@@ -36,8 +36,8 @@ use crate::varying_load::element::{Element, Normal};
 use crate::varying_load::path::{self, advance_along};
 use crate::varying_load::state;
 use edge::{Edge, Map, Pressed};
-use sensitivity::{MotionColumns, ROWS, SCRATCH};
-use springs::{Both, FINE, SPRINGS};
+use sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
+use springs::{Both, FINE, SPRINGS, Springs};
 use step::{Course, Memory, Motion};
 
 pub use crate::varying_load::path::PathOutput;
@@ -61,6 +61,19 @@ pub type Step = path::StepResult<[f64; 3], [f64; 9]>;
 pub(crate) struct Requested {
     pub tangent: bool,
     pub energy: bool,
+    pub kernel: Kernel,
+}
+
+/// A step of springs and its derivatives, compiled for a kind of processor.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kernel {
+    pub step: fn(&Springs, &mut Memory, &Motion, [bool; 2], &mut Course) -> step::Outcome,
+    pub differentiate: for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut [f64], &mut [f64], Both<&mut [f64]>),
+}
+
+impl Kernel {
+    /// For any processor.
+    pub const BASELINE: Kernel = Kernel { step: step::step, differentiate: sensitivity::step };
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
@@ -229,7 +242,7 @@ pub(crate) fn advance_checked(
                 let ([x, normal], [xx, _, xw, ww]) = (step.force, step.tangent);
                 // Of the third component, the diagram has no stiffness: that of the springs.
                 let yy = start.map_or(0.0, |(header, mut memory)| {
-                    let requested = Requested { tangent: true, energy: false };
+                    let requested = Requested { tangent: true, energy: false, ..requested };
                     advance_springs(element, &header, &mut memory, [u, v, input], requested).0.tangent[4]
                 });
                 return Step {
@@ -307,10 +320,10 @@ fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory 
     for j in 0..SPRINGS {
         scaled[0][j] *= map.root[0][j];
     }
+    let [tractions, _] = map.tractions(&scaled, 0);
     for i in 0..SPRINGS {
         if i <= edge.last {
-            let [x, _] = map.traction(&scaled, i);
-            memory.tractions[0][i] = (x / edge.pressure[i]).clamp(-1.0, 1.0);
+            memory.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
         }
     }
     (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
@@ -384,8 +397,8 @@ impl Passage {
         if !self.was_closed {
             *memory = Memory::RELAXED;
         }
-        let requested = [requested.energy, requested.tangent];
-        let outcome = step::step(&element.springs, memory, &self.motion, requested, course);
+        let flags = [requested.energy, requested.tangent];
+        let outcome = (requested.kernel.step)(&element.springs, memory, &self.motion, flags, course);
         (step.force[0], step.force[1]) = (force_unit * outcome.force[0], force_unit * outcome.force[1]);
         step.dissipated = energy_unit * outcome.dissipated;
         step
@@ -416,14 +429,21 @@ fn advance_springs(
     let mut step = passage.advance(element, memory, requested, &mut course);
     if requested.tangent && passage.closed {
         let old = if passage.was_closed { old } else { Memory::RELAXED };
-        tangent(element, &passage, [&old, memory], &course, &mut step.tangent);
+        tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
     }
     (step, passage.to)
 }
 
 /// The tangent of a step of springs: its derivatives for the columns u, v, w.
 #[inline(never)]
-fn tangent(element: &Element, passage: &Passage, memories: [&Memory; 2], course: &Course, tangent: &mut [f64; 9]) {
+fn tangent(
+    element: &Element,
+    passage: &Passage,
+    memories: [&Memory; 2],
+    course: &Course,
+    kernel: Kernel,
+    tangent: &mut [f64; 9],
+) {
     let slopes = element.pressed_slopes(&passage.normal);
     let per_distance = passage.per_distance();
     let columns = MotionColumns {
@@ -435,8 +455,8 @@ fn tangent(element: &Element, passage: &Passage, memories: [&Memory; 2], course:
     };
     let (mut rows, mut scratch) = ([0.0; 4 * ROWS], [0.0; 4 * SCRATCH]);
     let (mut x, mut y) = ([0.0; 4], [0.0; 4]);
-    let motion = &passage.motion;
-    sensitivity::step(&element.springs, memories, motion, course, &columns, &mut rows, &mut scratch, [&mut x, &mut y]);
+    let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
+    (kernel.differentiate)(&taken, &columns, &mut rows, &mut scratch, [&mut x, &mut y]);
     let unit = element.friction_coefficient * element.normal_force;
     for column in 0..3 {
         tangent[3 * column] = unit * x[column];
@@ -451,7 +471,12 @@ fn tangent(element: &Element, passage: &Passage, memories: [&Memory; 2], course:
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     check_header(state)?;
     check_step(element, &displacement)?;
-    Ok(advance_checked(element, state, displacement, Requested { tangent: true, energy: true }))
+    Ok(advance_checked(
+        element,
+        state,
+        displacement,
+        Requested { tangent: true, energy: true, kernel: Kernel::BASELINE },
+    ))
 }
 
 /// Checks a path: three doubles per step.
@@ -467,18 +492,35 @@ pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
 /// # Errors
 /// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    path_by(element, state, path, output, Kernel::BASELINE)
+}
+
+/// As [`path`], with a kernel.
+pub(crate) fn path_by(
+    element: &Element,
+    state: &mut [f64],
+    path: &[f64],
+    output: PathOutput,
+    kernel: Kernel,
+) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
-    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
+    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some(), kernel };
     advance_along(path, output, |displacement| advance_checked(element, state, displacement, requested));
     Ok(())
 }
 
-/// As [`path`], from a copy of the state.
-pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
+/// As [`path_by`], from a copy of the state.
+pub(crate) fn path_in_copy(
+    element: &Element,
+    state: &[f64],
+    steps: &[f64],
+    output: PathOutput,
+    kernel: Kernel,
+) -> Result<(), Error> {
     let mut copy = [0.0; LENGTH];
     copy_used(state, &mut copy);
-    path(element, &mut copy, steps, output)
+    path_by(element, &mut copy, steps, output, kernel)
 }
 
 /// Copies what is in use of a state whose header was checked to one that is as long.

@@ -24,7 +24,7 @@ const THINNEST: f64 = 1e-9;
 
 /// The last shell.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Edge {
+pub(crate) struct Edge {
     /// Its node.
     pub last: usize,
     /// S_b - S and the root of the stiffness of its spring.
@@ -99,7 +99,7 @@ impl Edge {
 }
 
 /// The map from `sqrt(w_j) v_j` to the tractions q_i under the present load.
-pub(super) struct Map<'a> {
+pub(crate) struct Map<'a> {
     springs: &'a Springs,
     pub last: usize,
     /// Roots of the stiffnesses, 0 beyond the contact.
@@ -157,9 +157,23 @@ impl Map<'_> {
         if i < self.last { self.springs.traction[i][k][i] } else { self.column[k][i] }
     }
 
-    /// The traction at point i.
+    /// The tractions at the points from `first` on.
     #[inline(always)]
-    pub fn traction(&self, z: &Both<Row>, i: usize) -> Both<f64> {
-        core::array::from_fn(|k| dot(&self.row(k, i), &z[k]))
+    pub fn tractions(&self, z: &Both<Row>, first: usize) -> Both<Row> {
+        let mut tractions = [[0.0; SPRINGS]; 2];
+        for k in 0..2 {
+            let mut inner = z[k];
+            for j in 0..SPRINGS {
+                inner[j] *= self.inside[j];
+            }
+            let outer = z[k][self.last];
+            for i in first..SPRINGS {
+                if i < self.last {
+                    tractions[k][i] = dot(&self.springs.traction[i][k], &inner) + self.column[k][i] * outer;
+                }
+            }
+            tractions[k][self.last] = self.column[k][self.last] * outer;
+        }
+        tractions
     }
 }

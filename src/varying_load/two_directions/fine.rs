@@ -2,14 +2,13 @@
 //! motion on a line as exact as the fine bank.
 
 use super::edge::{Edge, Pressed};
-use super::slip::product;
 use super::springs::{Both, FINE, REFINEMENT, SPRINGS, Springs};
 use crate::shape::TINY;
 
-pub(super) type FineRow = [f64; FINE];
+pub(crate) type FineRow = [f64; FINE];
 
 /// Stiffnesses of the springs under the present load: their difference from those of the bank of the law.
-pub(super) struct FineEdge {
+pub(crate) struct FineEdge {
     pub last: usize,
     /// The node of the law whose spring has changed too.
     pub coarse: usize,
@@ -53,7 +52,7 @@ impl FineEdge {
 
 /// A step of the bank.
 #[inline(always)]
-pub(super) fn step(
+pub(crate) fn step(
     springs: &Springs,
     fine: &FineEdge,
     displacement: &mut Both<FineRow>,
@@ -62,40 +61,57 @@ pub(super) fn step(
     motion: &Both<f64>,
     constant_load: bool,
 ) -> (Both<f64>, f64) {
-    let (mut force, mut energy) = ([0.0; 2], 0.0);
+    let (mut forces, mut energy) = ([[0.0; 4]; 2], 0.0);
     let share = Share::new(before, now);
-    for j in 0..FINE {
-        if j > fine.last {
-            break;
+    let [x, y] = displacement;
+    let (blocks_x, blocks_y) = (x.as_chunks_mut::<4>().0, y.as_chunks_mut::<4>().0);
+    for (block, (x, y)) in blocks_x.iter_mut().zip(blocks_y).enumerate() {
+        let at = |row: &FineRow| row.as_chunks::<4>().0.get(block).copied().unwrap_or([0.0; 4]);
+        let shifts = [at(&springs.fine_shift[0]), at(&springs.fine_shift[1])];
+        let stiffness = [at(&fine.stiffness[0]), at(&fine.stiffness[1])];
+        let (old, mut trial, mut limit) = ([*x, *y], [[0.0; 4]; 2], [[0.0; 4]; 2]);
+        let (mut over, mut bound) = ([0.0; 4], [0.0; 4]);
+        let mut any = false;
+        for lane in 0..4 {
+            let inside = 4 * block + lane <= fine.last;
+            for k in 0..2 {
+                // Beyond the contact nothing moves.
+                limit[k][lane] = if inside { now.shift[k] - shifts[k][lane] } else { 1.0 };
+                let moved = old[k][lane] + motion[k] * share.of(k, limit[k][lane]);
+                trial[k][lane] = if inside { moved } else { 0.0 };
+            }
+            let (x, y) = (trial[0][lane] * limit[1][lane], trial[1][lane] * limit[0][lane]);
+            over[lane] = x * x + y * y;
+            bound[lane] = limit[0][lane] * limit[1][lane];
+            any |= over[lane] > bound[lane] * bound[lane];
         }
-        let limit = [now.shift[0] - springs.fine_shift[0][j], now.shift[1] - springs.fine_shift[1][j]];
-        let old = [displacement[0][j], displacement[1][j]];
-        let trial = [old[0] + motion[0] * share.of(0, limit[0]), old[1] + motion[1] * share.of(1, limit[1])];
-        let (x, y) = (trial[0] * limit[1], trial[1] * limit[0]);
-        let (over, bound) = (x * x + y * y, limit[0] * limit[1]);
         let mut new = trial;
-        if over > bound * bound {
-            let scale = bound / over.sqrt();
-            new = [trial[0] * scale, trial[1] * scale];
-            let mean = if constant_load { new } else { [0.5 * (old[0] + new[0]), 0.5 * (old[1] + new[1])] };
-            let stiffness = [fine.stiffness[0][j], fine.stiffness[1][j]];
-            energy += product(&stiffness, &[mean[0] * (trial[0] - new[0]), mean[1] * (trial[1] - new[1])]);
+        if any {
+            for lane in 0..4 {
+                let square = bound[lane] * bound[lane];
+                let scale = bound[lane] / over[lane].max(square).sqrt().max(TINY);
+                for k in 0..2 {
+                    let value = if over[lane] > square { trial[k][lane] * scale } else { trial[k][lane] };
+                    new[k][lane] = value;
+                    let mean = if constant_load { value } else { 0.5 * (old[k][lane] + value) };
+                    energy += stiffness[k][lane] * mean * (trial[k][lane] - value);
+                }
+            }
         }
-        (displacement[0][j], displacement[1][j]) = (new[0], new[1]);
-        force[0] += fine.stiffness[0][j] * new[0];
-        force[1] += fine.stiffness[1][j] * new[1];
-    }
-    for row in displacement {
-        for (j, value) in row.iter_mut().enumerate() {
-            *value = if j <= fine.last { *value } else { 0.0 };
+        (*x, *y) = (new[0], new[1]);
+        for k in 0..2 {
+            for lane in 0..4 {
+                forces[k][lane] += stiffness[k][lane] * new[k][lane];
+            }
         }
     }
+    let force = forces.map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
     (force, energy)
 }
 
 /// The part of a motion that a spring follows: all, unless the load rises to its size within the step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
+pub(crate) struct Share {
     /// 1/ΔS; 0 unless the load rises.
     pub per_rise: Both<f64>,
 }

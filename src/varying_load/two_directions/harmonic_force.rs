@@ -9,9 +9,9 @@
 //! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
 //! springs.
 
-use super::sensitivity::{self, MotionColumns, ROWS, SCRATCH};
+use super::sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
 use super::step::{Course, Memory};
-use super::{Header, Passage, Requested};
+use super::{Header, Kernel, Passage, Requested};
 use crate::error::Error;
 use crate::hbm::check_coefficients;
 use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
@@ -222,11 +222,12 @@ fn row_mut(matrix: &mut [f64], n: usize, r: usize) -> &mut [f64] {
 /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
 /// too wide for its length.
 #[inline(always)]
-pub fn harmonic_force(
+pub(crate) fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
+    kernel: Kernel,
 ) -> Result<(), Error> {
     let (n, count) = (workspace.coefficients(), workspace.size.samples);
     let HarmonicOutput { mut force, mut jacobian, mut dissipated } = output;
@@ -245,7 +246,7 @@ pub fn harmonic_force(
         }
         (force, dissipated) = (None, None);
     }
-    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
+    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some(), kernel };
     if let Some(force) = &mut force {
         force.fill(0.0);
     }
@@ -266,7 +267,7 @@ pub fn harmonic_force(
     let frictionless = element.friction_coefficient == 0.0;
     if !frictionless {
         let press = Passage::new(element, &from, [0.0, 0.0, top[2]]);
-        press.advance(element, &mut memory, Requested { tangent: false, energy: false }, &mut course);
+        press.advance(element, &mut memory, Requested { tangent: false, energy: false, kernel }, &mut course);
         from = press.to;
     }
     let mut energy = 0.0;
@@ -290,7 +291,16 @@ pub fn harmonic_force(
                 if passage.closed {
                     // The first displacement begins at rest, not at a sample.
                     let start = if step == 0 { None } else { Some(before) };
-                    differentiate(element, workspace, &passage, [&old, &memory], &course, &from, [start, Some(index)]);
+                    differentiate(
+                        element,
+                        workspace,
+                        &passage,
+                        [&old, &memory],
+                        &course,
+                        &from,
+                        [start, Some(index)],
+                        kernel,
+                    );
                 } else {
                     workspace.motion.fill(0.0);
                 }
@@ -345,6 +355,7 @@ fn differentiate(
     course: &Course,
     from: &Header,
     samples: [Option<usize>; 2],
+    kernel: Kernel,
 ) {
     let n = workspace.coefficients();
     let columns = padded(3 * n);
@@ -390,16 +401,8 @@ fn differentiate(
         size: row(rows, columns, 5),
         before: [row(rows, columns, 6), row(rows, columns, 7)],
     };
-    sensitivity::step(
-        &element.springs,
-        memories,
-        &passage.motion,
-        course,
-        &motion,
-        workspace.memory,
-        workspace.scratch,
-        [&mut *x, &mut *y],
-    );
+    let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
+    (kernel.differentiate)(&taken, &motion, workspace.memory, workspace.scratch, [&mut *x, &mut *y]);
     let unit = element.friction_coefficient * element.normal_force;
     x.iter_mut().chain(y).for_each(|value| *value *= unit);
 }
@@ -532,7 +535,7 @@ mod tests {
             jacobian: Some(&mut result.jacobian),
             dissipated: Some(&mut result.dissipated),
         };
-        harmonic_force(element, &mut workspace, motion, output).unwrap();
+        harmonic_force(element, &mut workspace, motion, output, Kernel::BASELINE).unwrap();
         result
     }
 

@@ -13,17 +13,26 @@ use crate::shape::TINY;
 /// Rows of the derivatives of a memory: springs, tractions, fine bank.
 const TRACTIONS: usize = 2 * SPRINGS;
 const FINE_ROWS: usize = 4 * SPRINGS;
-pub(super) const ROWS: usize = FINE_ROWS + 2 * FINE;
+pub(crate) const ROWS: usize = FINE_ROWS + 2 * FINE;
 /// Rows of scratch memory.
-pub(super) const SCRATCH: usize = 7 * SPRINGS + 2;
+pub(crate) const SCRATCH: usize = 7 * SPRINGS + 2;
 
 /// Derivatives of the motion, a row of columns each: displacements; N, S of both directions and w² at the end; S at the start.
-pub(super) struct MotionColumns<'a> {
+pub(crate) struct MotionColumns<'a> {
     pub by: Both<&'a [f64]>,
     pub load: &'a [f64],
     pub shift: Both<&'a [f64]>,
     pub size: &'a [f64],
     pub before: Both<&'a [f64]>,
+}
+
+/// A step that was taken.
+pub(crate) struct Taken<'a> {
+    pub springs: &'a Springs,
+    /// The memory at the start and at the end.
+    pub memories: [&'a Memory; 2],
+    pub motion: &'a Motion,
+    pub course: &'a Course,
 }
 
 /// Row r of a matrix of rows of n columns.
@@ -61,18 +70,16 @@ fn add_row(matrix: &mut [f64], n: usize, to: usize, a: f64, from: usize) {
 }
 
 /// Replaces the derivatives of the memory at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
-/// the force of both directions. `old` is the memory at the start, `new` at the end.
+/// the force of both directions.
 #[inline(always)]
-pub(super) fn step(
-    springs: &Springs,
-    [old, new]: [&Memory; 2],
-    motion: &Motion,
-    course: &Course,
+pub(crate) fn step(
+    taken: &Taken,
     columns: &MotionColumns,
     memory: &mut [f64],
     scratch: &mut [f64],
     force: Both<&mut [f64]>,
 ) {
+    let Taken { springs, memories: [old, new], motion, course } = *taken;
     let n = columns.load.len();
     let Course { edge, .. } = course;
     let last = edge.last.min(SPRINGS - 1);
@@ -312,7 +319,7 @@ pub(super) fn step(
         add(sum, factor, columns.load);
         add(sum, -factor * edge.secant[k], columns.shift[k]);
     }
-    fine(springs, old, new, motion, course, &share, columns, memory, [&mut *force_x, &mut *force_y]);
+    fine(taken, &share, columns, memory, [&mut *force_x, &mut *force_y]);
     // Coulomb's bound.
     let size = product(&course.sum, &course.sum).sqrt();
     if size > motion.now.load {
@@ -328,16 +335,13 @@ pub(super) fn step(
 /// The same for the fine bank.
 #[inline(always)]
 fn fine(
-    springs: &Springs,
-    old: &Memory,
-    new: &Memory,
-    motion: &Motion,
-    course: &Course,
+    taken: &Taken,
     share: &Share,
     columns: &MotionColumns,
     memory: &mut [f64],
     [force_x, force_y]: Both<&mut [f64]>,
 ) {
+    let Taken { springs, memories: [old, new], motion, course } = *taken;
     let n = columns.load.len();
     let Course { edge, fine, .. } = course;
     let rows = memory.get_mut(FINE_ROWS * n..).unwrap_or(&mut []);

@@ -15,31 +15,33 @@
 //! For slipping points `σ = S (B z* - q)` with S the inverse of `B B'` on them, so the angles of e_i are the only unknowns.
 
 use super::edge::Map;
-use super::springs::{Both, Row, SPRINGS, axpy, dot};
+use super::springs::{Both, Row, SPRINGS, axpy_from, dot_from};
 use crate::shape::TINY;
 
-pub(super) type Matrix = [Row; SPRINGS];
+pub(crate) type Matrix = [Row; SPRINGS];
 
 /// Newton's steps for one set of slipping points, and changes of that set.
 const STEPS: usize = 20;
 const ROUNDS: usize = 8;
 /// The angle between σ and its required direction at which the iteration ends: a rounding error, amplified by the condition of S.
 const CONVERGED: f64 = 1e-11;
+/// A turn whose square is below that: the next iterate has converged.
+const SMALL_TURN: f64 = 1e-6;
 /// The largest change of an angle.
 const LARGEST_TURN: f64 = 0.8;
 
 #[inline(always)]
-pub(super) fn product(one: &Both<f64>, two: &Both<f64>) -> f64 {
+pub(crate) fn product(one: &Both<f64>, two: &Both<f64>) -> f64 {
     one[0] * two[0] + one[1] * two[1]
 }
 
 #[inline(always)]
-pub(super) fn cross(one: &Both<f64>, two: &Both<f64>) -> f64 {
+pub(crate) fn cross(one: &Both<f64>, two: &Both<f64>) -> f64 {
     one[0] * two[1] - one[1] * two[0]
 }
 
 /// What the slip depends on besides the map.
-pub(super) struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub map: &'a Map<'a>,
     /// z*.
     pub trial: &'a Both<Row>,
@@ -51,7 +53,7 @@ pub(super) struct Problem<'a> {
 
 /// Direction e + β r of the slip at a point, and its derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Direction {
+pub(crate) struct Direction {
     pub vector: Both<f64>,
     pub by_angle: Both<f64>,
     /// By r_i, both components of the vector for each, and by τ_i.
@@ -89,7 +91,7 @@ impl Direction {
 }
 
 /// The slip at all points.
-pub(super) struct Slip {
+pub(crate) struct Slip {
     /// The innermost point that may slip, and which ones do.
     pub first: usize,
     pub slips: [bool; SPRINGS],
@@ -103,36 +105,31 @@ pub(super) struct Slip {
 }
 
 impl Slip {
-    /// From the points whose springs exceed their limits, in the direction of those.
-    pub fn new(limits: impl Fn(usize) -> Option<Both<f64>>, last: usize) -> Slip {
-        let mut slip = Slip {
-            first: last,
-            slips: [false; SPRINGS],
-            e: [[0.0; 2]; SPRINGS],
-            sigma: [[0.0; SPRINGS]; 2],
-            inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
-            factors: [[0.0; SPRINGS]; SPRINGS],
-            converged: false,
-        };
-        for i in (0..SPRINGS).rev() {
-            if i <= last
-                && let Some(direction) = limits(i)
-            {
-                slip.slips[i] = true;
-                slip.e[i] = direction;
-                slip.first = i;
-            }
-        }
-        slip
+    pub const NONE: Slip = Slip {
+        first: SPRINGS,
+        slips: [false; SPRINGS],
+        e: [[0.0; 2]; SPRINGS],
+        sigma: [[0.0; SPRINGS]; 2],
+        inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
+        factors: [[0.0; SPRINGS]; SPRINGS],
+        converged: false,
+    };
+
+    /// Begins with slip at a point, the traction in a direction.
+    #[inline(always)]
+    pub fn begin(&mut self, i: usize, direction: Both<f64>) {
+        self.slips[i] = true;
+        self.e[i] = direction;
+        self.first = self.first.min(i);
     }
 
     fn sigma_at(&self, i: usize) -> Both<f64> {
         [self.sigma[0][i], self.sigma[1][i]]
     }
 
-    /// Solves the problem. The springs at the end are `z* - B'σ`; z and the tractions at all points are returned.
+    /// Solves the problem: springs and tractions at the end.
     #[inline(always)]
-    pub fn solve(&mut self, problem: &Problem, factored: bool) -> (Both<Row>, Both<Row>) {
+    pub fn solve(&mut self, problem: &Problem, factored: bool, end: [&mut Both<Row>; 2]) {
         let Problem { map, pressure, .. } = *problem;
         let last = map.last.min(SPRINGS - 1);
         for round in 0..ROUNDS {
@@ -161,11 +158,11 @@ impl Slip {
             }
             if !changed || round + 1 == ROUNDS {
                 self.converged &= !changed;
-                return (z, q);
+                (*end[0], *end[1]) = (z, q);
+                return;
             }
             self.first = (0..SPRINGS).find(|i| self.slips[*i]).unwrap_or(last);
         }
-        (*problem.trial, [[0.0; SPRINGS]; 2])
     }
 
     /// Springs and tractions after the slip.
@@ -176,17 +173,11 @@ impl Slip {
         for i in 0..SPRINGS {
             if self.slips[i] {
                 for k in 0..2 {
-                    axpy(&mut z[k], -self.sigma[k][i], &map.row(k, i));
+                    axpy_from(i, &mut z[k], -self.sigma[k][i], &map.row(k, i));
                 }
             }
         }
-        let mut q = [[0.0; SPRINGS]; 2];
-        for i in 0..SPRINGS {
-            if i <= map.last {
-                [q[0][i], q[1][i]] = map.traction(&z, i);
-            }
-        }
-        (z, q)
+        (z, map.tractions(&z, 0))
     }
 
     /// S and `S B z*` of the slipping points: with U the inverse of the block of B from the first one on, `S = U'U` without the points
@@ -206,7 +197,7 @@ impl Slip {
                 let mut sum = [0.0; SPRINGS];
                 for j in i + 1..SPRINGS {
                     if j <= last {
-                        axpy(&mut sum, -row[j], &inverse[j]);
+                        axpy_from(first, &mut sum, -row[j], &inverse[j]);
                     }
                 }
                 sum[i] += 1.0;
@@ -221,10 +212,10 @@ impl Slip {
                     continue;
                 }
                 let row = inverse[m];
-                axpy(&mut constant[k], trial[k][m], &row);
+                axpy_from(first, &mut constant[k], trial[k][m], &row);
                 for i in m..SPRINGS {
                     if i <= last {
-                        axpy(&mut square[i], row[i], &row);
+                        axpy_from(first, &mut square[i], row[i], &row);
                     }
                 }
             }
@@ -238,7 +229,7 @@ impl Slip {
                 for i in 0..SPRINGS {
                     if i >= first && i <= last {
                         let factor = row[i] * reciprocal;
-                        axpy(&mut square[i], -factor, &row);
+                        axpy_from(first, &mut square[i], -factor, &row);
                         constant[k][i] -= factor * constant_there;
                     }
                 }
@@ -255,6 +246,7 @@ impl Slip {
         let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
         self.converged = false;
         self.sigma = [[0.0; SPRINGS]; 2];
+        let mut last_turn = f64::MAX;
         for _ in 0..STEPS {
             // p e, and its derivative by the angle.
             let (mut q, mut by_angle) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
@@ -264,6 +256,7 @@ impl Slip {
                     (by_angle[0][i], by_angle[1][i]) = (-q[1][i], q[0][i]);
                 }
             }
+            let finishes = last_turn <= SMALL_TURN;
             let mut residual = [0.0; SPRINGS];
             let mut largest: f64 = 0.0;
             for i in 0..SPRINGS {
@@ -276,8 +269,14 @@ impl Slip {
                     continue;
                 }
                 let rows = [&self.inverse[0][i], &self.inverse[1][i]];
-                let sigma = [constant[0][i] - dot(rows[0], &q[0]), constant[1][i] - dot(rows[1], &q[1])];
+                let sigma = [
+                    constant[0][i] - dot_from(first, rows[0], &q[0]),
+                    constant[1][i] - dot_from(first, rows[1], &q[1]),
+                ];
                 (self.sigma[0][i], self.sigma[1][i]) = (sigma[0], sigma[1]);
+                if finishes && !factored {
+                    continue;
+                }
                 let direction = Direction::new(&self.e[i], &[start[0][i], start[1][i]], overshoot[i]);
                 let n = direction.vector;
                 residual[i] = -cross(&sigma, &n);
@@ -289,7 +288,7 @@ impl Slip {
                 }
                 row[i] += cross(&sigma, &direction.by_angle);
             }
-            self.converged = largest <= CONVERGED * CONVERGED;
+            self.converged = finishes || largest <= CONVERGED * CONVERGED;
             if self.converged && !factored {
                 return;
             }
@@ -299,6 +298,7 @@ impl Slip {
             }
             solve(&self.factors, first, last, &mut residual);
             let largest = residual.iter().fold(0.0f64, |largest, turn| largest.max(turn.abs()));
+            last_turn = largest;
             let damping = if largest > LARGEST_TURN { LARGEST_TURN / largest } else { 1.0 };
             for i in 0..SPRINGS {
                 if self.slips[i] {
@@ -330,7 +330,7 @@ fn factorise(matrix: &mut Matrix, first: usize, last: usize) {
             if i <= last {
                 let factor = matrix[i][p] * reciprocal;
                 if factor != 0.0 {
-                    axpy(&mut matrix[i], -factor, &row);
+                    axpy_from(p, &mut matrix[i], -factor, &row);
                     matrix[i][p] = factor;
                 }
             }
@@ -344,10 +344,8 @@ fn solve(factors: &Matrix, first: usize, last: usize, right: &mut Row) {
     for i in 0..SPRINGS {
         if i >= first && i <= last {
             let mut sum = right[i];
-            for j in 0..i {
-                if j >= first {
-                    sum -= factors[i][j] * right[j];
-                }
+            for j in first..i {
+                sum -= factors[i][j] * right[j];
             }
             right[i] = sum;
         }
@@ -367,7 +365,7 @@ fn solve(factors: &Matrix, first: usize, last: usize, right: &mut Row) {
 
 /// Solves with the factors for rows of n columns.
 #[inline(always)]
-pub(super) fn solve_columns(factors: &Matrix, first: usize, last: usize, rows: &mut [f64], n: usize) {
+pub(crate) fn solve_columns(factors: &Matrix, first: usize, last: usize, rows: &mut [f64], n: usize) {
     let add = |rows: &mut [f64], to: usize, a: f64, from: usize| {
         let (low, high) = rows.split_at_mut((to.max(from) * n).min(rows.len()));
         let (one, two) = if to > from {

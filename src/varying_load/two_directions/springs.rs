@@ -23,11 +23,11 @@ const GRADED: usize = 16;
 /// Sizes beyond that of the parameters, of which each node is the start of a shell.
 const BEYOND: [f64; 5] = [1.0, 1.1, 1.3, 1.7, 2.5];
 /// Springs of the law.
-pub(super) const SPRINGS: usize = UNDER_FLAT + GRADED + BEYOND.len();
+pub(crate) const SPRINGS: usize = UNDER_FLAT + GRADED + BEYOND.len();
 /// Springs of the fine bank for each of the law.
-pub(super) const REFINEMENT: usize = 3;
-/// Springs of the fine bank.
-pub(super) const FINE: usize = REFINEMENT * (GRADED + BEYOND.len());
+pub(crate) const REFINEMENT: usize = 3;
+/// Springs of the fine bank, in whole vectors.
+pub(crate) const FINE: usize = (REFINEMENT * (GRADED + BEYOND.len())).next_multiple_of(4);
 /// Share of the sine in the distribution of nodes: they are densest at the edge.
 const GRADING: f64 = 0.8;
 /// Position of x_i in its shell.
@@ -38,7 +38,7 @@ const NEVER: f64 = f64::MAX;
 /// Values of both directions, one after the other.
 pub(crate) type Both<T> = [T; 2];
 /// One value per spring.
-pub(super) type Row = [f64; SPRINGS];
+pub(crate) type Row = [f64; SPRINGS];
 
 /// The springs of a shape.
 #[repr(C)]
@@ -121,7 +121,7 @@ impl Springs {
         // Nodes of the law, and the ends of their shells.
         let inner = if flat > 0.0 { UNDER_FLAT } else { 0 };
         self.under_flat = inner;
-        self.used = inner + FINE / REFINEMENT;
+        self.used = inner + GRADED + BEYOND.len();
         let flat = flat / w;
         let half_width = |size: f64| (flat * flat + size * size).sqrt();
         for k in 0..2 {
@@ -245,7 +245,7 @@ impl Springs {
 
 /// Σ a_j b_j.
 #[inline(always)]
-pub(super) fn dot(one: &Row, two: &Row) -> f64 {
+pub(crate) fn dot(one: &Row, two: &Row) -> f64 {
     let mut sums = [0.0; 4];
     for (one, two) in one.as_chunks::<4>().0.iter().zip(two.as_chunks::<4>().0) {
         for lane in 0..4 {
@@ -255,17 +255,33 @@ pub(super) fn dot(one: &Row, two: &Row) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// y += a x.
+/// Σ a_j b_j, both 0 before `first`.
 #[inline(always)]
-pub(super) fn axpy(y: &mut Row, a: f64, x: &Row) {
-    for j in 0..SPRINGS {
-        y[j] += a * x[j];
+pub(crate) fn dot_from(first: usize, one: &Row, two: &Row) -> f64 {
+    let mut sums = [0.0; 4];
+    let blocks = one.as_chunks::<4>().0.iter().zip(two.as_chunks::<4>().0);
+    for (one, two) in blocks.skip(first / 4) {
+        for lane in 0..4 {
+            sums[lane] += one[lane] * two[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// y += a x, with x 0 before `first`.
+#[inline(always)]
+pub(crate) fn axpy_from(first: usize, y: &mut Row, a: f64, x: &Row) {
+    let blocks = y.as_chunks_mut::<4>().0.iter_mut().zip(x.as_chunks::<4>().0);
+    for (y, x) in blocks.skip(first / 4) {
+        for lane in 0..4 {
+            y[lane] += a * x[lane];
+        }
     }
 }
 
 /// `sqrt(upper - point) - sqrt(lower - point)`, the second one 0 if negative, free of cancellation.
 #[inline(always)]
-pub(super) fn root_difference(upper: f64, lower: f64, point: f64) -> f64 {
+pub(crate) fn root_difference(upper: f64, lower: f64, point: f64) -> f64 {
     let (high, low) = ((upper - point).max(0.0), (lower - point).max(0.0));
     let difference = if low > 0.0 { upper - lower } else { high };
     difference / (high.sqrt() + low.sqrt()).max(TINY)

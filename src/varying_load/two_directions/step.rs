@@ -11,7 +11,7 @@ use crate::shape::TINY;
 
 /// Displacements of the springs, tractions over the pressure at the points, and the fine bank; reach and pressure of the edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Memory {
+pub(crate) struct Memory {
     pub springs: Both<Row>,
     pub tractions: Both<Row>,
     pub reach: Row,
@@ -30,7 +30,7 @@ impl Memory {
 }
 
 /// A step, straight in S and in the displacement.
-pub(super) struct Motion {
+pub(crate) struct Motion {
     pub before: Pressed,
     pub now: Pressed,
     pub by: Both<f64>,
@@ -39,7 +39,7 @@ pub(super) struct Motion {
 }
 
 /// What a step leads through.
-pub(super) struct Course {
+pub(crate) struct Course {
     pub edge: Edge,
     pub fine: FineEdge,
     /// The slip, if there is any.
@@ -52,23 +52,34 @@ impl Course {
     pub const NONE: Course = Course { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] };
 }
 
-/// A step with slip: its end in units of the roots, and the start of its tractions.
-pub(super) struct Slipped {
+/// A step with slip: the springs at its end in units of the roots, tractions there and over the pressure at the start.
+pub(crate) struct Slipped {
     pub slip: Slip,
     pub end: Both<Row>,
+    pub tractions: Both<Row>,
     pub start: Both<Row>,
     pub overshoot: Row,
 }
 
+impl Slipped {
+    const NONE: Slipped = Slipped {
+        slip: Slip::NONE,
+        end: [[0.0; SPRINGS]; 2],
+        tractions: [[0.0; SPRINGS]; 2],
+        start: [[0.0; SPRINGS]; 2],
+        overshoot: [0.0; SPRINGS],
+    };
+}
+
 /// Force and dissipated energy.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Outcome {
+pub(crate) struct Outcome {
     pub force: Both<f64>,
     pub dissipated: f64,
 }
 
 #[inline(always)]
-pub(super) fn step(
+pub(crate) fn step(
     springs: &Springs,
     memory: &mut Memory,
     motion: &Motion,
@@ -107,11 +118,7 @@ pub(super) fn step(
     } else {
         let map = Map::new(springs, &edge);
         let z = scaled(&trial, &map.root);
-        for i in 0..SPRINGS {
-            if i <= last {
-                [tractions[0][i], tractions[1][i]] = map.traction(&z, i);
-            }
-        }
+        tractions = map.tractions(&z, 0);
         Some(map)
     };
     for i in 0..SPRINGS {
@@ -119,26 +126,23 @@ pub(super) fn step(
         sticks &= x * x + y * y <= p * p || i > last;
     }
     let mut dissipated = 0.0;
-    let mut slip = None;
     let mut end = trial;
+    course.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = slide(memory, &edge, &map, &trial, &limits, &tractions, record);
+        let slipped = course.slip.insert(Slipped::NONE);
+        slide(memory, &edge, &map, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {
+            let mut per_root = springs.per_root[k];
+            per_root[last] = 1.0 / edge.root[k];
             for j in 0..SPRINGS {
-                let per_root = if j == last { 1.0 / edge.root[k] } else { springs.per_root[k][j] };
-                end[k][j] = slipped.end[k][j] * per_root;
+                end[k][j] = slipped.end[k][j] * per_root[j];
             }
         }
         if energy && *constant_load {
-            dissipated = pointwise(&slipped, &map, &edge);
+            dissipated = pointwise(slipped, &map, &edge);
         }
-        for i in 0..SPRINGS {
-            if i <= last {
-                [tractions[0][i], tractions[1][i]] = map.traction(&slipped.end, i);
-            }
-        }
-        slip = Some(slipped);
+        tractions = slipped.tractions;
     }
     let mut sum = [0.0; 2];
     for k in 0..2 {
@@ -168,10 +172,11 @@ pub(super) fn step(
     sum = [sum[0] + addition[0], sum[1] + addition[1]];
     let over = (product(&sum, &sum).sqrt() / now.load).max(1.0);
     let force = [sum[0] / over, sum[1] / over];
-    *course = Course { edge, fine, slip, sum };
+    (course.edge, course.fine, course.sum) = (edge, fine, sum);
     Outcome { force, dissipated: (dissipated + loss).max(0.0) }
 }
 
+#[inline(always)]
 fn scaled(springs: &Both<Row>, root: &Both<Row>) -> Both<Row> {
     let mut scaled = *springs;
     for k in 0..2 {
@@ -182,44 +187,40 @@ fn scaled(springs: &Both<Row>, root: &Both<Row>) -> Both<Row> {
     scaled
 }
 
-/// The slip from a trial state that exceeds Coulomb's bound.
-#[inline(never)]
+/// The slip from a trial state that exceeds Coulomb's bound: displacements, distances to the present size, tractions.
+#[inline(always)]
 fn slide(
     memory: &Memory,
     edge: &Edge,
     map: &Map,
-    trial: &Both<Row>,
-    limits: &Both<Row>,
-    tractions: &Both<Row>,
+    [trial, limits, tractions]: [&Both<Row>; 3],
     record: bool,
-) -> Slipped {
+    slipped: &mut Slipped,
+) {
     let last = edge.last;
-    let mut overshoot = [0.0; SPRINGS];
-    let mut directions = [[0.0; 2]; SPRINGS];
+    let Slipped { slip, end, tractions: end_tractions, start, overshoot } = slipped;
+    *start = memory.tractions;
     for i in 0..SPRINGS {
-        if i <= last {
-            let (x, y) = (trial[0][i] / limits[0][i].max(TINY), trial[1][i] / limits[1][i].max(TINY));
-            let over = (x * x + y * y).sqrt();
-            overshoot[i] = (over - 1.0).max(0.0);
-            directions[i] = [x / over.max(TINY), y / over.max(TINY)];
+        if i > last {
+            break;
+        }
+        let (x, y) = (trial[0][i] / limits[0][i].max(TINY), trial[1][i] / limits[1][i].max(TINY));
+        let over = (x * x + y * y).sqrt();
+        overshoot[i] = (over - 1.0).max(0.0);
+        if over > 1.0 {
+            let per_over = 1.0 / over;
+            slip.begin(i, [x * per_over, y * per_over]);
+            continue;
+        }
+        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
+        if x * x + y * y > p * p {
+            let per_length = 1.0 / (x * x + y * y).sqrt();
+            slip.begin(i, [x * per_length, y * per_length]);
         }
     }
-    let exceeds = |i: usize| {
-        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        let length = (x * x + y * y).sqrt();
-        if overshoot[i] > 0.0 {
-            Some(directions[i])
-        } else if length > p {
-            Some([x / length, y / length])
-        } else {
-            None
-        }
-    };
-    let mut slip = Slip::new(exceeds, last);
     let trial = scaled(trial, &map.root);
-    let problem =
-        Problem { map, trial: &trial, pressure: &edge.pressure, start: &memory.tractions, overshoot: &overshoot };
-    let (mut end, _) = slip.solve(&problem, record);
+    let problem = Problem { map, trial: &trial, pressure: &edge.pressure, start, overshoot };
+    slip.solve(&problem, record, [end, end_tractions]);
     if !slip.converged {
         // Each spring returns to its own limit.
         for k in 0..2 {
@@ -227,11 +228,12 @@ fn slide(
                 end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
             }
         }
+        *end_tractions = map.tractions(end, 0);
     }
-    Slipped { slip, end, start: memory.tractions, overshoot }
 }
 
 /// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at the end.
+#[inline(always)]
 fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
     let Slipped { slip, start, .. } = slipped;
     let mut energy = 0.0;
@@ -242,11 +244,11 @@ fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
         let sigma = [slip.sigma[0][i], slip.sigma[1][i]];
         let p = edge.pressure[i];
         let (end, r) = ([p * slip.e[i][0], p * slip.e[i][1]], [p * start[0][i], p * start[1][i]]);
-        let compliance: Both<f64> = core::array::from_fn(|k| {
+        let mut path = [0.0; 2];
+        for k in 0..2 {
             let row = map.row(k, i);
-            dot(&row, &row)
-        });
-        let path: Both<f64> = core::array::from_fn(|k| end[k] + compliance[k] * sigma[k] - r[k]);
+            path[k] = end[k] + dot(&row, &row) * sigma[k] - r[k];
+        }
         let (square, along) = (product(&path, &path), product(&r, &path));
         let inside = (p * p - product(&r, &r)).max(0.0);
         let root = (along * along + square * inside).sqrt();
@@ -259,7 +261,7 @@ fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
 }
 
 /// Energy dissipated if the contact opens.
-pub(super) fn separated(springs: &Springs, memory: &Memory, motion: &Motion) -> f64 {
+pub(crate) fn separated(springs: &Springs, memory: &Memory, motion: &Motion) -> f64 {
     separated_from(springs, &memory.springs, motion, None)
 }
 
