@@ -167,7 +167,11 @@ fn with_table(page: &str, name: &str, table: &str) -> Result<String, String> {
 }
 
 /// The page with new tables.
-fn with_tables(page: &str, comparisons: &[Comparison], directions: &two_directions::Comparison) -> Result<String, String> {
+fn with_tables(
+    page: &str,
+    comparisons: &[Comparison],
+    directions: &two_directions::Comparison,
+) -> Result<String, String> {
     let mut table = String::from(
         "| contact | path | rows | displacement | without the change of the load | dissipation |\n|---|---|---:|---:|---:|---:|\n",
     );

@@ -54,11 +54,8 @@ fn paths() -> Vec<Path> {
         let name = cells[6];
         let value = |column: usize| -> f64 { cells[column].parse().expect("a number") };
         let flat_half_width = value(0);
-        let row = Row {
-            displacement: [value(9), value(10), value(8)],
-            force: [value(11), value(12)],
-            dissipated: value(13),
-        };
+        let row =
+            Row { displacement: [value(9), value(10), value(8)], force: [value(11), value(12)], dissipated: value(13) };
         match paths.last_mut() {
             Some(path) if path.name == name && path.flat_half_width == flat_half_width => path.rows.push(row),
             _ => {
