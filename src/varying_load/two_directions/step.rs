@@ -131,7 +131,7 @@ pub(crate) fn step(
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
         let slipped = course.slip.insert(Slipped::NONE);
-        slide(memory, &edge, &map, [&trial, &limits, &tractions], record, slipped);
+        slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {
             let mut per_root = springs.per_root[k];
             per_root[last] = 1.0 / edge.root[k];
@@ -193,6 +193,7 @@ fn slide(
     memory: &Memory,
     edge: &Edge,
     map: &Map,
+    by: &Both<f64>,
     [trial, limits, tractions]: [&Both<Row>; 3],
     record: bool,
     slipped: &mut Slipped,
@@ -200,9 +201,9 @@ fn slide(
     let last = edge.last;
     let Slipped { slip, end, tractions: end_tractions, start, overshoot } = slipped;
     *start = memory.tractions;
-    for i in 0..SPRINGS {
+    for i in (0..SPRINGS).rev() {
         if i > last {
-            break;
+            continue;
         }
         let (x, y) = (trial[0][i] / limits[0][i].max(TINY), trial[1][i] / limits[1][i].max(TINY));
         let over = (x * x + y * y).sqrt();
@@ -212,8 +213,11 @@ fn slide(
             slip.begin(i, [x * per_over, y * per_over]);
             continue;
         }
+        // A point that slipped before continues if the next one outside does, unless the motion turns back.
         let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        if x * x + y * y > p * p {
+        let r = [start[0][i], start[1][i]];
+        let slipped = product(&r, &r) > 1.0 - 1e-9 && product(&r, by) > 0.0 && slip.first == i + 1;
+        if slipped || x * x + y * y > p * p {
             let per_length = 1.0 / (x * x + y * y).sqrt();
             slip.begin(i, [x * per_length, y * per_length]);
         }
