@@ -635,9 +635,9 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *dissipated);
 
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
-// force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions is
-// the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the
-// normal approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
+// force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
+// is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
+// normal_input is MSLIP_APPROACH, w is the normal approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
