@@ -359,9 +359,9 @@ impl Passage {
         // The part of the path in contact, as in one direction.
         let (start, end) = (from.input, input);
         let (part, part_slopes) = match (was_closed, closed) {
-            (true, false) if element.by_approach() => (start / (start - end.min(0.0)), [0.0; 2]),
+            (true, false) if element.by_approach() => (start / (start - end.min(0.0)).max(f64::MIN_POSITIVE), [0.0; 2]),
             (false, true) if element.by_approach() => {
-                let (start, per) = (start.min(0.0), 1.0 / (end - start.min(0.0)));
+                let (start, per) = (start.min(0.0), 1.0 / (end - start.min(0.0)).max(f64::MIN_POSITIVE));
                 (end * per, [end * per * per, -start * per * per])
             }
             _ => (1.0, [0.0; 2]),

@@ -113,7 +113,7 @@ pub(crate) struct Map<'a> {
 impl Map<'_> {
     #[inline(always)]
     pub fn new<'a>(springs: &'a Springs, edge: &Edge) -> Map<'a> {
-        let last = edge.last;
+        let last = edge.last.min(SPRINGS - 1);
         let mut map = Map { springs, last, root: springs.root, column: [[0.0; SPRINGS]; 2], inside: [0.0; SPRINGS] };
         for j in 0..SPRINGS {
             map.inside[j] = if j < last { 1.0 } else { 0.0 };
@@ -121,7 +121,7 @@ impl Map<'_> {
         for k in 0..2 {
             let mut inner = [0.0; SPRINGS];
             for j in 0..SPRINGS {
-                map.root[k][j] = if j < last { springs.root[k][j] } else { 0.0 };
+                map.root[k][j] = springs.root[k][j] * map.inside[j];
                 inner[j] = map.root[k][j];
             }
             map.root[k][last] = edge.root[k];
@@ -147,7 +147,7 @@ impl Map<'_> {
                 row[j] = fixed[j] * self.inside[j];
             }
         }
-        row[self.last] = self.column[k][i];
+        row[self.last.min(SPRINGS - 1)] = self.column[k][i];
         row
     }
 
@@ -166,13 +166,14 @@ impl Map<'_> {
             for j in 0..SPRINGS {
                 inner[j] *= self.inside[j];
             }
-            let outer = z[k][self.last];
+            let last = self.last.min(SPRINGS - 1);
+            let outer = z[k][last];
             for i in first..SPRINGS {
                 if i < self.last {
                     tractions[k][i] = dot(&self.springs.traction[i][k], &inner) + self.column[k][i] * outer;
                 }
             }
-            tractions[k][self.last] = self.column[k][self.last] * outer;
+            tractions[k][last] = self.column[k][last] * outer;
         }
         tractions
     }

@@ -321,7 +321,7 @@ pub(crate) fn step(
     }
     fine(taken, &share, columns, memory, [&mut *force_x, &mut *force_y]);
     // Coulomb's bound.
-    let size = product(&course.sum, &course.sum).sqrt();
+    let size = product(&course.sum, &course.sum).sqrt().max(TINY);
     if size > motion.now.load {
         let (ratio, e) = (motion.now.load / size, [course.sum[0] / size, course.sum[1] / size]);
         for ((x, y), load) in force_x.iter_mut().zip(force_y.iter_mut()).zip(columns.load) {
@@ -370,8 +370,8 @@ fn fine(
         let over2 = product(&ratios, &ratios);
         if over2 > 1.0 {
             // v = v*/over.
-            let per_over = 1.0 / over2.sqrt();
-            let weights: Both<f64> = core::array::from_fn(|k| ratios[k] / (over2 * limit[k].max(TINY)));
+            let per_over = 1.0 / over2.max(TINY).sqrt();
+            let weights: Both<f64> = core::array::from_fn(|k| ratios[k] / over2.max(TINY) / limit[k].max(TINY));
             let turns: Both<f64> = core::array::from_fn(|k| weights[k] * ratios[k]);
             for (column, (x, y)) in x.iter_mut().zip(y.iter_mut()).enumerate() {
                 let at = |k: usize| columns.shift[k].get(column).copied().unwrap_or(0.0);

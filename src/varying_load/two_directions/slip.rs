@@ -151,7 +151,7 @@ impl Slip {
                 } else {
                     let length2 = q[0][i] * q[0][i] + q[1][i] * q[1][i];
                     if length2 > pressure[i] * pressure[i] * (1.0 + 1e-10) {
-                        let length = length2.sqrt();
+                        let length = length2.max(TINY).sqrt();
                         self.slips[i] = true;
                         self.e[i] = [q[0][i] / length, q[1][i] / length];
                         changed = true;

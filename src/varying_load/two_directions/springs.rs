@@ -165,6 +165,7 @@ impl Springs {
             self.size[j] = lower * lower;
             self.point[j] = lower * lower + POINT * step * (2.0 * from + POINT * step);
             self.weight[j] = shape.pressure_weight(w * 0.5 * (lower + upper));
+            let fine = fine.min(FINE - 1);
             self.load[j] = self.fine_load[fine];
             for k in 0..2 {
                 self.shift[k][j] = self.fine_shift[k][fine];
@@ -200,7 +201,7 @@ impl Springs {
                 self.fine_stiffness[k][j] = fine - before[0];
                 before[0] = fine;
                 if j % REFINEMENT == 0 {
-                    let coarse = self.secant[k][self.under_flat + j / REFINEMENT];
+                    let coarse = self.secant[k].get(self.under_flat + j / REFINEMENT).copied().unwrap_or(0.0);
                     self.fine_stiffness[k][j] -= coarse - before[1];
                     before[1] = coarse;
                 }
@@ -223,7 +224,7 @@ impl Springs {
                 pressure[j] = self.weight[j] * root_difference(self.size[j + 1], self.size[j], point);
             }
             // The unit: the pressure under the normal force of the parameters.
-            let unit: f64 = if i < graded { pressure[..graded].iter().sum() } else { pressure[i] };
+            let unit: f64 = if i < graded { pressure.iter().take(graded).sum() } else { pressure[i] };
             if unit <= 0.0 {
                 continue;
             }

@@ -91,7 +91,7 @@ pub(crate) fn step(
 ) -> Outcome {
     let Motion { before, now, by, constant_load } = motion;
     let edge = Edge::new(springs, now, constant_load.then_some((&memory.reach, &memory.pressure)));
-    let last = edge.last;
+    let last = edge.last.min(SPRINGS - 1);
     let share = Share::new(before, now);
     let old = memory.springs;
     let (mut trial, mut limits) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
@@ -165,7 +165,7 @@ pub(crate) fn step(
     }
     for i in 0..SPRINGS {
         let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i].max(TINY));
-        let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).sqrt() } else { 0.0 };
+        let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).max(TINY).sqrt() } else { 0.0 };
         (memory.tractions[0][i], memory.tractions[1][i]) = (x * scale, y * scale);
     }
     memory.springs = end;
@@ -212,7 +212,7 @@ fn slide(
         let over = (x * x + y * y).sqrt();
         overshoot[i] = (over - 1.0).max(0.0);
         if over > 1.0 {
-            let per_over = 1.0 / over;
+            let per_over = 1.0 / over.max(TINY);
             slip.begin(i, [x * per_over, y * per_over]);
             continue;
         }
@@ -221,7 +221,7 @@ fn slide(
         let r = [start[0][i], start[1][i]];
         let slipped = product(&r, &r) > 1.0 - 1e-9 && product(&r, by) > 0.0 && slip.first == i + 1;
         if slipped || x * x + y * y > p * p {
-            let per_length = 1.0 / (x * x + y * y).sqrt();
+            let per_length = 1.0 / (x * x + y * y).max(TINY).sqrt();
             slip.begin(i, [x * per_length, y * per_length]);
         }
     }
