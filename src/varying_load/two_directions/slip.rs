@@ -15,7 +15,7 @@
 //! For slipping points `σ = S (B z* - q)` with S the inverse of `B B'` on them, so the angles of e_i are the only unknowns.
 
 use super::edge::Map;
-use super::springs::{Both, Row, SPRINGS, axpy_from, dot_from};
+use super::springs::{Both, Row, SPRINGS, Span};
 use crate::shape::TINY;
 
 pub(crate) type Matrix = [Row; SPRINGS];
@@ -175,7 +175,7 @@ impl Slip {
         for i in 0..SPRINGS {
             if self.slips[i] {
                 for k in 0..2 {
-                    axpy_from(i, &mut z[k], -self.sigma[k][i], &map.row(k, i));
+                    Span::new(i, map.last).add(&mut z[k], -self.sigma[k][i], &map.row(k, i));
                 }
             }
         }
@@ -188,6 +188,7 @@ impl Slip {
     fn invert(&mut self, problem: &Problem) -> Both<Row> {
         let Problem { map, trial, .. } = *problem;
         let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
+        let span = Span::new(first, last);
         let mut constant = [[0.0; SPRINGS]; 2];
         for k in 0..2 {
             let inverse = &mut self.factors;
@@ -199,7 +200,7 @@ impl Slip {
                 let mut sum = [0.0; SPRINGS];
                 for j in i + 1..SPRINGS {
                     if j <= last {
-                        axpy_from(first, &mut sum, -row[j], &inverse[j]);
+                        span.add(&mut sum, -row[j], &inverse[j]);
                     }
                 }
                 sum[i] += 1.0;
@@ -214,10 +215,10 @@ impl Slip {
                     continue;
                 }
                 let row = inverse[m];
-                axpy_from(first, &mut constant[k], trial[k][m], &row);
+                span.add(&mut constant[k], trial[k][m], &row);
                 for i in m..SPRINGS {
                     if i <= last {
-                        axpy_from(first, &mut square[i], row[i], &row);
+                        span.add(&mut square[i], row[i], &row);
                     }
                 }
             }
@@ -231,7 +232,7 @@ impl Slip {
                 for i in 0..SPRINGS {
                     if i >= first && i <= last {
                         let factor = row[i] * reciprocal;
-                        axpy_from(first, &mut square[i], -factor, &row);
+                        span.add(&mut square[i], -factor, &row);
                         constant[k][i] -= factor * constant_there;
                     }
                 }
@@ -246,6 +247,7 @@ impl Slip {
         let Problem { map, pressure, start, overshoot, .. } = *problem;
         let constant = self.invert(problem);
         let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
+        let span = Span::new(first, last);
         self.converged = false;
         self.sigma = [[0.0; SPRINGS]; 2];
         let mut last_turn = f64::MAX;
@@ -272,7 +274,7 @@ impl Slip {
                 }
                 let rows = [&self.inverse[0][i], &self.inverse[1][i]];
                 let free = [constant[0][i], constant[1][i]];
-                let held = [dot_from(first, rows[0], &q[0]), dot_from(first, rows[1], &q[1])];
+                let held = [span.dot(rows[0], &q[0]), span.dot(rows[1], &q[1])];
                 let sigma = [free[0] - held[0], free[1] - held[1]];
                 (self.sigma[0][i], self.sigma[1][i]) = (sigma[0], sigma[1]);
                 if finishes && !factored {
@@ -333,7 +335,7 @@ fn factorise(matrix: &mut Matrix, first: usize, last: usize) {
             if i <= last {
                 let factor = matrix[i][p] * reciprocal;
                 if factor != 0.0 {
-                    axpy_from(p, &mut matrix[i], -factor, &row);
+                    Span::new(p, last).add(&mut matrix[i], -factor, &row);
                     matrix[i][p] = factor;
                 }
             }

@@ -259,26 +259,42 @@ pub(crate) fn dot(one: &Row, two: &Row) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Σ a_j b_j, both 0 before `first`.
-#[inline(always)]
-pub(crate) fn dot_from(first: usize, one: &Row, two: &Row) -> f64 {
-    let mut sums = [0.0; 4];
-    let blocks = one.as_chunks::<4>().0.iter().zip(two.as_chunks::<4>().0);
-    for (one, two) in blocks.skip(first / 4) {
-        for lane in 0..4 {
-            sums[lane] += one[lane] * two[lane];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+/// The vectors of a row that hold the springs from `first` to `last`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Span {
+    from: usize,
+    to: usize,
 }
 
-/// y += a x, with x 0 before `first`.
-#[inline(always)]
-pub(crate) fn axpy_from(first: usize, y: &mut Row, a: f64, x: &Row) {
-    let blocks = y.as_chunks_mut::<4>().0.iter_mut().zip(x.as_chunks::<4>().0);
-    for (y, x) in blocks.skip(first / 4) {
-        for lane in 0..4 {
-            y[lane] += a * x[lane];
+impl Span {
+    #[inline(always)]
+    pub fn new(first: usize, last: usize) -> Span {
+        Span { from: first / 4, to: last / 4 + 1 }
+    }
+
+    /// Σ a_j b_j.
+    #[inline(always)]
+    pub fn dot(self, one: &Row, two: &Row) -> f64 {
+        let mut sums = [0.0; 4];
+        let one = one.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
+        let two = two.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
+        for (one, two) in one.iter().zip(two) {
+            for lane in 0..4 {
+                sums[lane] += one[lane] * two[lane];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// y += a x.
+    #[inline(always)]
+    pub fn add(self, y: &mut Row, a: f64, x: &Row) {
+        let y = y.as_chunks_mut::<4>().0.get_mut(self.from..self.to).unwrap_or(&mut []);
+        let x = x.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
+        for (y, x) in y.iter_mut().zip(x) {
+            for lane in 0..4 {
+                y[lane] += a * x[lane];
+            }
         }
     }
 }
