@@ -32,6 +32,8 @@ pub(crate) const FINE: usize = (REFINEMENT * (GRADED + BEYOND.len())).next_multi
 const GRADING: f64 = 0.8;
 /// Position of x_i in its shell.
 const POINT: f64 = 0.2;
+/// The smallest flat over w that has springs: widths of smaller ones would round to equal values.
+const SMALLEST_FLAT: f64 = 1e-9;
 /// A shift that no contact reaches.
 const NEVER: f64 = f64::MAX;
 
@@ -123,7 +125,7 @@ impl Springs {
             }
         }
         // Nodes of the law, and the ends of their shells.
-        let inner = if flat > 0.0 { UNDER_FLAT } else { 0 };
+        let inner = if flat > SMALLEST_FLAT * w { UNDER_FLAT } else { 0 };
         self.under_flat = inner;
         self.used = inner + GRADED + BEYOND.len();
         let flat = flat / w;

@@ -164,7 +164,7 @@ pub(crate) fn step(
         dissipated = dissipated.max(0.0) + separated_from(springs, &old, motion, Some(last));
     }
     for i in 0..SPRINGS {
-        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i].max(TINY));
+        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
         let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).max(TINY).sqrt() } else { 0.0 };
         (memory.tractions[0][i], memory.tractions[1][i]) = (x * scale, y * scale);
     }
