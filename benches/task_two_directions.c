@@ -242,7 +242,8 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
     require(mslip_jenkins_equivalent(contact, motions[VARYING_LOAD].u * slip, &j.stiffness, &j.friction));
     j.friction /= contact->slip_force / element->friction_coefficient;
     for (j.springs = 1; j.springs <= SPRINGS; j.springs *= SPRINGS) {
-        job *bank = add("two directions harmonic", j.springs > 1 ? "64 spring-sliders" : "spring-slider", run_harmonic, &j, VARYING_LOAD);
+        const char *method = j.springs > 1 ? "64 spring-sliders" : "spring-slider";
+        job *bank = add("two directions harmonic", method, run_harmonic, &j, VARYING_LOAD);
         check_below("Jacobian of spring-sliders in the plane, by differences", jacobian_error(bank), 1e-6);
         j.stiffness = element->tangential_stiffness;
         j.friction = element->friction_coefficient;
