@@ -214,13 +214,6 @@ static double usual_size(const function *f, int output, const double *value, siz
     return usual;
 }
 
-/* Of two directions only forces: at the onset of slip rounding decides on which side a one-sided tangent is, and whether energy is
-   dissipated. */
-static int is_compared(const function *f, int output)
-{
-    return !(f->takes & IS_ELEMENT) || directions_for(f) == 1 || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE)) || output == 1;
-}
-
 /* Every result is compared with that of the default environment, except for subnormal amplitudes if these are flushed. */
 static void compare(int environment)
 {
@@ -237,7 +230,7 @@ static void compare(int environment)
                     const size_t n = f->out[k];
                     const double usual = usual_size(f, k, first - factor * all, all, n, factor);
                     const double scale = fmax(largest(value, n), usual), off = distance(value, other, n);
-                    if ((factor > 0 || environments[environment].flushing == 0) && is_compared(f, k) &&
+                    if ((factor > 0 || environments[environment].flushing == 0) &&
                         !CHECK(off <= tolerance(f, k, factor) * scale)) {
                         printf("    %s, %s: contact %d, factor %g, output %d: %.2g of %.2g\n", f->name,
                                environments[environment].name, kind, factors[factor], k, off, scale);

@@ -1462,7 +1462,7 @@ contains
     !! Initialise the element of a flat with rounded edges on a flat, or of a cylinder if the flat has no width.
     type(mslip_parameters), intent(in) :: parameters
       !! Geometry, materials and friction; `normal_force`, > 0, is the largest force for which the element is tabulated: larger
-      !! ones are exact, but slower.
+      !! ones are exact, but slower, and with two directions less accurate.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
       !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
@@ -1477,7 +1477,7 @@ contains
     !! Initialise the element of an elliptical Hertz contact, a sphere if both semi-axes are equal.
     type(mslip_elliptic_parameters), intent(in) :: parameters
       !! Geometry, materials and friction; `normal_force`, > 0, is the force of the semi-axes and the largest one for which the
-      !! element is tabulated: larger ones are exact, but slower.
+      !! element is tabulated: larger ones are exact, but slower, and with two directions less accurate.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
       !! What the normal component of a displacement is: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
@@ -1604,7 +1604,8 @@ contains
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! The state.
     real(mslip_real), intent(inout), target :: force_error
-      !! Bound on the error [N]; 0 if no pieces were merged since the last gross slip or separation.
+      !! Bound on the error [N]; 0 if no pieces were merged since the last gross slip or separation, and for two directions if v
+      !! has changed since the contact closed. The error of the law for two directions is not included.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
 
     status = c_element_state_error(directions, size(state, kind=mslip_size), state, address_of(force_error))
@@ -1824,7 +1825,7 @@ contains
       !! m(2H+1) coefficients: of the tangential forces, then of the normal force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
       !! (m(2H+1), m(2H+1)): derivatives of the force coefficients with respect to the displacement coefficients, exact for the
-      !! discretisation, one-sided at corners.
+      !! discretisation and a fixed start, one-sided at corners. If w is constant, any swing of it moves the start.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
 
     integer(mslip_size) :: m

@@ -1,9 +1,14 @@
-//! The law for two tangential directions: judged paths, invariants, tangents.
+//! The law for two tangential directions: judged paths, motion on a line, symmetries, energy, restart, tangents.
+
+#[path = "golden/table.rs"]
+mod table;
 
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
 use microslip::varying_load::element::{Directions, Element, NormalInput};
-
-use microslip::varying_load::two_directions::{Step, advance, state_check, state_init, state_length};
+use microslip::varying_load::state as one_direction;
+use microslip::varying_load::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use table::{Row, geometry, table};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
@@ -22,15 +27,28 @@ fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Ele
 }
 
 fn ellipse(ratio: f64) -> Element {
+    ellipse_of(1e-3, ratio * 1e-3, Directions::Two, NormalInput::Force)
+}
+
+fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input: NormalInput) -> Element {
     let parameters = EllipticParameters {
-        semi_axis_x: 1e-3,
-        semi_axis_y: ratio * 1e-3,
+        semi_axis_x,
+        semi_axis_y,
         normal_force: 1000.0,
         friction_coefficient: 0.4,
         material: [STEEL; 2],
     };
-    Element::elliptic(&parameters, Directions::Two, NormalInput::Force).unwrap()
+    Element::elliptic(&parameters, directions, input).unwrap()
 }
+
+/// Cylinder, flats with a/b of 0.5 and 0.9, sphere, ellipse.
+fn shapes(directions: Directions, input: NormalInput) -> Vec<Element> {
+    let flats = HALF_WIDTHS.map(|flat_half_width| flat(flat_half_width, input, directions));
+    let ellipses = [1.0, 3.0].map(|ratio| ellipse_of(1e-3, ratio * 1e-3, directions, input));
+    flats.into_iter().chain(ellipses).collect()
+}
+
+const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
 
 /// The shift of the contact under its normal force: motions are given in units of mu times it.
 fn unit(element: &Element) -> f64 {
@@ -126,4 +144,295 @@ fn tangents_are_derivatives() {
     errors.sort_by(f64::total_cmp);
     println!("median {:.1e}, {} of {} beyond 1e-4", errors[errors.len() / 2], beyond, errors.len());
     assert!(beyond == 0);
+}
+
+/// The normal component of a share of the normal force of the parameters.
+fn normal_input(element: &Element, share: f64) -> f64 {
+    let load = share * element.normal_force;
+    if element.normal_input == 1 || share <= 0.0 { load } else { element.approach_under(load).value }
+}
+
+/// mu N of the parameters.
+fn slip_force(element: &Element) -> f64 {
+    element.friction_coefficient * element.normal_force
+}
+
+/// Displacements in units of `unit` and shares of the load, some of them constant, some 0: scattered, and in small steps.
+fn history(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
+    let unit = unit(element);
+    let (mut path, mut share, mut at) = (Vec::new(), 1.0, [0.0; 2]);
+    for k in 0..steps {
+        let size = unit * if k / 20 % 2 == 0 { 2.5 } else { 0.2 };
+        at = if k % 40 < 20 { [0.0; 2] } else { at };
+        at = at.map(|at| at + size * (random.next() - 0.5));
+        if k % 3 != 0 {
+            share = (1.4 * random.next() - 0.1).max(0.0);
+        }
+        path.push([at[0], at[1], normal_input(element, share)]);
+    }
+    path
+}
+
+/// The largest difference of tangential forces \[N\].
+fn apart(one: &Step, two: &Step) -> f64 {
+    (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
+}
+
+#[test]
+fn judged_paths_are_reproduced() {
+    let rows = table("two_directions");
+    let same = |one: &Row, two: &Row| one.text("path") == two.text("path") && one["a"] == two["a"];
+    for path in rows.chunk_by(same) {
+        let first = &path[0];
+        let largest = path.iter().map(|row| row["N"]).fold(0.0, f64::max);
+        let parameters = Parameters {
+            normal_force: largest,
+            friction_coefficient: first["mu"],
+            material: [Material { young_modulus: first["E"], poisson_ratio: first["nu"] }; 2],
+            ..geometry(first)
+        };
+        let element = Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap();
+        let mut contact = Contact::new(&element);
+        contact.to([first["u"], first["v"], 0.0]);
+        let (mut worst, mut loss, mut expected) = (0.0f64, 0.0, 0.0);
+        for row in path {
+            let step = contact.to([row["u"], row["v"], row["N"]]);
+            worst = worst.max((step.force[0] - row["Tx"]).hypot(step.force[1] - row["Ty"]) / slip_force(&element));
+            (loss, expected) = (loss + step.dissipated, expected + row["dissipated"]);
+        }
+        println!(
+            "a {} {}: force {worst:.4}, loss {:+.1} %",
+            first["a"],
+            first.text("path"),
+            100.0 * (loss / expected - 1.0)
+        );
+        // The error of the law with its few points of slip, most of it in steps of 15 degrees at full sliding; that of the judge is 0.1 %.
+        assert!(worst <= 0.012 && (loss / expected - 1.0).abs() <= 0.06);
+    }
+}
+
+/// Error of the bank of fine springs over mu N: 48 of them up to the normal force of the parameters; beyond, up to 1.3 of it, with longer secants.
+const BANK_ERROR: [f64; 2] = [5e-4, 1e-3];
+
+/// Loads and displacements along x, with separation.
+fn on_line(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
+    let v = 0.3 * unit(element);
+    let closed = history(element, steps, random).into_iter().map(|[u, _, w]| [u, v, w]);
+    [[0.0, v, 0.0]].into_iter().chain(closed).collect()
+}
+
+#[test]
+fn motion_along_x_is_that_of_one_direction() {
+    let mut random = Random(2);
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        for (element, single) in shapes(Directions::Two, input).iter().zip(&shapes(Directions::One, input)) {
+            let (mut contact, mut disturbed) = (Contact::new(element), Contact::new(element));
+            let mut state = vec![0.0; state_length() - 2];
+            one_direction::state_init(&mut state).unwrap();
+            let mut worst = [0.0f64; 2];
+            for (k, [u, v, w]) in on_line(element, 300, &mut random).into_iter().enumerate() {
+                let (step, expected) =
+                    (contact.to([u, v, w]), one_direction::advance(single, &mut state, [u, w], true).unwrap());
+                let [x, xw, ww] = [step.tangent[0], step.tangent[6], step.tangent[8]];
+                assert_eq!(
+                    (step.force, step.dissipated),
+                    ([expected.force[0], 0.0, expected.force[1]], expected.dissipated)
+                );
+                assert_eq!([x, xw, ww], [expected.tangent[0], expected.tangent[2], expected.tangent[3]]);
+                let tilted = disturbed.to([u, v + [0.0, 1e-9][k % 2] * unit(element), w]);
+                let error = apart(&step, &tilted) / slip_force(element);
+                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
+                worst[place] = worst[place].max(error);
+            }
+            println!("disturbed line: {worst:.5?} mu N");
+            assert!((0..2).all(|place| worst[place] < BANK_ERROR[place]), "{worst:?}");
+        }
+    }
+}
+
+/// A line contact has another compliance along y, an ellipse that of its swapped axes along x.
+#[test]
+fn motion_along_y_is_that_along_x_of_the_swapped_ellipse() {
+    let mut random = Random(3);
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        for ratio in [0.2, 1.0, 3.0] {
+            let element = ellipse_of(1e-3, ratio * 1e-3, Directions::Two, input);
+            let swapped = ellipse_of(ratio * 1e-3, 1e-3, Directions::Two, input);
+            let (mut contact, mut other) = (Contact::new(&element), Contact::new(&swapped));
+            for [u, _, w] in history(&element, 300, &mut random) {
+                let (step, expected) = (contact.to([0.0, u, w]), other.to([u, 0.0, w]));
+                assert_eq!(step.force[0], 0.0);
+                let error = (step.force[1] - expected.force[0]).abs() / slip_force(&element);
+                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
+                assert!(error < BANK_ERROR[place], "{ratio}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sphere_has_no_preferred_direction() {
+    let mut random = Random(4);
+    let sphere = ellipse(1.0);
+    for angle in [1e-3, 0.7, FRAC_PI_2, 2.0, 4.0] {
+        let (sine, cosine) = f64::sin_cos(angle);
+        let turn = |[x, y, w]: [f64; 3]| [x * cosine - y * sine, x * sine + y * cosine, w];
+        let (mut contact, mut turned) = (Contact::new(&sphere), Contact::new(&sphere));
+        for to in history(&sphere, 400, &mut random) {
+            let (step, other) = (contact.to(to), turned.to(turn(to)));
+            let force = turn(step.force);
+            // Newton's method ends at an angle of 1e-11, and errors of the state add up.
+            let error = (force[0] - other.force[0]).hypot(force[1] - other.force[1]) / slip_force(&sphere);
+            assert!(error < 1e-10, "{angle}: {error:e}");
+            let energy = (step.dissipated - other.dissipated).abs() / (slip_force(&sphere) * unit(&sphere));
+            assert!(energy < 1e-10, "{angle}: {energy:e}");
+        }
+    }
+}
+
+/// A history of an element, displacements and normal components multiplied by factors.
+fn run(element: &Element, history: &[[f64; 3]], factors: [f64; 3]) -> Vec<Step> {
+    let mut contact = Contact::new(element);
+    history.iter().map(|to| contact.to([0, 1, 2].map(|i| to[i] * factors[i]))).collect()
+}
+
+#[test]
+fn mirror_images_and_other_units_give_the_same_bits() {
+    let mut random = Random(5);
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        for element in &shapes(Directions::Two, input) {
+            let history = history(element, 200, &mut random);
+            let steps = run(element, &history, [1.0; 3]);
+            for [x, y] in [[-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+                for (step, image) in steps.iter().zip(run(element, &history, [x, y, 1.0])) {
+                    assert_eq!(image.force, [x * step.force[0], y * step.force[1], step.force[2]]);
+                    assert_eq!(image.dissipated, step.dissipated);
+                    assert_eq!(
+                        [0, 1, 4].map(|i| image.tangent[i]),
+                        [step.tangent[0], x * y * step.tangent[1], step.tangent[4]]
+                    );
+                }
+            }
+        }
+    }
+    // Metres of 2^40, newtons of 2^-60; by force and by approach.
+    let (metre, newton) = (2f64.powi(40), 2f64.powi(-60));
+    let material = [Material { young_modulus: STEEL.young_modulus * newton / metre / metre, ..STEEL }; 2];
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        let parameters = EllipticParameters {
+            semi_axis_x: 1e-3 * metre,
+            semi_axis_y: 3e-3 * metre,
+            normal_force: 1000.0 * newton,
+            friction_coefficient: 0.4,
+            material,
+        };
+        let (element, scaled) = (
+            ellipse_of(1e-3, 3e-3, Directions::Two, input),
+            Element::elliptic(&parameters, Directions::Two, input).unwrap(),
+        );
+        let history = history(&element, 200, &mut random);
+        let normal = if input == NormalInput::Force { newton } else { metre };
+        for (step, other) in
+            run(&element, &history, [1.0; 3]).iter().zip(run(&scaled, &history, [metre, metre, normal]))
+        {
+            assert_eq!(step.force, other.force.map(|force| force / newton));
+            assert_eq!(step.dissipated, other.dissipated / newton / metre);
+        }
+    }
+}
+
+/// Random histories: Coulomb's bound, energy, restart, trial and repeated steps.
+#[test]
+fn steps_satisfy_coulomb_and_states_restart() {
+    let mut random = Random(6);
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        for element in &shapes(Directions::Two, input) {
+            let mut contact = Contact::new(element);
+            for to in history(element, 400, &mut random) {
+                // The state as text of 17 digits.
+                let text: Vec<String> = contact.state.iter().map(|value| format!("{value:.16e}")).collect();
+                let state = text.iter().map(|value| value.parse().unwrap()).collect();
+                let mut restarted = Contact { element, state };
+                let step = contact.to(to);
+                assert_eq!(restarted.to(to), step);
+                assert!(restarted.state.iter().zip(&contact.state).all(|(one, two)| one.to_bits() == two.to_bits()));
+                let [x, y, load] = step.force;
+                // The force is divided by its excess: some roundings.
+                assert!(x.hypot(y) <= element.friction_coefficient * load * (1.0 + 4e-16), "{step:?}");
+                assert!(step.dissipated >= 0.0);
+                state_check(&contact.state).unwrap();
+                let again = contact.trial(to);
+                assert!(apart(&again, &step) <= 1e-12 * slip_force(element), "{again:?} {step:?}");
+                assert!(again.dissipated <= 1e-12 * slip_force(element) * unit(element), "{again:?}");
+            }
+        }
+    }
+}
+
+/// Work and dissipation in the last of 20 periods of n steps: u = A (cos, sin), or an ellipse; both over `mu N` times the unit.
+fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] {
+    let unit = unit(element);
+    let at = |k: usize| {
+        let (y, x) = (TAU * (k % n) as f64 / n as f64).sin_cos();
+        [a * unit * x, b * unit * y, normal_input(element, 1.0 - swing * (0.5 - 0.5 * x))]
+    };
+    let period: Vec<f64> = (0..=n).flat_map(at).collect();
+    let mut contact = Contact::new(element);
+    contact.to([period[0], period[1], 0.0]);
+    let (mut force, mut dissipated) = (vec![0.0; 3 * n + 3], vec![0.0; n + 1]);
+    for _ in 0..20 {
+        let output = PathOutput { force: Some(&mut force), tangent: None, dissipated: Some(&mut dissipated) };
+        path(element, &mut contact.state, &period, output).unwrap();
+    }
+    let chord = |k: usize| (0..2).map(move |i| [3 * k + i, 3 * k + 3 + i]);
+    let work: f64 = (0..n).flat_map(chord).map(|[i, j]| 0.5 * (force[i] + force[j]) * (period[j] - period[i])).sum();
+    [work, dissipated.iter().sum()].map(|energy| energy / slip_force(element) / unit)
+}
+
+#[test]
+fn a_closed_orbit_dissipates_its_work() {
+    // Trapezia of the forces over chords, and slip with the mean of the tractions at both ends of a step: second order in the step;
+    // after 20 periods the orbit is closed to 0.3 %.
+    for (n, bound) in [(24, 0.012), (96, 0.005)] {
+        for swing in [0.0, 0.6, 0.97] {
+            for element in &shapes(Directions::Two, NormalInput::Force) {
+                for axes in [[0.3, 0.3], [0.9, 0.9], [0.6, 0.3]] {
+                    let [work, dissipated] = orbit(element, n, axes, swing);
+                    assert!((dissipated / work - 1.0).abs() < bound, "{n} {swing} {axes:?}: {work} {dissipated}");
+                }
+            }
+        }
+    }
+}
+
+/// The force is a function of the end of a step as long as all sticks; a contact that opens loses all memory.
+#[test]
+fn sticking_steps_divide_and_separation_erases() {
+    for input in [NormalInput::Force, NormalInput::Approach] {
+        for element in &shapes(Directions::Two, input) {
+            let (unit, full) = (unit(element), normal_input(element, 1.0));
+            let prepared = || {
+                let mut contact = Contact::new(element);
+                contact.to([0.0, 0.0, full]);
+                contact.to([0.6 * unit, 0.2 * unit, full]);
+                contact
+            };
+            // Back by 1e-3 of the slip displacement: nothing slips.
+            let (mut whole, mut parts) = (prepared(), prepared());
+            parts.to([0.5995 * unit, 0.1995 * unit, full]);
+            let (one, two) =
+                (whole.to([0.599 * unit, 0.199 * unit, full]), parts.to([0.599 * unit, 0.199 * unit, full]));
+            // Only the first of both terms of the difference is a rounding error; in the energy there is none.
+            assert!(apart(&one, &two) < 1e-14 * slip_force(element) && one.dissipated == 0.0, "{one:?} {two:?}");
+            // Open, by exactly 0, and closed again at the same place: the force is that of a new contact.
+            let (mut old, mut new) = (prepared(), Contact::new(element));
+            for contact in [&mut old, &mut new] {
+                let step = contact.to([0.3 * unit, -0.1 * unit, 0.0]);
+                assert_eq!(step.force, [0.0; 3]);
+                assert!(step.dissipated >= 0.0);
+            }
+            assert!(old.state.iter().zip(&new.state).all(|(one, two)| one == two));
+            assert_eq!(old.to([0.4 * unit, -0.1 * unit, full]), new.to([0.4 * unit, -0.1 * unit, full]));
+        }
+    }
 }

@@ -82,12 +82,15 @@ pub enum Command {
         "stiffness contact.toml --from 1e-8 --to 1e-4 --plot stiffness.svg"
     ))]
     Stiffness(ContactCommand<Amplitudes>),
-    /// Force, stiffness and dissipated energy along a displacement history under a constant or given normal force
+    /// Force, stiffness and dissipated energy along a displacement history, in one tangential direction or two, under a constant or
+    /// given normal force
     #[command(after_help = help!(
         "displacement, force, stiffness, dissipated (energy of each step)
-  if the normal force varies: displacement, approach (if given), normal_force, force, stiffness, dissipated",
+  if the normal force varies: displacement, approach (if given), normal_force, force, stiffness, dissipated
+  in two directions: displacement_x, displacement_y, approach (if given), normal_force, force_x, force_y, dissipated",
         "history contact.toml --displacements measured.csv --column u --plot history.svg
-  microslip history contact.toml --displacements measured.csv --column u --normal-force-column N"
+  microslip history contact.toml --displacements measured.csv --column u --normal-force-column N
+  microslip history contact.toml --displacements measured.csv --column u --column-y v --normal-force-column N"
     ))]
     History(ContactCommand<History>),
     /// Normal law: normal force, stiffness and half-width over the normal approach, from first contact
@@ -225,9 +228,13 @@ pub struct History {
     /// Table of displacements, one per row, from the unloaded contact at displacement 0; - is standard input
     #[arg(long, value_name = "FILE.csv", default_value = "-")]
     pub displacements: PathBuf,
-    /// Column of the table: its name in the header, or its number from 1 [default: displacement, or the only one]
+    /// Column of the table: its name in the header, or its number from 1 [default: displacement or displacement_x, or the only
+    /// one]
     #[arg(long, value_name = "NAME")]
     pub column: Option<String>,
+    /// Column of displacements in the y direction, across the first [default: displacement_y, if there is one]
+    #[arg(long, value_name = "NAME")]
+    pub column_y: Option<String>,
     /// Column of normal approaches, 0 or less if the contact is open [default: approach, if there is one]
     #[arg(long, value_name = "NAME", conflicts_with = "normal_force_column")]
     pub approach_column: Option<String>,

@@ -35,13 +35,18 @@ impl Report {
             ],
             warnings: Vec::new(),
             table,
-            picture: Picture { caption: caption(spec, &normal_force), units: spec.units, panels },
+            picture: Picture { caption: caption(spec, &normal_force), units: spec.units, orbits: None, panels },
         }
     }
 
     /// The same report with another normal force in the caption of the picture.
     pub fn under(mut self, spec: &ContactSpec, normal_force: &str) -> Report {
         self.picture.caption = caption(spec, normal_force);
+        self
+    }
+
+    pub fn with_orbits(mut self, orbits: [Panel; 2]) -> Report {
+        self.picture.orbits = Some(orbits);
         self
     }
 
@@ -352,23 +357,32 @@ pub fn parts_of_step(rows: usize) -> u32 {
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let (path, selected) = (&options.displacements, options.column.as_deref());
     let [approach, normal_force] = [&options.approach_column, &options.normal_force_column].map(Option::as_deref);
-    let column = ColumnSpec { option: "--column", selected, name: "displacement", quantity: Length };
+    let names = &["displacement", "displacement_x"];
+    let column = ColumnSpec { option: "--column", selected, names, quantity: Length };
+    let (selected, names) = (options.column_y.as_deref(), &["displacement_y"]);
+    let column_y = ColumnSpec { option: "--column-y", selected, names, quantity: Length };
     let normal = [
-        ColumnSpec { option: "--approach-column", selected: approach, name: "approach", quantity: Length },
-        ColumnSpec { option: "--normal-force-column", selected: normal_force, name: "normal_force", quantity: Force },
+        ColumnSpec { option: "--approach-column", selected: approach, names: &["approach"], quantity: Length },
+        ColumnSpec {
+            option: "--normal-force-column",
+            selected: normal_force,
+            names: &["normal_force"],
+            quantity: Force,
+        },
     ];
     // A selected column of normal forces leaves no choice.
     let first = usize::from(normal_force.is_some());
-    let table = read_columns(path, &column, &normal[first..], spec.units)?;
-    let columns = [&column, &normal[0], &normal[1]].map(|column| {
+    let table = read_columns(path, [&column, &column_y], &normal[first..], spec.units)?;
+    let columns = [&column, &column_y, &normal[0], &normal[1]].map(|column| {
         column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
     });
     let relative = if options.relative { " --relative" } else { "" };
     let repeat = format!(" --displacements {}{}{relative}", quoted(&path.to_string_lossy()), columns.concat());
-    match table.alternative.map(|alternative| first + alternative) {
+    let input = table.alternative.map(|alternative| [NormalInput::Approach, NormalInput::Force][first + alternative]);
+    match input {
+        _ if table.has_second => varying_load::history_in_two_directions(options, spec, input, &table, &repeat),
         None => constant_load_history(options, spec, &table, &repeat),
-        Some(0) => varying_load::history(options, spec, NormalInput::Approach, &table, &repeat),
-        Some(_) => varying_load::history(options, spec, NormalInput::Force, &table, &repeat),
+        Some(input) => varying_load::history(options, spec, input, &table, &repeat),
     }
 }
 

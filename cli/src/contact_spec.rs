@@ -102,13 +102,13 @@ impl ContactSpec {
     }
 
     /// The element of the same contact under a normal force that varies.
-    pub fn element(&self, normal_input: NormalInput) -> Result<Element> {
+    pub fn element(&self, directions: Directions, normal_input: NormalInput) -> Result<Element> {
         if self.given.normal_force == Some(0.0) {
             return input("without a normal force the contact is open: normal_force must be > 0");
         }
         let element = match self.given.shape(1.0)? {
-            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, Directions::One, normal_input),
-            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, Directions::One, normal_input),
+            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, directions, normal_input),
+            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
     }

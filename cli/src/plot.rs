@@ -1,4 +1,4 @@
-//! Pictures: panels one below the other, axes with units, and lines that differ in dashes and in colour.
+//! Pictures: orbits side by side, panels one below the other, axes with units, and lines that differ in dashes and in colour.
 
 use crate::canvas::{Bitmap, Canvas, Format, Point, Stroke, Svg};
 use crate::number::format_number;
@@ -10,6 +10,8 @@ pub struct Picture {
     /// Parameters of the contact.
     pub caption: String,
     pub units: Units,
+    /// Panels side by side whose axes have the same scale.
+    pub orbits: Option<[Panel; 2]>,
     pub panels: Vec<Panel>,
 }
 
@@ -42,6 +44,12 @@ impl Axis {
     pub const fn logarithmic(name: &'static str, quantity: Quantity) -> Axis {
         Axis { name, quantity, logarithmic: true }
     }
+
+    /// The power of ten of the unit for values of this size in SI units, and the label.
+    fn label(&self, size: f64) -> (i32, String) {
+        let (power, unit) = prefixed(size, self.quantity);
+        (power, format!("{} [{unit}]", self.name))
+    }
 }
 
 const WIDTH: u32 = 860;
@@ -68,7 +76,8 @@ const GRID: Stroke = Stroke { colour: [214, 214, 214], width: 1.0, dash: None };
 impl Picture {
     /// The contents of the file.
     pub fn draw(&self, format: Format) -> Result<Vec<u8>, &'static str> {
-        let size = (WIDTH, CAPTION_HEIGHT + PANEL_HEIGHT * self.panels.len() as u32);
+        let rows = self.panels.len() + usize::from(self.orbits.is_some());
+        let size = (WIDTH, CAPTION_HEIGHT + PANEL_HEIGHT * rows as u32);
         match format {
             Format::Svg => {
                 let mut svg = Svg::new(size);
@@ -89,21 +98,40 @@ impl Picture {
         let letters = names.map(|line| line.name.chars().count()).max();
         let [least, most] = LEGEND_WIDTHS;
         let right = letters.map_or(MARGINS[1], |count| (KEY_WIDTH + LETTER_WIDTH * count as f64).clamp(least, most));
-        for (i, panel) in self.panels.iter().enumerate() {
-            let top = f64::from(CAPTION_HEIGHT + PANEL_HEIGHT * i as u32);
-            panel.draw_on(canvas, top, self.units, right);
+        let mut top = f64::from(CAPTION_HEIGHT);
+        let end = f64::from(WIDTH);
+        if let Some([first, second]) = &self.orbits {
+            first.draw_on(canvas, Area { left: 0.0, right: 0.5 * end - MARGINS[1], top, equal: true }, self.units);
+            second.draw_on(canvas, Area { left: 0.5 * end, right: end - MARGINS[1], top, equal: true }, self.units);
+            top += f64::from(PANEL_HEIGHT);
+        }
+        for panel in &self.panels {
+            panel.draw_on(canvas, Area { left: 0.0, right: end - right, top, equal: false }, self.units);
+            top += f64::from(PANEL_HEIGHT);
         }
     }
 }
 
+/// Where a panel is drawn: from the left edge of its labels to the right end of its x axis, and below `top`.
+struct Area {
+    left: f64,
+    right: f64,
+    top: f64,
+    /// Whether both axes have the same scale.
+    equal: bool,
+}
+
 impl Panel {
-    fn draw_on(&self, canvas: &mut dyn Canvas, top: f64, units: Units, right: f64) {
+    fn draw_on(&self, canvas: &mut dyn Canvas, area: Area, units: Units) {
         let points = || self.lines.iter().flat_map(|line| &line.points);
-        let x = Scale::of(self.x, units, points().map(|point| point.0));
-        let y = Scale::of(self.y, units, points().map(|point| point.1));
-        let right = f64::from(WIDTH) - right;
+        let Area { left: edge, right, top, equal } = area;
         let bottom = top + f64::from(PANEL_HEIGHT) - MARGINS[3];
-        let (left, top) = (MARGINS[0], top + MARGINS[2]);
+        let (left, top) = (edge + MARGINS[0], top + MARGINS[2]);
+        let mut x = Scale::of(self.x, units, points().map(|point| point.0));
+        let mut y = Scale::of(self.y, units, points().map(|point| point.1));
+        if equal {
+            Scale::equalise(&mut x, &mut y, (right - left) / (bottom - top));
+        }
         let to_x = |place: f64| left + x.fraction(place) * (right - left);
         let to_y = |place: f64| bottom - y.fraction(place) * (bottom - top);
 
@@ -119,7 +147,7 @@ impl Panel {
         }
         canvas.lines(&[vec![(left, top), (left, bottom), (right, bottom)]], &AXIS);
         canvas.text(&x.label, (0.5 * (left + right), bottom + 38.0), 0.5, false);
-        canvas.text(&y.label, (20.0, 0.5 * (top + bottom)), 0.5, true);
+        canvas.text(&y.label, (edge + 20.0, 0.5 * (top + bottom)), 0.5, true);
 
         for (i, line) in self.lines.iter().enumerate() {
             let (dash, colour) = STROKES[i % STROKES.len()];
@@ -209,6 +237,7 @@ fn prefixed(size: f64, quantity: Quantity) -> (i32, String) {
 /// The scale of an axis. The place of a value is the value in the unit of the label, or its decimal logarithm.
 #[derive(Debug)]
 struct Scale {
+    axis: Axis,
     label: String,
     logarithmic: bool,
     in_si: f64,
@@ -230,9 +259,10 @@ impl Scale {
         if low > high {
             (low, high) = (1.0, 1.0);
         }
-        let (power, unit) = prefixed(low.abs().max(high.abs()), axis.quantity);
+        let (power, label) = axis.label(low.abs().max(high.abs()));
         let mut scale = Scale {
-            label: format!("{} [{unit}]", axis.name),
+            axis,
+            label,
             logarithmic: axis.logarithmic,
             in_si,
             power,
@@ -261,17 +291,39 @@ impl Scale {
         };
         let margin = 0.04 * (high - low) + least;
         let start = if low < 0.0 || low > 0.5 * high { low - margin } else { 0.0 };
-        let end = high + margin;
-        // Four to eleven ticks; the step is 1, 2 or 5 times a power of ten.
-        let rough = (end - start) / 10.0;
+        self.range = start..high + margin;
+        // Four to eleven ticks.
+        self.set_ticks(0.1 * (self.range.end - self.range.start));
+    }
+
+    /// Ticks of the range with this distance at least: 1, 2 or 5 times a power of ten.
+    fn set_ticks(&mut self, rough: f64) {
+        let Range { start, end } = self.range;
         let power = 10f64.powf(rough.log10().floor());
         let step =
             [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= rough).unwrap_or(10.0 * power);
         let ticks = (start / step).ceil() as i64..=(end / step).floor() as i64;
         self.ticks = ticks.map(|i| i as f64 * step).collect();
-        self.range = start..end;
         // A step of 0.2 has one digit after the point, even if its logarithm is rounded.
         self.decimals = (-(1.001 * step).log10().floor()).max(0.0) as usize;
+    }
+
+    /// Widens one of two linear ranges so that both axes have the same unit, scale and ticks; `aspect` is the width of the graph
+    /// over its height.
+    fn equalise(x: &mut Scale, y: &mut Scale, aspect: f64) {
+        let power = x.power.max(y.power);
+        for scale in [&mut *x, &mut *y] {
+            let factor = 10f64.powi(scale.power - power);
+            scale.range = factor * scale.range.start..factor * scale.range.end;
+            (scale.power, scale.label) = scale.axis.label(2.0 * 10f64.powi(power));
+        }
+        let length = |scale: &Scale| scale.range.end - scale.range.start;
+        let height = length(y).max(length(x) / aspect);
+        for (scale, wanted) in [(&mut *x, aspect * height), (&mut *y, height)] {
+            let margin = 0.5 * (wanted - length(scale));
+            scale.range = scale.range.start - margin..scale.range.end + margin;
+            scale.set_ticks(height / 7.0);
+        }
     }
 
     /// A logarithmic range with at least two powers of ten.
@@ -308,7 +360,7 @@ mod tests {
     fn picture(x: Axis, points: &[Point]) -> Picture {
         let lines = vec![Line { name: String::new(), points: points.to_vec() }];
         let panels = vec![Panel { x, y: Axis::linear("force", Quantity::Force), lines }];
-        Picture { caption: String::new(), units: Units::Si, panels }
+        Picture { caption: String::new(), units: Units::Si, orbits: None, panels }
     }
 
     #[test]

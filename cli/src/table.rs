@@ -43,7 +43,9 @@ pub struct InputRow {
 /// The columns that a command reads.
 #[derive(Debug)]
 pub struct InputTable {
-    /// The column that was read besides the first: its place among the alternatives.
+    /// Whether the second column was read.
+    pub has_second: bool,
+    /// The alternative that was read as the last column: its place among them.
     pub alternative: Option<usize>,
     pub rows: Vec<InputRow>,
     /// Names of the columns in messages; none if the table has one column only.
@@ -67,21 +69,26 @@ pub struct ColumnSpec<'a> {
     /// The option that selects it, and the value of that option: a name or a number from 1.
     pub option: &'static str,
     pub selected: Option<&'a str>,
-    /// Name in the header if no other is selected.
-    pub name: &'static str,
+    /// Names in the header if no other is selected.
+    pub names: &'a [&'static str],
     pub quantity: Quantity,
 }
 
-/// Reads a column of a CSV file: the selected one, the one of the default name, or the only one; and the first of the alternatives
-/// that is selected or has its default name in the header.
-pub fn read_columns(path: &Path, first: &ColumnSpec, alternatives: &[ColumnSpec], units: Units) -> Result<InputTable> {
+/// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if
+/// it is selected or has its default name in the header; and the first of the alternatives of which that is true.
+pub fn read_columns(
+    path: &Path,
+    columns: [&ColumnSpec; 2],
+    alternatives: &[ColumnSpec],
+    units: Units,
+) -> Result<InputTable> {
     let text = read_text(path)?;
-    parse_columns(&text, first, alternatives, units).map_err(|reason| CliError::in_file(path, reason))
+    parse_columns(&text, columns, alternatives, units).map_err(|reason| CliError::in_file(path, reason))
 }
 
 fn parse_columns(
     text: &str,
-    spec: &ColumnSpec,
+    [spec, second]: [&ColumnSpec; 2],
     alternatives: &[ColumnSpec],
     units: Units,
 ) -> std::result::Result<InputTable, String> {
@@ -91,27 +98,34 @@ fn parse_columns(
         .filter(|(line, _)| !line.is_empty() && !line.starts_with('#'))
         .map(|(line, number)| -> (Vec<String>, usize) { (split(line), number) })
         .peekable();
-    let no_numbers = || format!("the table has no {}s", spec.name);
+    let no_numbers = || format!("the table has no {}s", spec.default_name());
     let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
     let in_header = |reason| format!("line {number}: {reason}");
     let mut indices = vec![spec.find(&first, units).map_err(in_header)?];
-    let mut alternative = None;
-    for (i, other) in alternatives.iter().enumerate().filter(|(_, other)| other.is_in(&first)) {
+    let (mut options, mut has_second, mut alternative) = (vec![spec.option], false, None);
+    for (i, other) in [second].into_iter().chain(alternatives).enumerate().filter(|(_, other)| other.is_in(&first)) {
         let index = other.find(&first, units).map_err(in_header)?;
-        if index != indices[0] {
-            alternative = Some(i);
-            indices.push(index);
-            break;
+        match indices.iter().position(|known| *known == index) {
+            Some(known) if other.selected.is_some() => {
+                return Err(in_header(format!("{} and {} select the same column", options[known], other.option)));
+            }
+            Some(_) => continue,
+            None => indices.push(index),
         }
-        if other.selected.is_some() {
-            return Err(in_header(format!("{} and {} select the same column", spec.option, other.option)));
+        options.push(other.option);
+        match i.checked_sub(1) {
+            None => has_second = true,
+            Some(place) => {
+                alternative = Some(place);
+                break;
+            }
         }
     }
     let label =
         |index: &usize| if is_header(&first) { name_of(&first[*index]).to_owned() } else { format!("{}", index + 1) };
     let labels: Vec<_> = if first.len() > 1 { indices.iter().map(label).collect() } else { Vec::new() };
     rows.next_if(|_| is_header(&first));
-    let mut table = InputTable { alternative, rows: Vec::new(), labels };
+    let mut table = InputTable { has_second, alternative, rows: Vec::new(), labels };
     for (cells, line) in rows {
         let (count, expected) = (cells.len(), first.len());
         if count < expected {
@@ -145,7 +159,11 @@ fn name_of(cell: &str) -> &str {
 impl ColumnSpec<'_> {
     /// Whether the column is selected, or its default name is in the header.
     fn is_in(&self, first: &[String]) -> bool {
-        self.selected.is_some() || (is_header(first) && first.iter().any(|cell| name_of(cell) == self.name))
+        self.selected.is_some() || (is_header(first) && first.iter().any(|cell| self.names.contains(&name_of(cell))))
+    }
+
+    fn default_name(&self) -> &'static str {
+        self.names.first().copied().unwrap_or_default()
     }
 
     /// Index of the column, from the cells of the first row.
@@ -153,8 +171,9 @@ impl ColumnSpec<'_> {
         if first.iter().any(|cell| cell.contains(';')) {
             return Err("columns are separated by commas, not by semicolons".to_owned());
         }
-        let name = self.selected.unwrap_or(self.name);
         let names: Vec<_> = first.iter().map(|cell| name_of(cell)).collect();
+        let default = || self.names.iter().find(|name| names.contains(name)).copied();
+        let name = self.selected.or_else(default).unwrap_or(self.default_name());
         if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
             let expected = units.unit(self.quantity);
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {

@@ -9,13 +9,14 @@ use crate::plot::{Axis, Line, Panel, rounded};
 use crate::table::{InputTable, Table};
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
-use microslip::varying_load::element::{Element, NormalInput};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::varying_load::state::{advance, state_init, state_length};
+use microslip::varying_load::two_directions;
 
 const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 
 pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
-    let element = spec.element(NormalInput::Approach)?;
+    let element = spec.element(Directions::One, NormalInput::Approach)?;
     let at_approach = |option: &str, approach: f64| {
         element.check_approach(approach).map_err(|error| CliError::in_option(option, approach, error))?;
         let point = element.normal_force_at(approach);
@@ -63,6 +64,9 @@ fn new_state(pieces: usize) -> Result<Vec<f64>> {
 /// Pieces of the state from which a picture is drawn; what merging changes is invisible.
 const PIECES_OF_PICTURE: usize = 256;
 
+/// A step in two directions takes longer than one in one direction: fewer points are drawn.
+const TRIALS_PER_POINT: usize = 5;
+
 pub fn history(
     options: &History,
     spec: &ContactSpec,
@@ -70,7 +74,7 @@ pub fn history(
     table: &InputTable,
     repeat: &str,
 ) -> Result<Report> {
-    let (element, path, count) = (spec.element(input)?, &options.displacements, table.rows.len());
+    let (element, path, count) = (spec.element(Directions::One, input)?, &options.displacements, table.rows.len());
     let by_approach = input == NormalInput::Approach;
     let of_normal = if by_approach { element.approach } else { element.normal_force };
     let factors = if options.relative { [spec.contact.slip_displacement, of_normal] } else { [1.0; 2] };
@@ -87,7 +91,9 @@ pub fn history(
             CliError::in_file(path, format!("{place}: {value}: {error}"))
         })?;
         for part in 1..=parts {
-            let at = if part < parts { between(&element, from, to, f64::from(part) / f64::from(parts)) } else { to };
+            let fraction = f64::from(part) / f64::from(parts);
+            let normal = normal_between(&element, from[1], to[1], fraction);
+            let at = if part < parts { [from[0] + (to[0] - from[0]) * fraction, normal] } else { to };
             let step = advance(&element, &mut drawn, at, false).map_err(|error| CliError::in_file(path, error))?;
             points.push([at[0], step.force[1], step.force[0]]);
         }
@@ -118,27 +124,106 @@ pub fn history(
     Ok(report.under(spec, &range).with_remark("stiffness: by the displacement; dissipated: energy of each step"))
 }
 
-/// The point at a fraction of the displacement of a step, which is straight in the tangential shift; while open, in the approach.
-fn between(element: &Element, from: [f64; 2], to: [f64; 2], fraction: f64) -> [f64; 2] {
-    let displacement = from[0] + (to[0] - from[0]) * fraction;
+/// Displacement and force.
+type Point = [[f64; 3]; 2];
+
+/// A history in both tangential directions; under the normal force of the parameters without another input.
+pub fn history_in_two_directions(
+    options: &History,
+    spec: &ContactSpec,
+    input: Option<NormalInput>,
+    table: &InputTable,
+    repeat: &str,
+) -> Result<Report> {
+    let element = spec.element(Directions::Two, input.unwrap_or(NormalInput::Force))?;
+    let (path, by_approach) = (&options.displacements, input == Some(NormalInput::Approach));
+    let of_normal = if by_approach { element.approach } else { element.normal_force };
+    let along = spec.contact.slip_displacement;
+    let factors = if options.relative { [along, along, of_normal] } else { [1.0; 3] };
+    let mut state = vec![0.0; two_directions::state_length()];
+    two_directions::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
+    let parts = parts_of_step(TRIALS_PER_POINT * table.rows.len());
+    let (mut rows, mut points, mut from): (_, Vec<Point>, _) = (Vec::new(), vec![[[0.0; 3]; 2]], [0.0; 3]);
+    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    for row in &table.rows {
+        let given = |i: usize| row.values.get(i).map_or(element.normal_force, |value| value * factors[i]);
+        let to = [given(0), given(1), given(2)];
+        let go = |state: &mut [f64], to: [f64; 3]| {
+            two_directions::advance(&element, state, to).map_err(|error| {
+                let is_large = |value: &f64| error == Error::BadDisplacement && (value.is_nan() || value.abs() > 1e150);
+                let index = to.iter().position(is_large).unwrap_or(2);
+                let (place, value) = (table.place(row, index), format_number(to[index]));
+                CliError::in_file(path, format!("{place}: {value}: {error}"))
+            })
+        };
+        for part in 1..parts {
+            let fraction = f64::from(part) / f64::from(parts);
+            let [x, y] = [0, 1].map(|i| from[i] + (to[i] - from[i]) * fraction);
+            let at = [x, y, normal_between(&element, from[2], to[2], fraction)];
+            points.push([at, go(&mut state.clone(), at)?.force]);
+        }
+        let step = go(&mut state, to)?;
+        points.push([to, step.force]);
+        let [force_x, force_y, normal] = step.force;
+        (least, largest) = (least.min(normal), largest.max(normal));
+        let given = to.into_iter().take(if by_approach { 3 } else { 2 });
+        rows.push(given.chain([normal, force_x, force_y, step.dissipated]).collect());
+        from = to;
+    }
+    let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
+    let others = [("normal_force", Force), ("force_x", Force), ("force_y", Force), ("dissipated", Energy)];
+    let displacements = [("displacement_x", Length), ("displacement_y", Length)];
+    let columns: Vec<_> = displacements.into_iter().chain(approach).chain(others).collect();
+    let line = |name: &str, point: &dyn Fn(&Point) -> (f64, f64)| Line {
+        name: name.to_owned(),
+        points: points.iter().map(point).collect(),
+    };
+    let limit = element.friction_coefficient * largest;
+    let magnitude = Axis::linear("magnitude of the tangential force", Force);
+    let orbits = [("displacement x", "displacement y", Length), ("force x", "force y", Force)];
+    let orbits = [0, 1].map(|i| {
+        let (x, y, quantity) = orbits[i];
+        let lines = vec![line("", &|point| (point[i][0], point[i][1]))];
+        Panel { x: Axis::linear(x, quantity), y: Axis::linear(y, quantity), lines }
+    });
+    let loops = [0, 1].map(|i| line(["x", "y"][i], &|point| (point[0][i], point[1][i])));
+    let magnitudes = vec![
+        line("force", &|point| (point[1][2], point[1][0].hypot(point[1][1]))),
+        Line { name: "μN".to_owned(), points: vec![(0.0, 0.0), (largest, limit)] },
+    ];
+    let panels = vec![
+        Panel { x: DISPLACEMENT, y: FORCE, lines: loops.into() },
+        Panel { x: NORMAL_FORCE, y: magnitude, lines: magnitudes },
+    ];
+    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = report.with_orbits(orbits).with_remark("dissipated: energy of each step");
+    if input.is_none() {
+        return Ok(report);
+    }
+    let range = format!("{} to {}", rounded(least, Force, spec.units), rounded(largest, Force, spec.units));
+    Ok(report.under(spec, &range))
+}
+
+/// The normal component at a fraction of the displacement of a step, which is straight in the tangential shift; while open, in the
+/// approach.
+fn normal_between(element: &Element, from: f64, to: f64, fraction: f64) -> f64 {
     let by_approach = element.normal_input == NormalInput::Approach as i32;
     let load = |input: f64| if by_approach { element.normal_force_at(input).value } else { input };
     // The closed part of the path, between two fractions.
-    let crossing = if by_approach { from[1] / (from[1] - to[1]) } else { f64::from(u8::from(from[1] > 0.0)) };
-    let (start, end) = match (from[1] > 0.0, to[1] > 0.0) {
+    let crossing = if by_approach { from / (from - to) } else { f64::from(u8::from(from > 0.0)) };
+    let (start, end) = match (from > 0.0, to > 0.0) {
         (true, true) => (0.0, 1.0),
         (true, false) => (0.0, crossing),
         (false, true) => (crossing, 1.0),
         (false, false) => (1.0, 1.0),
     };
     if fraction < start || fraction > end || start >= end {
-        return [displacement, if by_approach { from[1] + (to[1] - from[1]) * fraction } else { 0.0 }];
+        return if by_approach { from + (to - from) * fraction } else { 0.0 };
     }
-    let [first, last] = [from[1], to[1]].map(|input| element.shift_under(load(input.max(0.0))));
+    let [first, last] = [from, to].map(|input| element.shift_under(load(input.max(0.0))));
     let shift = first + (last - first) * (fraction - start) / (end - start);
     let normal_force = element.load_under(shift.max(0.0));
-    let input = if by_approach { element.approach_under(normal_force).value } else { normal_force };
-    [displacement, input]
+    if by_approach { element.approach_under(normal_force).value } else { normal_force }
 }
 
 /// Steps of a period, at least, from which a loop and its energy are computed.
@@ -146,7 +231,7 @@ const STEPS_OF_PERIOD: usize = 4096;
 
 /// Loops under `N (1 + a cos(ωt + φ))`, or 0 where that is negative, for `u = û cos ωt`.
 pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], repeat: &str) -> Result<Report> {
-    let (element, units) = (spec.element(NormalInput::Force)?, spec.units);
+    let (element, units) = (spec.element(Directions::One, NormalInput::Force)?, spec.units);
     let (mean, n) = (element.normal_force, options.points as usize);
     let given = match options.normal_amplitude {
         Some(Amount::Fraction(fraction)) => fraction * mean,

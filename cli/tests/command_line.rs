@@ -4,7 +4,7 @@ use microslip::constant_load::equivalents::{iwan, jenkins};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state as element_state;
+use microslip::varying_load::{state as element_state, two_directions};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -355,6 +355,87 @@ fn histories_under_a_varying_load_equal_those_of_the_library() {
 }
 
 #[test]
+fn histories_in_two_directions_equal_those_of_the_library() {
+    let shell = Shell::new("two-directions");
+    // Around a corner and back, with slip, separation and gross slip.
+    let x = [0.0, 2e-7, -3e-7, 4e-7, 1e-6, 8e-7, -2e-7];
+    let y = [1e-7, 3e-7, 3e-7, -2e-7, -1e-6, -1e-6, 4e-7];
+    let (forces, approaches) =
+        ([90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0], [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6]);
+    for (name, values, input) in [
+        (Some("normal_force [N]"), forces, NormalInput::Force),
+        (Some("approach [m]"), approaches, NormalInput::Approach),
+        (None, [150.0; 7], NormalInput::Force),
+    ] {
+        let by_approach = input == NormalInput::Approach;
+        let element = Element::rounded_flat(&flat_parameters(), Directions::Two, input).unwrap();
+        let mut state = vec![0.0; two_directions::state_length()];
+        two_directions::state_init(&mut state).unwrap();
+        let mut row = |i: usize| {
+            let step = two_directions::advance(&element, &mut state, [x[i], y[i], values[i]]).unwrap();
+            let [force_x, force_y, normal_force] = step.force;
+            assert!(force_x.hypot(force_y) <= 0.4 * normal_force * (1.0 + 1e-12) && step.dissipated >= 0.0);
+            let given = [x[i], y[i], values[i]].into_iter().take(if by_approach { 3 } else { 2 });
+            given.chain([normal_force, force_x, force_y, step.dissipated]).collect::<Vec<_>>()
+        };
+        let expected: Vec<_> = (0..7).map(&mut row).collect();
+        assert!(expected[2][if by_approach { 5 } else { 4 }] != 0.0);
+        let approach = if by_approach { "approach [m]," } else { "" };
+        let header = format!(
+            "displacement_x [m],displacement_y [m],{approach}normal_force [N],force_x [N],force_y [N],dissipated [J]"
+        );
+        let rows = |normal: bool| -> String {
+            let normal = |i: usize| if normal { format!(",{:e}", values[i]) } else { String::new() };
+            (0..7).map(|i| format!("{i},{:e},{:e}{}\n", y[i], x[i], normal(i))).collect()
+        };
+        let normal = name.map_or(String::new(), |name| format!(",{name}"));
+        shell.write("given.csv", format!("t,displacement_y,displacement_x [m]{normal}\n{}", rows(name.is_some())));
+        for options in ["", "--column 3 --column-y 2", "--column displacement_x --column-y displacement_y"] {
+            let command = format!("microslip history flat.toml --displacements given.csv {options}");
+            assert_table(&shell.stdout(&command), &header, &expected);
+        }
+        // A table of results is a valid input.
+        shell.write("table.csv", shell.stdout("microslip history flat.toml --displacements given.csv"));
+        assert_table(&shell.stdout("microslip history flat.toml --displacements table.csv"), &header, &expected);
+    }
+    let slip = flat().slip_displacement;
+    shell.write("relative.csv", "displacement,displacement_y\n0.5,-0.25\n");
+    let relative = shell.stdout("microslip history flat.toml --displacements relative.csv --relative");
+    assert_eq!(numbers(&relative)[0][..3], [0.5 * slip, -0.25 * slip, 150.0]);
+}
+
+#[test]
+fn orbits_have_axes_of_equal_scale() {
+    let shell = Shell::new("orbits");
+    // A circle that slips grossly under a constant load: its forces are a circle too.
+    let angle = |i: i32| f64::from(i).to_radians();
+    let circle = (0..=720).map(|i| format!("{:e},{:e}\n", 2e-5 + 1e-5 * angle(i).cos(), 1e-5 * angle(i).sin()));
+    shell.write("circle.csv", format!("displacement_x,displacement_y\n{}", circle.collect::<String>()));
+    shell.stdout("microslip history flat.toml --displacements circle.csv --plot circle.svg");
+    let text = shell.read("circle.svg");
+    for axis in ["displacement x [µm]", "displacement y [µm]", "force x [N]", "force y [N]"] {
+        assert!(text.contains(axis), "{axis}");
+    }
+    // Lines of the width 2 are data: displacements, forces.
+    let data = text.split("stroke-width=\"2\"").skip(1).map(|rest| rest.split(" d=\"").nth(1).unwrap());
+    let extent = |path: &str| {
+        let points = path.split('"').next().unwrap().split(['M', 'L']).skip(1);
+        let points: Vec<_> = points.map(|point| point.split_once(' ').unwrap()).collect();
+        // The second turn: the first starts from the origin.
+        let turn = &points[points.len() / 2..];
+        let size = |values: Vec<f64>| {
+            values.iter().fold(f64::MIN, |a, b| a.max(*b)) - values.iter().fold(f64::MAX, |a, b| a.min(*b))
+        };
+        let [x, y] = [
+            size(turn.iter().map(|point| point.0.parse().unwrap()).collect()),
+            size(turn.iter().map(|point| point.1.parse().unwrap()).collect()),
+        ];
+        assert!(x > 50.0 && (x / y - 1.0).abs() < 0.02, "{x} {y}");
+    };
+    data.take(2).for_each(extent);
+}
+
+#[test]
 fn the_normal_law_and_its_inverse_equal_those_of_the_library() {
     let shell = Shell::new("normal");
     let input = NormalInput::Approach;
@@ -425,7 +506,7 @@ fn a_swinging_load_changes_the_energy_of_a_loop() {
 fn the_command_in_a_result_repeats_it() {
     let shell = Shell::new("repeat");
     shell.write("path's.csv", "0.5\n-1\n2");
-    shell.write("two.csv", "u,N\n5e-7,1e-3\n-2e-7,3e-4\n4e-7,0\n");
+    shell.write("two.csv", "u,N,v\n5e-7,1e-3,1e-7\n-2e-7,3e-4,2e-7\n4e-7,0,0\n");
     for example in ["example", "example --elliptic"] {
         shell.write("contact.toml", shell.stdout(&format!("microslip {example}")));
         for command in [
@@ -444,6 +525,9 @@ fn the_command_in_a_result_repeats_it() {
             "history contact.toml --relative --displacements path\\'s.csv --column 1",
             "history contact.toml --displacements two.csv --column 1 --normal-force-column N",
             "history contact.toml --displacements two.csv --column u --approach-column 2 --relative",
+            "history contact.toml --displacements two.csv --column u --column-y v --normal-force-column N",
+            "history contact.toml --displacements two.csv --column u --column-y v --approach-column N --relative",
+            "history contact.toml --displacements two.csv --column u --column-y 2",
             "normal contact.toml --points 5",
             "normal contact.toml --force 7",
             "loop contact.toml --points 4 --normal-amplitude 30% --phase 0,-45 --relative --amplitude 0.7",
@@ -601,6 +685,30 @@ fn errors_in_files_name_file_and_line() {
         (b"displacement,normal_force [kN]\n0,1\n", "", "line 1: column normal_force is in kN, not in N"),
         (b"u,N\n0,1\n", "--column u --approach-column u", "line 1: --column and --approach-column select the same"),
         (b"u,N\n0,1\n", "--column u --normal-force-column P", "line 1: no column P; the columns are u, N"),
+        (b"u,v\n0,1\n", "--column u --column-y w", "line 1: no column w; the columns are u, v"),
+        (b"u,v\n0,1\n", "--column u --column-y 1", "line 1: --column and --column-y select the same column"),
+        (
+            b"u,v,N\n0,1,2\n",
+            "--column u --column-y v --normal-force-column v",
+            "line 1: --column-y and --normal-force-column select the same column",
+        ),
+        (b"displacement,displacement_y [mm]\n0,1\n", "", "line 1: column displacement_y is in mm, not in m"),
+        (b"displacement,displacement_y\n0,0\n0,inf\n", "", "line 3, column displacement_y: inf: a displacement must"),
+        (
+            b"displacement_y,displacement,normal_force\n0,nan,1\n",
+            "",
+            "line 2, column displacement: NaN: a displacement must",
+        ),
+        (
+            b"displacement_x,displacement_y,normal_force\n0,0,1\n0,1,-2\n",
+            "",
+            "line 3, column normal_force: -2: normal_force must be",
+        ),
+        (
+            b"displacement_x,displacement_y,approach\n0,0,1\n",
+            "",
+            "line 2, column approach: 1: length too small for the half-width",
+        ),
     ] {
         shell.write("table.csv", table);
         let text = format!("table.csv: {text}");
@@ -657,7 +765,15 @@ fn every_command_draws() {
     shell.write("spiral2.csv", format!("displacement,normal_force\n{two}"));
     draw("history flat.toml --displacements varying.csv", "varying.svg");
     draw("history flat.toml --displacements spiral2.csv", "forces.svg");
+    let turn = |i: i32| f64::from(i).to_radians();
+    let ellipse = (0..720).map(|i| format!("{},{},{}\n", turn(i).cos(), 0.1 * turn(i).sin(), turn(i + 40).sin() + 0.8));
+    shell.write("orbit.csv", format!("displacement_x,displacement_y,approach\n{}", ellipse.collect::<String>()));
+    shell.write("line.csv", "displacement_x,displacement_y\n1,0\n-1,0\n");
+    shell.write("point.csv", "displacement_x,displacement_y\n0,0\n");
     for given in ["flat.toml", "flat.toml --flat-half-width 0 --friction-coefficient 0", "$ELLIPSE"] {
+        for (table, picture) in [("orbit.csv", "orbit.svg"), ("line.csv", "line.svg"), ("point.csv", "point.png")] {
+            draw(&format!("history {given} --displacements {table} --relative"), picture);
+        }
         draw(&format!("normal {given}"), "normal.svg");
         draw(&format!("loop {given} --normal-amplitude 130% --phase 0,90 --amplitude 1e-6"), "swinging.svg");
     }
@@ -717,7 +833,7 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
 fn help_has_units_columns_and_an_example_for_each_command() {
     let shell = Shell::new("help");
     shell.write("contact.toml", shell.stdout("microslip example"));
-    shell.write("measured.csv", "t,u,N\n0,1e-6,300\n1,-1e-6,500\n");
+    shell.write("measured.csv", "t,u,v,N\n0,1e-6,2e-7,300\n1,-1e-6,4e-7,500\n");
     let general = shell.stdout("microslip --help");
     for text in ["m, N, Pa, N/m, J", "mm, N, MPa, N/mm, mJ", "Exit status:", "microslip example > contact.toml"] {
         assert!(general.contains(text), "{text}");

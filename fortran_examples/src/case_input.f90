@@ -1,7 +1,8 @@
 !> A case: a file of namelist groups (cases/README.md), and the harmonic balance that it describes.
 module case_input
   use basics, only: fail, name_length, path_length, pi, text, wp
-  use friction_contacts, only: add_incidence, contact_input, law_element, law_microslip, law_slider
+  use friction_contacts, only: add_incidence, contact_input, law_element, law_microslip, law_slider, with_friction, with_spring, &
+    without_force
   use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
   use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP
@@ -174,16 +175,18 @@ contains
 
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
-      character(len=name_length) :: name, law, displacement_reference
-      integer :: dof(4), count
+      character(len=name_length) :: name, law, second_direction, displacement_reference
+      integer :: dof(6), count
       logical :: load_varied
+      integer :: m
       real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
       type(contact_input) :: c
-      namelist /contact/ name, law, dof, angle, interference, count, load_varied, flat_half_width, edge_radius, length, &
-        normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference
+      namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, flat_half_width, &
+        edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference
 
       law = ' '
+      second_direction = with_friction
       displacement_reference = 'centre point'
       count = 1
       load_varied = .true.
@@ -211,15 +214,21 @@ contains
         if (dof(3) == -1) then
           call check_dof(dof(:2), 0)
           call require(dof(1) /= dof(2), 'dof must be two different degrees of freedom; 0 is the ground')
-          call require(law /= law_element .and. abs(interference) <= 0.0_wp, 'an element has four degrees of freedom')
+          call require(law /= law_element .and. abs(interference) <= 0.0_wp, 'an element has four or six degrees of freedom')
         else
-          call check_dof(dof, 0)
-          call require(any(dof(:2) /= dof(3:)), 'the two bodies must not be the same')
+          m = merge(2, 3, dof(5) == -1)
+          call check_dof(dof(:2*m), 0)
+          call require(any(dof(:m) /= dof(m+1:2*m)), 'the two bodies must not be the same')
         end if
+        call require(any(second_direction == [character(len=name_length) :: with_friction, with_spring, without_force]), &
+                     'second_direction must be "'//with_friction//'", "'//with_spring//'" or "'//without_force//'"')
+        call require(dof(5) == -1 .or. law == law_element .or. second_direction /= with_friction, &
+                     'only an element has friction in a second direction')
         call require(count > 0, 'count must be 1 or more')
         c%name = name
         c%law = law
         c%dof = dof
+        c%second_direction = second_direction
         c%angle = angle
         c%interference = interference
         c%count = count

@@ -78,7 +78,9 @@ contains
     header = response_header()
     responses = open_table(prefix//'_response.csv', header)
     peaks = open_table(prefix//'_peaks.csv', header)
-    loops = open_table(prefix//'_loops.csv', 'load,contact,phase_rad,displacement_m,force_N,slip_part_m,approach_m,normal_force_N')
+    loops = open_table(prefix//'_loops.csv', &
+      'load,contact,phase_rad,displacement_m,force_N,slip_part_m,approach_m,normal_force_N,'// &
+      'displacement_y_m,force_y_N')
     points = 0
     iterations = 0
     contact_seconds = 0.0_wp
@@ -181,7 +183,7 @@ contains
     real(wp), intent(in) :: displacement(:,:)
     type(contact_history) :: history
     real(wp), dimension(loop_points, size(displacement, 2)) :: u, force
-    real(wp) :: basis(loop_points, size(displacement, 1)), f, normal(2)
+    real(wp) :: basis(loop_points, size(displacement, 1)), f, normal(2), second(2)
     integer :: contact, i, j
 
     basis = series_basis(data%harmonics, loop_points)
@@ -194,9 +196,11 @@ contains
           j = modulo(i, loop_points) + 1
           f = force(j, first) / items
           normal = ieee_value(f, ieee_quiet_nan)
+          second = normal
           if (last > first) normal = [u(j, last), force(j, last) / items]
+          if (last > first + 1) second = [u(j, first + 1), force(j, first + 1) / items]
           write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
-            csv([2.0_wp * pi * i / loop_points, u(j, first), f, u(j, first) - f / max(sticking, tiny(f)), normal])
+            csv([2.0_wp * pi * i / loop_points, u(j, first), f, u(j, first) - f / max(sticking, tiny(f)), normal, second])
         end do
       end associate
     end do

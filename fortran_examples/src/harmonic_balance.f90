@@ -19,7 +19,7 @@ module harmonic_balance
   use basics, only: wp
   use dense_algebra, only: solve
   use fourier_series, only: get_harmonic, set_harmonic
-  use friction_contacts, only: contact_set
+  use friction_contacts, only: contact_set, max_components
   use linear_structure, only: structure
   implicit none
   private
@@ -66,11 +66,11 @@ contains
     complex(wp) :: solution(size(problem%incidence, 1), size(problem%incidence, 2) + 1)
     complex(wp), dimension(size(problem%incidence, 2), size(problem%incidence, 2) + 1) :: seen, seen_rate
     complex(wp) :: residual, residual_rate, force
-    real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), 2, size(displacement, 2))
+    real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), max_components, size(displacement, 2))
     real(wp) :: rows(2, size(displacement, 1))
     integer(int64) :: start, finish, rate_of_clock
     logical :: allowed
-    integer :: n, components, m, k, i, j, c, row, column
+    integer :: n, components, m, k, i, j, c, p, row, column
 
     n = size(problem%incidence, 1)
     components = size(problem%incidence, 2)
@@ -132,8 +132,9 @@ contains
             associate (first => problem%contacts%first(c), last => problem%contacts%last(c))
               do j = first, last
                 rows = 0.0_wp
-                call add_compliance(seen(i, first), k, contact_jacobian(:, :, 1, j), rows)
-                if (last > first) call add_compliance(seen(i, last), k, contact_jacobian(:, :, 2, j), rows)
+                do p = first, last
+                  call add_compliance(seen(i, p), k, contact_jacobian(:, :, p - first + 1, j), rows)
+                end do
                 if (k == 0) rows(1, 1) = rows(1, 1) - real(seen(i, j)) * springs(j)
                 column = (j - 1) * m
                 point%jacobian(row:row + min(k, 1), column + 1:column + m) = rows(:1 + min(k, 1), :)
@@ -245,7 +246,8 @@ contains
   end subroutine solve_at
 
   !> Without a neighbouring solution: from the static equilibrium, if there is a load, the excitation grows in steps that shrink
-  !> if Newton's method fails. Newton's method for the equilibrium starts with the springs in place of the contacts.
+  !> if Newton's method fails. Newton's method for the equilibrium starts with the springs in place of the contacts; if that fails,
+  !> without tangential displacements.
   subroutine solve_from_rest(problem, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega
@@ -261,8 +263,15 @@ contains
     if (any(abs(problem%static_load) > 0.0_wp) .or. any(abs(problem%contacts%offset) > 0.0_wp)) then
       problem%excitation = 0.0_wp
       call evaluate(problem, omega, displacement, point)
-      displacement(1, :) = -point%residual(1, :)
+      trial = displacement
+      trial(1, :) = -point%residual(1, :)
+      displacement = trial
       call solve_at(problem, omega, displacement, point, converged)
+      if (.not. converged) then
+        displacement = 0.0_wp
+        where (problem%contacts%normal_stiffness > 0.0_wp) displacement(1, :) = trial(1, :)
+        call solve_at(problem, omega, displacement, point, converged)
+      end if
       problem%excitation = full
       if (.not. converged) return
     end if

@@ -121,8 +121,8 @@ end module newmark
 !> the balance with the most harmonics, so that the transient is small, and is integrated until it is periodic. Written to
 !> DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every load factor, frequency and number of harmonics;
-!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact; approach and
-!>   normal force too if it has two components, otherwise NaN.
+!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact; those in the normal
+!>   and in the second tangential direction are NaN if it has no such component.
 !>
 !> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
 !> allowed_difference of the group.
@@ -158,7 +158,7 @@ program time_integration
     'normal_force_difference,periods,steps_per_period,change_per_period,remaining_transient')
   waveforms = open_table(prefix//'_waveforms.csv', &
     'load_factor,excitation_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,'// &
-    'contact_approach_m,contact_force_N,contact_normal_force_N')
+    'contact_approach_m,contact_force_N,contact_normal_force_N,contact_displacement_y_m,contact_force_y_N')
   do k = 1, size(data%integrations)
     do i = 1, size(data%integrations(k)%frequencies)
       call compare_at(data%integrations(k), data%integrations(k)%frequencies(i))
@@ -270,7 +270,7 @@ contains
     real(wp), allocatable :: displacement(:,:), response(:,:)
     integer, dimension(size(balances)) :: harmonics, samples
     real(wp) :: peak(size(balances)), change, remaining, integrated_peak, difference(5)
-    integer :: k, most, periods
+    integer :: j, k, most, periods
 
     harmonics = [data%harmonics, input%harmonics]
     samples = [data%samples, input%samples]
@@ -292,7 +292,8 @@ contains
                     relative_difference(balances(k)%force(:, 1), integrated%force(:, 1)), &
                     ieee_value(1.0_wp, ieee_quiet_nan)]
       associate (force => balances(k)%force, reference => integrated%force)
-        if (size(force, 2) == 2) difference(5) = relative_difference(force(:, 2), reference(:, 2))
+        j = size(force, 2)
+        if (j > 1) difference(5) = relative_difference(force(:, j), reference(:, j))
       end associate
       write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
         text(harmonics(k))//','// &
@@ -355,14 +356,16 @@ contains
     character(len=*), intent(in) :: source
     integer, intent(in) :: harmonics, points
     type(waveform), intent(in) :: waves
-    real(wp) :: contact(4)
-    integer :: j, k
+    real(wp) :: contact(6)
+    integer :: j, k, m
 
     contact = ieee_value(1.0_wp, ieee_quiet_nan)
+    m = size(waves%force, 2)
     do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
       k = modulo(j, input%steps_per_period) + 1
-      contact(:size(waves%force, 2)) = waves%displacement(k, :)
-      contact(3:2 + size(waves%force, 2)) = waves%force(k, :)
+      contact([1, 3]) = [waves%displacement(k, 1), waves%force(k, 1)]
+      if (m > 1) contact([2, 4]) = [waves%displacement(k, m), waves%force(k, m)]
+      if (m > 2) contact(5:) = [waves%displacement(k, 2), waves%force(k, 2)]
       write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
         source//','//text(harmonics)//','//text(points)// &
         csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), contact])

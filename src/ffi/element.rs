@@ -56,9 +56,9 @@ unsafe fn initialise<P>(
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
-/// force for which the element is tabulated; larger ones are exact, but slower. directions is the number of tangential directions,
-/// 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\]. normal_input is MSLIP_APPROACH, w is the
-/// normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
+/// force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
+/// is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
+/// normal_input is MSLIP_APPROACH, w is the normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -77,8 +77,8 @@ pub unsafe extern "C" fn mslip_element_init(
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
-/// 0, is the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower.
-/// directions and normal_input are those of mslip_element_init.
+/// 0, is the force of the semi-axes and the largest one for which the element is tabulated; larger ones are exact, but slower,
+/// and with two directions less accurate. directions and normal_input are those of mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 /// MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -208,7 +208,8 @@ unsafe fn normal_law(
 
 /// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 /// of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
-/// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
+/// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored; as long as v
+/// does not change, the state is a memory diagram of that length.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
     match directions_of(directions) {
@@ -258,7 +259,8 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
-/// separation. For two directions, whose state merges no pieces, it is the bound that the law itself gives.
+/// separation. For two directions it is that bound as long as v has not changed since the contact closed, and 0 otherwise: pieces are
+/// merged only there. The error of the law for two directions is not included.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.

@@ -176,7 +176,8 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 ///
 /// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
 /// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
-/// second one counts.
+/// second one counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to another sample, and
+/// the mean tangential force may depend on the start.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

@@ -38,7 +38,7 @@ macro_rules! tables {
 pub fn table(name: &str) -> Vec<Row> {
     let text: &'static str = tables!(name,
         "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "monotonic" "monotonic_inverse"
-        "normal_law" "slip" "strip_3d" "tractions" "varying_load");
+        "normal_law" "slip" "strip_3d" "tractions" "two_directions" "varying_load");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').map(str::trim).collect();
     let row = |line: &'static str| {

@@ -1,7 +1,9 @@
 #!/bin/sh
-# draw.sh [GNUPLOT]: draws the picture of docs/validation.md from its data. The version of gnuplot is not written into it.
+# draw.sh [GNUPLOT]: draws the pictures of docs/validation.md from their data. The version of gnuplot is not written into them.
 set -eu
 cd "$(dirname "$0")"
-picture=../../docs/figures/contact_code.svg
-"${1:-gnuplot}" -e "docs = '../../docs/figures'" plots/contact_code.gp | sed '/^<desc>/d' > "$picture.new"
-mv "$picture.new" "$picture"
+for name in contact_code two_directions; do
+    picture=../../docs/figures/$name.svg
+    "${1:-gnuplot}" -e "docs = '../../docs/figures'" "plots/$name.gp" | sed '/^<desc>/d' > "$picture.new"
+    mv "$picture.new" "$picture"
+done

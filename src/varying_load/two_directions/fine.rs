@@ -129,7 +129,8 @@ impl Share {
     /// For the distance S_b - S_j.
     #[inline(always)]
     pub fn of(&self, k: usize, limit: f64) -> f64 {
-        let share = limit * self.per_rise[k];
+        // Negative for springs outside, of which some have a shift near the largest double.
+        let share = limit.max(0.0) * self.per_rise[k];
         if self.per_rise[k] > 0.0 && share < 1.0 { share } else { 1.0 }
     }
 }

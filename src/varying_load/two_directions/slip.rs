@@ -25,6 +25,8 @@ const STEPS: usize = 20;
 const ROUNDS: usize = 8;
 /// The angle between σ and its required direction at which the iteration ends: a rounding error, amplified by the condition of S.
 const CONVERGED: f64 = 1e-11;
+/// The slip, relative to the terms whose difference it is, below which only that difference converges.
+const ROUNDING: f64 = 1e-3;
 /// A turn whose square is below that: the next iterate has converged.
 const SMALL_TURN: f64 = 1e-6;
 /// The largest change of an angle.
@@ -271,10 +273,9 @@ impl Slip {
                     continue;
                 }
                 let rows = [&self.inverse[0][i], &self.inverse[1][i]];
-                let sigma = [
-                    constant[0][i] - span.dot(rows[0], &q[0]),
-                    constant[1][i] - span.dot(rows[1], &q[1]),
-                ];
+                let free = [constant[0][i], constant[1][i]];
+                let held = [span.dot(rows[0], &q[0]), span.dot(rows[1], &q[1])];
+                let sigma = [free[0] - held[0], free[1] - held[1]];
                 (self.sigma[0][i], self.sigma[1][i]) = (sigma[0], sigma[1]);
                 if finishes && !factored {
                     continue;
@@ -282,7 +283,9 @@ impl Slip {
                 let direction = Direction::new(&self.e[i], &[start[0][i], start[1][i]], overshoot[i]);
                 let n = direction.vector;
                 residual[i] = -cross(&sigma, &n);
-                let lengths = product(&sigma, &sigma) * product(&n, &n);
+                // A slip that is a difference of rounding errors has no direction.
+                let rounding = ROUNDING * ROUNDING * (product(&free, &free) + product(&held, &held));
+                let lengths = product(&sigma, &sigma).max(rounding) * product(&n, &n);
                 largest = largest.max(residual[i] * residual[i] / lengths.max(TINY));
                 let row = &mut self.factors[i];
                 for j in 0..SPRINGS {

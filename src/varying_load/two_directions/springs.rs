@@ -110,6 +110,10 @@ impl Springs {
             self.fine_load.iter_mut().zip(x).zip(y).enumerate()
         } {
             let size = w * node(k);
+            // The size 0 stays at 0: the length over it may overflow.
+            if k == 0 {
+                continue;
+            }
             if size < largest {
                 *load = shape.load(size) / load_unit;
                 *shift_x = shift_of(0, size) / shift_unit;

@@ -29,6 +29,9 @@ impl Memory {
     };
 }
 
+/// Excess of the square of a traction over that of its limit by which a state that has slipped may round: it sticks.
+const ROUNDING: f64 = 1e-14;
+
 /// A step, straight in S and in the displacement.
 pub(crate) struct Motion {
     pub before: Pressed,
@@ -123,7 +126,7 @@ pub(crate) fn step(
     };
     for i in 0..SPRINGS {
         let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        sticks &= x * x + y * y <= p * p || i > last;
+        sticks &= x * x + y * y <= p * p * (1.0 + ROUNDING) || i > last;
     }
     let mut dissipated = 0.0;
     let mut end = trial;
@@ -278,11 +281,13 @@ fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Motion, last: Opt
         if stays || j >= springs.used || springs.shift[0][j] >= before.shift[0] {
             continue;
         }
+        let mut of_spring = 0.0;
         for k in 0..2 {
-            let part = (before.shift[k] - springs.shift[k][j]) / (before.shift[k] - now.shift[k]).max(TINY);
+            let part = (before.shift[k] - springs.shift[k][j]).max(0.0) / (before.shift[k] - now.shift[k]).max(TINY);
             let weight = springs.root[k][j] * springs.root[k][j];
-            energy += (0.5 * weight * old[k][j] * (old[k][j] + part * by[k])).max(0.0);
+            of_spring += 0.5 * weight * old[k][j] * (old[k][j] + part * by[k]);
         }
+        energy += of_spring.max(0.0);
     }
     energy
 }

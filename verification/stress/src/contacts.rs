@@ -12,15 +12,15 @@ const TITANIUM: Material = Material { young_modulus: 1.14e11, poisson_ratio: 0.3
 const STIFF: Material = Material { young_modulus: 6e11, poisson_ratio: 0.0 };
 
 /// A flat by its ratios: 1 - a/b, which is 1 for a cylinder, and L/b.
-struct Shape {
-    rounded: f64,
-    length: f64,
-    material: [Material; 2],
-    reference: i32,
+pub struct Shape {
+    pub rounded: f64,
+    pub length: f64,
+    pub material: [Material; 2],
+    pub reference: i32,
 }
 
 /// Parameters for a half-width of about 0.2 mm, in units of 2^length metres and 2^force newtons.
-fn flat(shape: &Shape, length: i32, force: i32) -> Input {
+pub fn flat(shape: &Shape, length: i32, force: i32) -> Input {
     let (metre, newton) = (2f64.powi(length), 2f64.powi(force));
     let half_width = 2e-4 * metre;
     // w² = b² - a² as a product, free of cancellation.
@@ -44,7 +44,8 @@ fn flat(shape: &Shape, length: i32, force: i32) -> Input {
     })
 }
 
-fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> Input {
+/// Semi-axes in metres, of which there are `2^length`, and newtons of `2^force`.
+pub fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> Input {
     let (metre, newton) = (2f64.powi(length), 2f64.powi(force));
     let material =
         [STEEL, TITANIUM].map(|body| Material { young_modulus: body.young_modulus * newton / metre / metre, ..body });

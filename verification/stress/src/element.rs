@@ -2,6 +2,7 @@
 
 pub mod mindlin;
 pub mod springs;
+pub mod two_directions;
 
 use crate::library::{in_all_rounding_directions, trapped};
 use crate::{Outcome, ensure};
@@ -22,14 +23,19 @@ pub struct Element {
 }
 
 impl Element {
-    /// `None` if the contact is too wide for its length.
+    /// With one tangential direction; `None` if the contact is too wide for its length.
     pub fn new(input: &Input, by_force: bool) -> Option<Element> {
-        use microslip::varying_load::element::Element as Library;
         let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
-        let library = match input {
-            Input::Flat(parameters) => Library::rounded_flat(parameters, Directions::One, normal),
-            Input::Ellipse(parameters) => Library::elliptic(parameters, Directions::One, normal),
-        };
+        Element::with_directions(input, Directions::One, normal)
+    }
+
+    /// `None` if rejected.
+    pub fn with_directions(input: &Input, directions: Directions, normal: NormalInput) -> Option<Element> {
+        use microslip::varying_load::element::Element as Library;
+        let library = trapped(|| match input {
+            Input::Flat(parameters) => Library::rounded_flat(parameters, directions, normal),
+            Input::Ellipse(parameters) => Library::elliptic(parameters, directions, normal),
+        });
         library.ok().map(|library| Element { library, input: *input })
     }
 

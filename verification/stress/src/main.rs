@@ -131,6 +131,10 @@ fn varying_load<'a>(elements: &'a [(String, Element)], steps: &'a (dyn Fn(f64) -
             cases.push(Case::new(format!("element, springs: {name}"), element.input, springs));
         }
     }
+    for number in 0..16 {
+        let run = move |rng: &mut SmallRng| element::two_directions::histories(steps(1e5), rng);
+        cases.push(Case { name: format!("element, two directions: {number}"), run: Box::new(run) });
+    }
     cases.push(Case {
         name: "element: Mindlin and Deresiewicz".to_owned(),
         run: Box::new(|_| element::mindlin::compare()),

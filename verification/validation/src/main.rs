@@ -1,12 +1,14 @@
-//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row.
+//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row, and in two directions against boundary elements
+//! of our own.
 //!
-//! - `validation` writes `docs/figures/data/contact_code_*.csv` and the table of `docs/validation.md`;
+//! - `validation` writes `docs/figures/data/contact_code_*.csv`, `two_directions.csv` and the tables of `docs/validation.md`;
 //! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
 
 mod drive;
 mod histories;
 #[path = "../../paper/src/table.rs"]
 mod table;
+mod two_directions;
 
 use drive::{Point, SUBSTEPS};
 use histories::{History, Shape};
@@ -156,16 +158,26 @@ fn drawings(comparisons: &[Comparison]) -> Vec<Table> {
     ]
 }
 
-/// The page with a new table between its markers.
-fn with_table(page: &str, comparisons: &[Comparison]) -> Result<String, String> {
-    let (begin, end) = ("<!-- comparison: begin -->\n", "<!-- comparison: end -->");
-    let marked = page.split_once(begin).and_then(|(before, rest)| Some((before, rest.split_once(end)?.1)));
-    let (before, after) = marked.ok_or("docs/validation.md: no markers")?;
+/// The page with a new table between the markers of a name.
+fn with_table(page: &str, name: &str, table: &str) -> Result<String, String> {
+    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
+    let marked = page.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?.1)));
+    let (before, after) = marked.ok_or(format!("docs/validation.md: no markers of {name}"))?;
+    Ok(format!("{before}{begin}{table}{end}{after}"))
+}
+
+/// The page with new tables.
+fn with_tables(
+    page: &str,
+    comparisons: &[Comparison],
+    directions: &two_directions::Comparison,
+) -> Result<String, String> {
     let mut table = String::from(
         "| contact | path | rows | displacement | without the change of the load | dissipation |\n|---|---|---:|---:|---:|---:|\n",
     );
     comparisons.iter().for_each(|comparison| table.write_str(&comparison.row()).expect("a string"));
-    Ok(format!("{before}{begin}{table}{end}{after}"))
+    let page = with_table(page, "comparison", &table)?;
+    directions.tables().iter().try_fold(page, |page, (name, table)| with_table(&page, name, table))
 }
 
 fn main() -> ExitCode {
@@ -180,12 +192,14 @@ fn main() -> ExitCode {
     let comparisons: Vec<Comparison> = histories::all().into_iter().map(compare).collect();
     let mut results: Vec<Result<(), String>> = comparisons.iter().flat_map(Comparison::results).collect();
     let docs = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs"));
-    for table in drawings(&comparisons) {
+    let directions = two_directions::Comparison::new();
+    results.extend(directions.results());
+    for table in drawings(&comparisons).into_iter().chain([directions.drawings()]) {
         let path = docs.join("figures/data").join(table.name).with_extension("csv");
         results.push(if check { read(&path).and_then(|file| table.check(&file)) } else { write(&path, &table.csv()) });
     }
     let page = docs.join("validation.md");
-    results.push(read(&page).and_then(|old| match with_table(&old, &comparisons)? {
+    results.push(read(&page).and_then(|old| match with_tables(&old, &comparisons, &directions)? {
         new if !check => write(&page, &new),
         new if new == old => Ok(()),
         _ => Err("docs/validation.md is stale: run `make figures`".to_owned()),

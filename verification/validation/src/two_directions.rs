@@ -1,0 +1,286 @@
+//! The law for two tangential directions against Coulomb's law with vectors of traction and slip at 56 elements of a half-space
+//! line (`tests/golden/two_directions.csv`), against smaller steps, and with tables for a smaller load.
+
+use crate::table::Table;
+use microslip::Parameters;
+use microslip::varying_load::element::{Directions, Element, NormalInput};
+use microslip::varying_load::two_directions::{Step, advance, state_init, state_length};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// A path of the file.
+struct Path {
+    flat_half_width: f64,
+    name: &'static str,
+    parameters: Parameters,
+    rows: Vec<Row>,
+}
+
+struct Row {
+    /// u, v, N.
+    displacement: [f64; 3],
+    force: [f64; 2],
+    dissipated: f64,
+}
+
+/// Force and dissipated energy after a step.
+#[derive(Clone, Copy)]
+struct Point {
+    force: [f64; 2],
+    dissipated: f64,
+}
+
+impl From<Step> for Point {
+    fn from(Step { force: [x, y, _], dissipated, .. }: Step) -> Point {
+        Point { force: [x, y], dissipated }
+    }
+}
+
+/// The errors of a path.
+struct Errors {
+    path: Path,
+    law: Vec<Point>,
+    /// Largest error of the force over the largest mu N, and error of the dissipated energy over its value.
+    of_law: [f64; 2],
+    /// The same for two elements at right angles, each moved in one direction.
+    of_two: [f64; 2],
+    two: Vec<Point>,
+}
+
+fn paths() -> Vec<Path> {
+    let mut paths: Vec<Path> = Vec::new();
+    for line in include_str!("../../../tests/golden/two_directions.csv").lines().skip(1) {
+        let cells: Vec<&'static str> = line.split(',').collect();
+        let name = cells[6];
+        let value = |column: usize| -> f64 { cells[column].parse().expect("a number") };
+        let flat_half_width = value(0);
+        let row =
+            Row { displacement: [value(9), value(10), value(8)], force: [value(11), value(12)], dissipated: value(13) };
+        match paths.last_mut() {
+            Some(path) if path.name == name && path.flat_half_width == flat_half_width => path.rows.push(row),
+            _ => {
+                let mut parameters = Parameters {
+                    flat_half_width,
+                    edge_radius: value(1),
+                    length: value(2),
+                    normal_force: row.displacement[2],
+                    friction_coefficient: value(5),
+                    ..Parameters::default()
+                };
+                for body in &mut parameters.material {
+                    (body.young_modulus, body.poisson_ratio) = (value(3), value(4));
+                }
+                paths.push(Path { flat_half_width, name, parameters, rows: vec![row] });
+            }
+        }
+    }
+    for path in &mut paths {
+        path.parameters.normal_force = path.rows.iter().map(|row| row.displacement[2]).fold(0.0, f64::max);
+    }
+    paths
+}
+
+/// The law along displacements; pressed at the first one without tangential force.
+fn drive(element: &Element, path: impl Iterator<Item = [f64; 3]>) -> Vec<Point> {
+    let mut state = vec![0.0; state_length()];
+    state_init(&mut state).expect("a state");
+    let mut to = |displacement: [f64; 3]| advance(element, &mut state, displacement).expect("a step");
+    let mut path = path.peekable();
+    if let Some([u, v, _]) = path.peek() {
+        to([*u, *v, 0.0]);
+    }
+    path.map(|displacement| Point::from(to(displacement))).collect()
+}
+
+fn element(parameters: &Parameters) -> Element {
+    Element::rounded_flat(parameters, Directions::Two, NormalInput::Force).expect("an element")
+}
+
+/// Largest distance of the forces over a force; dissipated energy over that of the others, less 1.
+fn difference(points: &[Point], others: &[Point], force: f64) -> [f64; 2] {
+    let distance = |(a, b): (&Point, &Point)| (a.force[0] - b.force[0]).hypot(a.force[1] - b.force[1]) / force;
+    let energy = |points: &[Point]| points.iter().map(|point| point.dissipated).sum::<f64>();
+    [points.iter().zip(others).map(distance).fold(0.0, f64::max), energy(points) / energy(others) - 1.0]
+}
+
+fn compare(path: Path) -> Errors {
+    let element = element(&path.parameters);
+    let along = |factors: [f64; 2]| {
+        let rows = path.rows.iter().map(|row| row.displacement);
+        drive(&element, rows.map(move |[u, v, load]| [factors[0] * u, factors[1] * v, load]))
+    };
+    let (law, across, lengthwise) = (along([1.0, 1.0]), along([1.0, 0.0]), along([0.0, 1.0]));
+    let sum = |(x, y): (&Point, &Point)| Point {
+        force: [x.force[0] + y.force[0], x.force[1] + y.force[1]],
+        dissipated: x.dissipated + y.dissipated,
+    };
+    let two: Vec<Point> = across.iter().zip(&lengthwise).map(sum).collect();
+    let solved: Vec<Point> =
+        path.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated }).collect();
+    let slip_force = path.parameters.friction_coefficient * path.parameters.normal_force;
+    let [of_law, of_two] = [&law, &two].map(|points| difference(points, &solved, slip_force));
+    Errors { of_law, of_two, law, two, path }
+}
+
+impl Errors {
+    fn is(&self, flat_half_width: f64, name: &str) -> bool {
+        self.path.flat_half_width == flat_half_width && self.path.name == name
+    }
+
+    fn row(&self) -> String {
+        let shape = if self.path.flat_half_width > 0.0 { "flat" } else { "cylinder" };
+        let name = match self.path.name {
+            "circle0.4_loadvaries" => "circle 0.4, N from 0.4 to 1".to_owned(),
+            "circle0.4_nearseparation" => "circle 0.4, N from 0.04 to 1".to_owned(),
+            "ellipse2to1" => "ellipse 2:1".to_owned(),
+            "eight" => "figure of eight".to_owned(),
+            "Lpath" => "L".to_owned(),
+            "walk" => "random, coarse steps".to_owned(),
+            "collinear45" => "line at 45°".to_owned(),
+            circle => circle.replace("circle", "circle "),
+        };
+        let [of_law, of_two] = [self.of_law, self.of_two].map(|[force, energy]| [percent(force), signed(energy)]);
+        format!("| {shape} | {name} | {} | {} | {} | {} |\n", of_law[0], of_law[1], of_two[0], of_two[1])
+    }
+}
+
+/// Two significant digits are enough for an error.
+fn percent(value: f64) -> String {
+    let percent = 100.0 * value;
+    if percent < 2.0 { format!("{percent:.2}") } else { format!("{percent:.0}") }
+}
+
+fn signed(value: f64) -> String {
+    let percent = 100.0 * value;
+    let digits = usize::from(percent.abs() < 9.95);
+    // No sign of what is rounded to zero.
+    if percent.abs() < 0.05 { "0".to_owned() } else { format!("{percent:+.digits$}") }
+}
+
+/// A circle of an amplitude in units of the displacement of gross slip across the line, under a constant load, entered along x.
+fn circle(element: &Element, load: f64, amplitude: f64, steps: u32) -> Vec<Point> {
+    let radius = amplitude * element.friction_coefficient * element.shift_under(load);
+    let entry = (0..=steps / 4).map(move |i| [radius * f64::from(4 * i) / f64::from(steps), 0.0, load]);
+    let orbit = (1..=steps).map(move |i| {
+        let (sin, cos) = (TAU * f64::from(i) / f64::from(steps)).sin_cos();
+        [radius * cos, radius * sin, load]
+    });
+    let points = drive(element, entry.chain(orbit));
+    let orbit = &points[points.len() - steps as usize..];
+    let sum = |points: &[Point]| Point {
+        force: points[points.len() - 1].force,
+        dissipated: points.iter().map(|point| point.dissipated).sum(),
+    };
+    orbit.chunks(steps as usize / INSTANTS).map(sum).collect()
+}
+
+/// Forces of orbits are compared at these instants.
+const INSTANTS: usize = 12;
+const AMPLITUDES: [f64; 4] = [0.3, 0.6, 0.9, 1.3];
+const STEPS: [u32; 4] = [12, 24, 48, 96];
+/// The error of so many steps is a hundredth of that of the most in the table.
+const CONVERGED: u32 = 960;
+/// Loads over that of the parameters.
+const LOADS: [f64; 8] = [0.01, 0.1, 0.3, 0.7, 1.05, 1.5, 3.0, 6.0];
+const STEPS_UNDER_LOADS: u32 = 48;
+
+/// Cylinder and flat of the file.
+fn shapes() -> Vec<Parameters> {
+    paths().into_iter().filter(|path| path.name == "circle0.3").map(|path| path.parameters).collect()
+}
+
+/// The worst of both shapes for each amplitude: a cell for each.
+fn cells(errors: impl Fn(&Parameters, f64) -> [f64; 2]) -> String {
+    let mut cells = String::new();
+    for amplitude in AMPLITUDES {
+        let worst = shapes().iter().map(|shape| errors(shape, amplitude)).fold([0.0; 2], |worst, [force, energy]| {
+            [f64::max(worst[0], force), if energy.abs() > f64::abs(worst[1]) { energy } else { worst[1] }]
+        });
+        write!(cells, " {}, {} |", percent(worst[0]), signed(worst[1])).expect("a string");
+    }
+    cells + "\n"
+}
+
+/// Errors of steps per orbit.
+fn steps_row(steps: u32) -> String {
+    let errors = |shape: &Parameters, amplitude: f64| {
+        let element = element(shape);
+        let of = |steps: u32| circle(&element, element.normal_force, amplitude, steps);
+        difference(&of(steps), &of(CONVERGED), element.friction_coefficient * element.normal_force)
+    };
+    format!("| {steps} |") + &cells(errors)
+}
+
+/// Errors under a load other than that of the parameters, against the element of that load.
+fn loads_row(factor: f64) -> String {
+    let errors = |shape: &Parameters, amplitude: f64| {
+        let load = factor * shape.normal_force;
+        let own = Parameters { normal_force: load, ..*shape };
+        let of = |parameters: &Parameters| circle(&element(parameters), load, amplitude, STEPS_UNDER_LOADS);
+        difference(&of(shape), &of(&own), shape.friction_coefficient * load)
+    };
+    format!("| {factor} |") + &cells(errors)
+}
+
+/// Bounds on the errors of force and energy.
+const FORCE: f64 = 0.012;
+const ENERGY: f64 = 0.05;
+
+/// The comparison with the file.
+pub struct Comparison(Vec<Errors>);
+
+impl Comparison {
+    pub fn new() -> Comparison {
+        Comparison(paths().into_iter().map(compare).collect())
+    }
+
+    /// The checks, a message for each that fails.
+    pub fn results(&self) -> Vec<Result<(), String>> {
+        let check = |errors: &Errors| {
+            let Errors { path, of_law: [force, energy], of_two: [_, energy_of_two], .. } = errors;
+            // Otherwise the comparison could not distinguish the law from two elements.
+            let holds = *force <= FORCE && energy.abs() <= ENERGY && energy_of_two.abs() > 3.0 * ENERGY;
+            let (shape, name) = (path.flat_half_width, path.name);
+            if holds { Ok(()) } else { Err(format!("{name}, a = {shape}: errors {force:.1e}, {energy:.1e}")) }
+        };
+        self.0.iter().map(check).collect()
+    }
+
+    /// The tables of `docs/validation.md`, with the names of their markers.
+    pub fn tables(&self) -> [(&'static str, String); 3] {
+        let mut paths = String::from(
+            "| contact | path | force | energy | two elements: force | energy |\n|---|---|---:|---:|---:|---:|\n",
+        );
+        self.0.iter().for_each(|errors| paths += &errors.row());
+        let amplitudes = AMPLITUDES.map(|amplitude| format!(" circle {amplitude} |")).concat();
+        let head = |first: &str| format!("| {first} |{amplitudes}\n|---:|{}\n", "---:|".repeat(AMPLITUDES.len()));
+        let steps = head("steps") + &STEPS.map(steps_row).concat();
+        let loads = head("load") + &LOADS.map(loads_row).concat();
+        [("paths in two directions", paths), ("steps in two directions", steps), ("loads in two directions", loads)]
+    }
+
+    /// The data of the figure: forces over mu N and energy over mu N times the displacement of gross slip, all at the largest load.
+    pub fn drawings(&self) -> Table {
+        let mut table = Table::new("two_directions");
+        for name in ["circle0.9", "circle0.4_nearseparation"] {
+            let errors = self.0.iter().find(|errors| errors.is(0.0, name)).expect("a path");
+            let element = element(&errors.path.parameters);
+            let slip_force = element.friction_coefficient * element.normal_force;
+            let slip_energy = slip_force * element.friction_coefficient * element.shift_under(element.normal_force);
+            let solved = errors.path.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated });
+            let solved: Vec<Point> = solved.collect();
+            for (by, points) in [("law", &errors.law), ("boundary elements", &solved), ("two elements", &errors.two)] {
+                let component = |k: usize| points.iter().map(|point| point.force[k] / slip_force).collect();
+                let mut sum = 0.0;
+                let energy = points.iter().map(|point| {
+                    sum += point.dissipated / slip_energy;
+                    sum
+                });
+                table = table
+                    .curve(&format!("{by} {name}"), component(0), component(1))
+                    .column(format!("energy of {by} {name}"), energy.collect());
+            }
+        }
+        table
+    }
+}
