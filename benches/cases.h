@@ -30,10 +30,11 @@ test_case case_of(double shape);
 
 /* A task adds entries for all amplitudes of a contact and measures them. A new one is a file and a line in main.c. */
 typedef void task(const test_case *c, const extent *x);
-task task_force, task_stiffness, task_harmonic, task_time_step, task_batch, task_element;
+task task_force, task_stiffness, task_harmonic, task_time_step, task_batch, task_element, task_two_directions;
 
-/* Name of a motion of task_element, or NULL. */
+/* Name of a motion of task_element or task_two_directions, or NULL. */
 const char *element_motion(int motion);
+const char *two_directions_motion(int motion);
 
 /* Coefficients [mean, cos 1, sin 1, ...] of a motion with half range `size`, whose maximum lies a third of a step from a
    sample for every power of two. */

@@ -21,6 +21,7 @@ static const extent quick = { .shapes = 2, .amplitudes = 1, .orders = 3, .shape 
 static const struct { const char *name; task *task; double shape; } tasks[] = {
     { "force", task_force, -1.0 }, { "stiffness", task_stiffness, -1.0 }, { "harmonic force", task_harmonic, -1.0 },
     { "time step", task_time_step, -1.0 }, { "element", task_element, -1.0 }, { "batch", task_batch, 0.3 }, /* for one shape only */
+    { "two directions", task_two_directions, 0.3 },
 };
 
 static FILE *open_file(const char *directory, const char *name, const char *mode)

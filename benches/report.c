@@ -348,6 +348,42 @@ static void write_stiffness_table(FILE *file)
     fprintf(file, "\nA table has %.1f kB.\n", 8e-3 * (double)mslip_stiffness_table_length());
 }
 
+static void write_two_directions_tables(FILE *file)
+{
+    fputs("\nA step of an element with two tangential directions, a/b = 0.3, of 64 in a period: mean over the second period, and the "
+          "slowest step.\nAmplitudes over the slip displacement of the mean load.\n\n"
+          "| motion | amplitude | force | slowest | with tangent | slowest |\n|---|---:|---:|---:|---:|---:|\n", file);
+    for (int motion = 0; two_directions_motion(motion); ++motion) {
+        double amplitude = -1.0, mean[2] = { -1.0, -1.0 }, slowest[2] = { -1.0, -1.0 };
+        for (const entry *e = entries; e < entries + entry_count; ++e) {
+            if (!strcmp(e->task, "two directions step") && e->parameter == motion) {
+                double *to = (strcmp(e->method, "microslip") ? slowest : mean) + e->jacobian;
+                *to = fmax(*to, e->median);
+                amplitude = e->amplitude;
+            }
+        }
+        if (amplitude >= 0.0) {
+            fprintf(file, "| %s | %g | %s | %s | %s | %s |\n", two_directions_motion(motion), amplitude, text_of(mean[0]),
+                    text_of(slowest[0]), text_of(mean[1]), text_of(slowest[1]));
+        }
+    }
+    fputs("\nHarmonic force and Jacobian of two tangential directions on the circle with varying load, 64 samples, and ratios to "
+          "spring-sliders in the plane:\n\n"
+          "| H | microslip | one spring-slider | 64 spring-sliders | over one | over 64 |\n|---:|---:|---:|---:|---:|---:|\n", file);
+    for (int h = 1; h <= 5; h += 4) {
+        double t[3] = { -1.0, -1.0, -1.0 };
+        for (const entry *e = entries; e < entries + entry_count; ++e) {
+            if (!strcmp(e->task, "two directions harmonic") && e->harmonics == h) {
+                t[!strcmp(e->method, "microslip") ? 0 : !strcmp(e->method, "spring-slider") ? 1 : 2] = e->median;
+            }
+        }
+        if (t[0] >= 0.0) {
+            fprintf(file, "| %d | %s | %s | %s | %.2f | %.2f |\n", h, text_of(t[0]), text_of(t[1]), text_of(t[2]), t[0] / t[1],
+                    t[0] / t[2]);
+        }
+    }
+}
+
 void write_tables(FILE *file, const char *machine)
 {
     char title[96];
@@ -372,4 +408,5 @@ void write_tables(FILE *file, const char *machine)
     write_step_tables(file);
     write_harmonic_table(file);
     write_element_table(file);
+    write_two_directions_tables(file);
 }
