@@ -80,8 +80,13 @@ static mslip_element elements_in_environment[CONTACT_KINDS][VARIANTS];
 static void init_elements(void)
 {
     for (int kind = 0; kind < CONTACT_KINDS; ++kind) {
-        const mslip_parameters p = parameters_of(kind);
         for (int variant = 0; variant < VARIANTS; ++variant) {
+            mslip_parameters p = parameters_of(kind);
+            if (kind == CONTACT_KINDS - 1 && directions_of(variant) == 2) {
+                /* Along the line the stiffness is positive for longer contacts only. */
+                p.length *= 3.0;
+                p.normal_force *= 3.0;
+            }
             mslip_element *element = &elements_in_environment[kind][variant];
             if (kind < KINDS) {
                 init_element(kind, variant, element);
@@ -196,6 +201,10 @@ static double tolerance(const function *f, int output, size_t factor)
     }
     if ((f->takes & IS_ELEMENT) && (f->takes & (TAKES_STATE | TAKES_WORKSPACE)) && output == 3) {
         return 1e-12; /* the energies are those of a little slip, far below mu N times the displacement */
+    }
+    if ((f->takes & IS_ELEMENT) && (f->takes & (TAKES_STATE | TAKES_WORKSPACE)) && directions_for(f) == 2) {
+        /* The direction of slip is iterated to 1e-11; the memory of two periods of small motions amplifies that by up to 100. */
+        return 1e-8;
     }
     return 1e-13; /* hundreds of roundings of one sign */
 }

@@ -1,6 +1,6 @@
 //! The shell at the edge of the contact, which ends at the present size, and the map from springs to tractions with it.
 
-use super::springs::{Both, Row, SPRINGS, Springs, dot, root_difference};
+use super::springs::{Both, LEAST_STIFFNESS, Row, SPRINGS, Springs, dot, root_difference};
 use crate::shape::TINY;
 
 /// Normal state in the units of the springs: N, S of both directions, w².
@@ -69,7 +69,7 @@ impl Edge {
             edge.step[k] = (now.shift[k] - springs.shift[k][last]).max(TINY);
             edge.secant[k] = (now.load - springs.load[last]) / edge.step[k];
             let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
-            edge.root[k] = (edge.secant[k] - before).max(TINY).sqrt();
+            edge.root[k] = (edge.secant[k] - before).max(LEAST_STIFFNESS * edge.secant[k]).max(TINY).sqrt();
         }
         if let Some((reach, pressure)) = cached {
             (edge.reach, edge.pressure) = (*reach, *pressure);

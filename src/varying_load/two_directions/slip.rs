@@ -15,7 +15,7 @@
 //! For slipping points `σ = S (B z* - q)` with S the inverse of `B B'` on them, so the angles of e_i are the only unknowns.
 
 use super::edge::Map;
-use super::springs::{Both, Row, SPRINGS, Span};
+use super::springs::{Both, Row, SPRINGS, Span, dot};
 use crate::shape::TINY;
 
 pub(crate) type Matrix = [Row; SPRINGS];
@@ -29,6 +29,8 @@ const CONVERGED: f64 = 1e-11;
 const ROUNDING: f64 = 1e-3;
 /// A turn whose square is below that: the next iterate has converged.
 const SMALL_TURN: f64 = 1e-6;
+/// Overshoot from which on the springs lose more than three digits to cancellation.
+const LONG_SLIP: f64 = 1e3;
 /// The largest change of an angle.
 const LARGEST_TURN: f64 = 0.8;
 
@@ -176,6 +178,17 @@ impl Slip {
             if self.slips[i] {
                 for k in 0..2 {
                     Span::new(i, map.last).add(&mut z[k], -self.sigma[k][i], &map.row(k, i));
+                }
+            }
+        }
+        // The springs of a long slip are small differences: found again from the tractions, from outside.
+        if problem.overshoot.iter().any(|over| *over > LONG_SLIP) {
+            for i in (0..SPRINGS).rev() {
+                if i <= map.last && self.slips[i] {
+                    for k in 0..2 {
+                        let rest = problem.pressure[i] * self.e[i][k] - dot(&map.row(k, i), &z[k]);
+                        z[k][i] += rest / map.diagonal(k, i);
+                    }
                 }
             }
         }

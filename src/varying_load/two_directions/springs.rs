@@ -34,6 +34,8 @@ const GRADING: f64 = 0.8;
 const POINT: f64 = 0.2;
 /// The smallest flat over w that has springs: widths of smaller ones would round to equal values.
 const SMALLEST_FLAT: f64 = 1e-9;
+/// The least stiffness of a spring, relative to that of all together: above the rounding errors of differences.
+pub(crate) const LEAST_STIFFNESS: f64 = 1e-12;
 /// A shift that no contact reaches.
 const NEVER: f64 = f64::MAX;
 
@@ -189,8 +191,8 @@ impl Springs {
             }
             let mut before = 0.0;
             for j in 0..self.used.min(SPRINGS) {
-                // Shells that no load reaches have no stiffness of their own.
-                let stiffness = (self.secant[k][j] - before).max(f64::MIN_POSITIVE);
+                // If all sizes have the same stiffness, the differences are rounding errors. Shells that no load reaches have none.
+                let stiffness = (self.secant[k][j] - before).max(LEAST_STIFFNESS * self.secant[k][j]).max(TINY);
                 before = self.secant[k][j];
                 self.root[k][j] = stiffness.sqrt();
                 self.per_root[k][j] = 1.0 / self.root[k][j];
