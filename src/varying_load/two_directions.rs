@@ -424,10 +424,12 @@ fn advance_springs(
     requested: Requested,
 ) -> (Step, Header) {
     let passage = Passage::new(element, from, displacement);
-    let old = *memory;
+    let old = requested.tangent.then(|| *memory);
     let mut course = Course::NONE;
     let mut step = passage.advance(element, memory, requested, &mut course);
-    if requested.tangent && passage.closed {
+    if let Some(old) = old
+        && passage.closed
+    {
         let old = if passage.was_closed { old } else { Memory::RELAXED };
         tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
     }

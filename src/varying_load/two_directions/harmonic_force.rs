@@ -282,9 +282,9 @@ pub(crate) fn harmonic_force(
             ([0.0, 0.0, normal.map_or(0.0, |normal| normal.load)], normal.map_or(0.0, |normal| normal.load_slope))
         } else {
             let passage = Passage::new(element, &from, to);
-            let old = if passage.was_closed { memory } else { Memory::RELAXED };
+            let old = requested.tangent.then(|| if passage.was_closed { memory } else { Memory::RELAXED });
             let result = passage.advance(element, &mut memory, requested, &mut course);
-            if requested.tangent {
+            if let Some(old) = old {
                 if !passage.closed || !passage.was_closed {
                     workspace.memory.fill(0.0);
                 }
