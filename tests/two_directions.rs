@@ -88,7 +88,7 @@ impl Random {
 #[test]
 fn tangents_are_derivatives() {
     let mut random = Random(1);
-    let elements = [
+    let elements = vec![
         flat(0.0, NormalInput::Force, Directions::Two),
         flat(2e-4, NormalInput::Force, Directions::Two),
         flat(3e-3, NormalInput::Approach, Directions::Two),
@@ -110,7 +110,7 @@ fn tangents_are_derivatives() {
             let next = if k % 10 < 2 { [next[0], at[1], next[2]] } else { next };
             let step = contact.trial(next);
             for column in 0..3 {
-                if column == 2 && next[2] <= 0.0 || next[2] == at[2] && column == 2 {
+                if column == 2 && (next[2] <= 0.0 || next[2] == at[2]) {
                     continue;
                 }
                 let h = if column < 2 { 1e-6 * unit } else { 1e-6 * full };

@@ -60,7 +60,7 @@ pub(super) mod two_directions {
             memory: &mut [f64],
             scratch: &mut [f64],
             force: Both<&mut [f64]> => ()
-        )
+        );
     }
 
     pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {

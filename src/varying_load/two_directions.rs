@@ -64,11 +64,14 @@ pub(crate) struct Requested {
     pub kernel: Kernel,
 }
 
+/// [`sensitivity::step`].
+pub(crate) type Differentiate = for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut [f64], &mut [f64], Both<&mut [f64]>);
+
 /// A step of springs and its derivatives, compiled for a kind of processor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernel {
     pub step: fn(&Springs, &mut Memory, &Motion, [bool; 2], &mut Course) -> step::Outcome,
-    pub differentiate: for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut [f64], &mut [f64], Both<&mut [f64]>),
+    pub differentiate: Differentiate,
 }
 
 impl Kernel {
@@ -424,7 +427,7 @@ fn advance_springs(
     requested: Requested,
 ) -> (Step, Header) {
     let passage = Passage::new(element, from, displacement);
-    let old = requested.tangent.then(|| *memory);
+    let old = requested.tangent.then_some(*memory);
     let mut course = Course::NONE;
     let mut step = passage.advance(element, memory, requested, &mut course);
     if let Some(old) = old

@@ -9,6 +9,7 @@
 //! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
 //! springs.
 
+use super::edge::PressedSlopes;
 use super::sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
 use super::step::{Course, Memory};
 use super::{Header, Kernel, Passage, Requested};
@@ -222,6 +223,7 @@ fn row_mut(matrix: &mut [f64], n: usize, r: usize) -> &mut [f64] {
 /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
 /// too wide for its length.
 #[inline(always)]
+#[expect(clippy::too_many_lines, reason = "one period, in its order")]
 pub(crate) fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
@@ -282,7 +284,7 @@ pub(crate) fn harmonic_force(
             ([0.0, 0.0, normal.map_or(0.0, |normal| normal.load)], normal.map_or(0.0, |normal| normal.load_slope))
         } else {
             let passage = Passage::new(element, &from, to);
-            let old = requested.tangent.then(|| if passage.was_closed { memory } else { Memory::RELAXED });
+            let old = requested.tangent.then_some(if passage.was_closed { memory } else { Memory::RELAXED });
             let result = passage.advance(element, &mut memory, requested, &mut course);
             if let Some(old) = old {
                 if !passage.closed || !passage.was_closed {
@@ -347,6 +349,7 @@ pub(crate) fn harmonic_force(
 
 /// Derivatives of the memory and of the force at the end of a step between samples; those of the force are rows 8 and 9 of the motion.
 #[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a step, its memories and what it is differentiated by")]
 fn differentiate(
     element: &Element,
     workspace: &mut Workspace,
@@ -364,7 +367,7 @@ fn differentiate(
     let before = if passage.was_closed && start.len() == n {
         element.pressed_slopes(&element.normal(from.input))
     } else {
-        Default::default()
+        PressedSlopes::default()
     };
     let rows = &mut *workspace.motion;
     rows.fill(0.0);
@@ -472,7 +475,7 @@ mod tests {
     const COEFFICIENTS: usize = 3 * (2 * H + 1);
     const SAMPLES: usize = 32;
 
-    fn elements() -> [Element; 3] {
+    fn elements() -> Vec<Element> {
         let material = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
         let flat = |flat_half_width, input| {
             let parameters = Parameters {
@@ -495,7 +498,7 @@ mod tests {
             material,
         };
         let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
-        [flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
+        vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
     }
 
     /// Motions in units of the slip displacement and of the largest load: an ellipse, a figure of eight with a swinging load, one that

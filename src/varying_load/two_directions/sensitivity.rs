@@ -72,6 +72,7 @@ fn add_row(matrix: &mut [f64], n: usize, to: usize, a: f64, from: usize) {
 /// Replaces the derivatives of the memory at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
 /// the force of both directions.
 #[inline(always)]
+#[expect(clippy::too_many_lines, reason = "the equations of a step, in its order")]
 pub(crate) fn step(
     taken: &Taken,
     columns: &MotionColumns,

@@ -133,7 +133,7 @@ impl Slip {
 
     /// Solves the problem: springs and tractions at the end.
     #[inline(always)]
-    pub fn solve(&mut self, problem: &Problem, factored: bool, end: [&mut Both<Row>; 2]) {
+    pub fn solve(&mut self, problem: &Problem, factored: bool, [end, tractions]: [&mut Both<Row>; 2]) {
         let Problem { map, pressure, .. } = *problem;
         let last = map.last.min(SPRINGS - 1);
         for round in 0..ROUNDS {
@@ -162,7 +162,7 @@ impl Slip {
             }
             if !changed || round + 1 == ROUNDS {
                 self.converged &= !changed;
-                (*end[0], *end[1]) = (z, q);
+                (*end, *tractions) = (z, q);
                 return;
             }
             self.first = (0..SPRINGS).find(|i| self.slips[*i]).unwrap_or(last);
