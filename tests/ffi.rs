@@ -1234,7 +1234,7 @@ fn element_batches() {
     }
     accepted(&[N * n, 3 * N, 9 * N, N], |out| update(&everything, out));
     accepted(&[9 * N, 81 * N, N], |out| force(&everything, of_two.start, out));
-    rejected(MSLIP_BAD_DIRECTIONS, &[3 * N, 9 * N, N], |out| force(&everything, workspace.start, out));
+    rejected(MSLIP_BAD_DIRECTIONS, &[6 * N, 36 * N, N], |out| force(&everything, workspace.start, out));
     // SAFETY: the last item.
     unsafe { ptr::copy_nonoverlapping(element.start, all.add(2), 1) };
     rejected(MSLIP_BAD_DIRECTIONS, &[N * n, 3 * N, 9 * N, N], |out| update(&everything, out));
