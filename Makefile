@@ -155,7 +155,7 @@ clean:
 	rm -rf dist target verification/fuzz/target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C benches clean
-	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build
+	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build examples/nlvib/build
 
 ## help: list the targets
 help:

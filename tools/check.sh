@@ -43,6 +43,7 @@ installed() {
     step 'CalculiX: its results are those of the library' calculix_results
     step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
+    step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
     step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1
