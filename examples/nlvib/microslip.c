@@ -27,7 +27,7 @@ static void check(int32_t status)
 
 static void require(int holds, const char *message)
 {
-    if (!holds) mexErrMsgIdAndTxt("microslip:argument", "microslip: %s", message);
+    if (!holds) mexErrMsgIdAndTxt("microslip:argument", "%s", message);
 }
 
 static double scalar(const mxArray *array, const char *message)
@@ -94,7 +94,7 @@ static void read_parameters(const mxArray *p, const field *fields, void *paramet
         } else if (reference && strcmp(name, "displacement_reference") == 0) {
             *reference = constant(value, name);
         } else {
-            mexErrMsgIdAndTxt("microslip:argument", "microslip: unknown parameter %s", name);
+            mexErrMsgIdAndTxt("microslip:argument", "unknown parameter %s", name);
         }
     }
 }
@@ -272,6 +272,6 @@ void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments
     } else if (strcmp(command, "harmonic_force") == 0 && (n == 3 || n == 4)) {
         harmonic_force(outputs, result, n, arguments);
     } else {
-        mexErrMsgIdAndTxt("microslip:argument", "microslip: no command %s with %d more arguments", command, n);
+        mexErrMsgIdAndTxt("microslip:argument", "no command %s with %d more arguments", command, n);
     }
 }
