@@ -119,11 +119,18 @@ fn tangents_are_derivatives() {
                     to[column] += h;
                     contact.trial(to).force
                 };
-                let (high, low) = (moved(h), moved(-h));
+                let differences = |h: f64| {
+                    let (high, low) = (moved(h), moved(-h));
+                    [0, 1].map(|row| (high[row] - low[row]) / (2.0 * h))
+                };
+                // A spring that begins to slip between both displacements is a corner of the force: then smaller differences are
+                // those of one side.
+                let (wide, narrow) = (differences(h), differences(h / 16.0));
                 for row in 0..2 {
                     let scale = element.tangential_stiffness * if column < 2 { 1.0 } else { unit / full };
-                    let difference = (high[row] - low[row]) / (2.0 * h) / scale;
-                    let error = (difference - step.tangent[3 * column + row] / scale).abs();
+                    let tangent = step.tangent[3 * column + row];
+                    let errors_of = [wide, narrow].map(|difference| ((difference[row] - tangent) / scale).abs());
+                    let (error, difference) = (errors_of[0].min(errors_of[1]), wide[row] / scale);
                     if error > 1e-4 {
                         beyond += 1;
                         println!(

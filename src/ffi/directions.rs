@@ -16,10 +16,12 @@ pub(super) mod two_directions {
     use crate::error::Error;
     use crate::varying_load::element::Element;
     use crate::varying_load::path::PathOutput;
+    use crate::varying_load::two_directions::edge::Pressed;
     use crate::varying_load::two_directions::sensitivity::{self, MotionColumns, Taken};
     use crate::varying_load::two_directions::springs::Both;
     use crate::varying_load::two_directions::springs::Springs;
     use crate::varying_load::two_directions::step::{self, Course, Memory, Motion, Outcome};
+    use crate::varying_load::two_directions::stick::{self, Stored, Stuck};
     use crate::varying_load::two_directions::{self, Kernel};
 
     pub(in crate::ffi) use two_directions::{
@@ -27,7 +29,7 @@ pub(super) mod two_directions {
         state_init, state_length, trial,
     };
 
-    pub const KERNEL: Kernel = Kernel { step, differentiate };
+    pub const KERNEL: Kernel = Kernel { step, differentiate, stuck };
 
     fn step(
         springs: &Springs,
@@ -43,6 +45,16 @@ pub(super) mod two_directions {
             motion: &Motion,
             requested: [bool; 2],
             course: &mut Course => Outcome
+        )
+    }
+
+    fn stuck(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
+        dispatch_simd!(
+            stick::stuck,
+            springs: &Springs,
+            memory: &Stored,
+            now: &Pressed,
+            offset: &Both<f64> => Option<Stuck>
         )
     }
 

@@ -9,6 +9,7 @@
 //! - `slip`: Coulomb's law at the points, by Newton's method;
 //! - `fine`: correction by a finer bank of springs;
 //! - `step`, `sensitivity`: a step, and its derivatives;
+//! - `stick`: a step in which nothing slips;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 //!
 //! A motion on a line parallel to x is that of one direction: as long as v does not change, the state is the memory diagram of
@@ -16,7 +17,8 @@
 //!
 //! ```text
 //! on a line:  [tag 0, v, state of one direction]
-//! springs:    [tag 1, v, u, normal component, N, S, 0, 0, springs, tractions, reach, pressure, fine bank]
+//! springs:    [tag 1, v, u, normal component, N, S, offset (2), force (2), 0, 0,
+//!              springs, tractions, reach, pressure, fine bank]
 //! ```
 
 pub mod harmonic_force;
@@ -27,6 +29,7 @@ pub(crate) mod sensitivity;
 pub(crate) mod slip;
 pub(crate) mod springs;
 pub(crate) mod step;
+pub(crate) mod stick;
 
 use crate::constant_load::contact::check_displacement;
 use crate::error::Error;
@@ -37,12 +40,14 @@ use crate::varying_load::path::{self, advance_along};
 use crate::varying_load::state;
 use edge::{Edge, Map, Pressed};
 use sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
+use slip::product;
 use springs::{Both, FINE, SPRINGS, Springs};
 use step::{Course, Memory, Motion};
+use stick::{Stored, Stuck};
 
 pub use crate::varying_load::path::PathOutput;
 
-const HEADER: usize = 8;
+const HEADER: usize = 12;
 const LENGTH: usize = HEADER + 6 * SPRINGS + 2 * FINE;
 /// Values before the state of one direction.
 const LINE: usize = 2;
@@ -72,11 +77,12 @@ pub(crate) type Differentiate = for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut 
 pub(crate) struct Kernel {
     pub step: fn(&Springs, &mut Memory, &Motion, [bool; 2], &mut Course) -> step::Outcome,
     pub differentiate: Differentiate,
+    pub stuck: fn(&Springs, &Stored, &Pressed, &Both<f64>) -> Option<Stuck>,
 }
 
 impl Kernel {
     /// For any processor.
-    pub const BASELINE: Kernel = Kernel { step: step::step, differentiate: sensitivity::step };
+    pub const BASELINE: Kernel = Kernel { step: step::step, differentiate: sensitivity::step, stuck: stick::stuck };
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
@@ -172,32 +178,39 @@ struct Header {
     input: f64,
     load: f64,
     shift: f64,
+    /// Motion of the springs since they last changed, and the sum of their forces then.
+    offset: Both<f64>,
+    sum: Both<f64>,
+}
+
+impl Header {
+    /// Without springs.
+    const NONE: Header =
+        Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0, offset: [0.0; 2], sum: [0.0; 2] };
 }
 
 /// Header and memory of a state of springs.
 fn read(state: &[f64]) -> (Header, Memory) {
-    let [_, v, u, input, load, shift, ..] = *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
-    let mut memory = Memory::RELAXED;
-    let mut from = state.get(HEADER..).unwrap_or(&[]);
-    let mut take = |to: &mut [f64]| {
-        if let Some((values, rest)) = from.split_at_checked(to.len()) {
-            to.copy_from_slice(values);
-            from = rest;
-        }
-    };
-    memory.springs.iter_mut().for_each(|row| take(row));
-    memory.tractions.iter_mut().for_each(|row| take(row));
-    take(&mut memory.reach);
-    take(&mut memory.pressure);
-    memory.fine.iter_mut().for_each(|row| take(row));
-    (Header { displacement: [u, v], input, load, shift }, memory)
+    (read_header(state), stored(state).map_or(Memory::RELAXED, |memory| memory.copied()))
+}
+
+#[inline(always)]
+fn stored(state: &[f64]) -> Option<Stored<'_>> {
+    Stored::new(state.get(HEADER..)?)
+}
+
+#[inline(always)]
+fn read_header(state: &[f64]) -> Header {
+    let [_, v, u, input, load, shift, offset_x, offset_y, sum_x, sum_y, ..] =
+        *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
+    Header { displacement: [u, v], input, load, shift, offset: [offset_x, offset_y], sum: [sum_x, sum_y] }
 }
 
 /// Writes a state of springs.
 fn write(state: &mut [f64], header: &Header, memory: &Memory) {
     let Some((place, mut rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
-    let Header { displacement: [u, v], input, load, shift } = *header;
-    *place = [Kind::TwoDirectionsState.tag(SPRUNG), v, u, input, load, shift, 0.0, 0.0];
+    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y] } = *header;
+    *place = [Kind::TwoDirectionsState.tag(SPRUNG), v, u, input, load, shift, x, y, sum_x, sum_y, 0.0, 0.0];
     let mut put = |from: &[f64]| {
         if let Some((values, behind)) = core::mem::take(&mut rest).split_at_mut_checked(from.len()) {
             values.copy_from_slice(from);
@@ -213,6 +226,11 @@ fn write(state: &mut [f64], header: &Header, memory: &Memory) {
 
 /// A step whose new state is discarded, with a state and a displacement that were checked.
 pub(crate) fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
+    if line_of(old).is_none()
+        && let Some((step, _)) = stick(element, old, displacement, requested)
+    {
+        return step;
+    }
     let mut copy = [0.0; LENGTH];
     copy_used(old, &mut copy);
     advance_checked(element, &mut copy, displacement, requested)
@@ -235,7 +253,7 @@ pub(crate) fn advance_checked(
             if old_v == v || free {
                 let lateral = requested.tangent && !free && closes;
                 let start = lateral.then(|| {
-                    let header = there.header(old_v);
+                    let header = header_of(&there, old_v);
                     let memory = of_diagram(element, &header, there.knots);
                     (header, memory)
                 });
@@ -254,10 +272,16 @@ pub(crate) fn advance_checked(
                     dissipated: step.dissipated,
                 };
             }
-            let header = there.header(old_v);
+            let header = header_of(&there, old_v);
             (header, of_diagram(element, &header, there.knots))
         }
-        None => read(state.as_slice()),
+        None => {
+            if let Some((step, offset)) = stick(element, state, [u, v, input], requested) {
+                (state[1], state[2], state[6], state[7]) = (v, u, offset[0], offset[1]);
+                return step;
+            }
+            read(state)
+        }
     };
     let (step, header) = advance_springs(element, &from, &mut memory, [u, v, input], requested);
     if header.load > 0.0 {
@@ -274,9 +298,48 @@ pub(crate) fn advance_checked(
     step
 }
 
-impl state::View<'_> {
-    fn header(&self, v: f64) -> Header {
-        Header { displacement: [self.displacement, v], input: self.input, load: self.load, shift: self.shift }
+/// A step under the load of the state in which nothing slips, and the offset at its end.
+#[inline(always)]
+fn stick(element: &Element, state: &[f64], [u, v, input]: [f64; 3], requested: Requested) -> Option<(Step, Both<f64>)> {
+    let header = read_header(state);
+    if input.to_bits() != header.input.to_bits() {
+        return None;
+    }
+    let per_unit = 1.0 / (element.friction_coefficient * element.shift_unit());
+    let by = [u - header.displacement[0], v - header.displacement[1]];
+    let offset = [header.offset[0] + by[0] * per_unit, header.offset[1] + by[1] * per_unit];
+    // Far beyond all limits the squares overflow.
+    if offset[0].abs().max(offset[1].abs()) > LONGEST {
+        return None;
+    }
+    let now = element.pressed_without_size(header.load, header.shift);
+    let stuck = (requested.kernel.stuck)(&element.springs, &stored(state)?, &now, &offset)?;
+    let sum = [0, 1].map(|k| header.sum[k] + stuck.stiffness[k] * offset[k]);
+    if product(&sum, &sum) > now.load * now.load {
+        return None;
+    }
+    let unit = element.friction_coefficient * element.normal_force;
+    let mut step = Step { force: [unit * sum[0], unit * sum[1], header.load], ..Step::NONE };
+    if requested.tangent {
+        let normal = element.normal(input);
+        let slopes = element.pressed_slopes(&normal);
+        step.tangent[8] = normal.load_slope;
+        for k in 0..2 {
+            step.tangent[4 * k] = unit * stuck.stiffness[k] * per_unit;
+            step.tangent[6 + k] = unit * (stuck.per_load[k] * slopes.load + stuck.per_shift[k] * slopes.shift[k]);
+        }
+    }
+    Some((step, offset))
+}
+
+/// The header of a diagram.
+fn header_of(view: &state::View, v: f64) -> Header {
+    Header {
+        displacement: [view.displacement, v],
+        input: view.input,
+        load: view.load,
+        shift: view.shift,
+        ..Header::NONE
     }
 }
 
@@ -360,7 +423,7 @@ impl Passage {
         let (was_closed, closed) = (from.load > 0.0, element.is_closed(input));
         let same = was_closed && input.to_bits() == from.input.to_bits();
         let normal = if closed { element.normal(input) } else { Normal::OPEN };
-        let to = Header { displacement: [u, v], input, load: normal.load, shift: normal.shift };
+        let to = Header { displacement: [u, v], input, load: normal.load, shift: normal.shift, ..Header::NONE };
         // The part of the path in contact, as in one direction.
         let (start, end) = (from.input, input);
         let (part, part_slopes) = match (was_closed, closed) {
@@ -429,6 +492,9 @@ fn advance_springs(
     requested: Requested,
 ) -> (Step, Header) {
     let passage = Passage::new(element, from, displacement);
+    if from.offset != [0.0; 2] {
+        stick::settle(&element.springs, memory, &passage.motion.before, &from.offset);
+    }
     let old = requested.tangent.then_some(*memory);
     let mut course = Course::new();
     let mut step = passage.advance(element, memory, requested, &mut course);
@@ -438,7 +504,7 @@ fn advance_springs(
         let old = if passage.was_closed { old } else { Memory::RELAXED };
         tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
     }
-    (step, passage.to)
+    (step, Header { sum: course.sum, ..passage.to })
 }
 
 /// The tangent of a step of springs: its derivatives for the columns u, v, w.

@@ -19,8 +19,31 @@ pub(crate) struct PressedSlopes {
     pub size: f64,
 }
 
-/// Nodes closer to the present size than this part of it do not count as inside: their shell would be lost in rounding.
-const THINNEST: f64 = 1e-9;
+/// The part of a motion that a spring follows: all, unless the load rises to its size within the step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Share {
+    /// 1/ΔS; 0 unless the load rises.
+    pub per_rise: Both<f64>,
+}
+
+impl Share {
+    #[inline(always)]
+    pub fn new(before: &Pressed, now: &Pressed) -> Share {
+        let per = |k: usize| {
+            let rise = now.shift[k] - before.shift[k];
+            if rise > 0.0 { 1.0 / rise.max(TINY) } else { 0.0 }
+        };
+        Share { per_rise: [per(0), per(1)] }
+    }
+
+    /// For the distance S_b - S_j.
+    #[inline(always)]
+    pub fn of(&self, k: usize, limit: f64) -> f64 {
+        // Negative for springs outside, of which some have a shift near the largest double.
+        let share = limit.max(0.0) * self.per_rise[k];
+        if self.per_rise[k] > 0.0 && share < 1.0 { share } else { 1.0 }
+    }
+}
 
 /// The last shell.
 #[derive(Debug, Clone, Copy)]
@@ -50,13 +73,7 @@ impl Edge {
     /// The edge of a contact; `cached` are reach and pressure under the same load.
     #[inline(always)]
     pub fn new(springs: &Springs, now: &Pressed, cached: Option<(&Row, &Row)>) -> Edge {
-        let mut last = springs.under_flat;
-        for j in 0..SPRINGS {
-            if j > springs.under_flat && springs.shift[0][j] < now.shift[0] * (1.0 - THINNEST) {
-                last = j;
-            }
-        }
-        let last = last.min(SPRINGS - 1);
+        let last = springs.last_shell(now.shift[0]);
         let mut edge = Edge {
             last,
             step: [0.0; 2],

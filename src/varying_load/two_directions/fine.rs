@@ -1,8 +1,8 @@
 //! The difference of two banks of springs, a fine one and that of the law, each spring with its own limit: added to the law, it makes
 //! motion on a line as exact as the fine bank.
 
-use super::edge::{Edge, Pressed};
-use super::springs::{Both, FINE, REFINEMENT, SPRINGS, Springs};
+use super::edge::{Edge, Pressed, Share};
+use super::springs::{Both, FINE, SPRINGS, Springs};
 use crate::shape::TINY;
 
 pub(crate) type FineRow = [f64; FINE];
@@ -23,14 +23,7 @@ impl FineEdge {
 
     #[inline(always)]
     pub fn new(springs: &Springs, now: &Pressed, edge: &Edge) -> FineEdge {
-        let coarse = (REFINEMENT * edge.last.saturating_sub(springs.under_flat)).min(FINE - 1);
-        let mut last = coarse;
-        for j in 0..FINE {
-            if j > coarse && springs.fine_shift[0][j] < now.shift[0] * (1.0 - 1e-9) {
-                last = j;
-            }
-        }
-        let last = last.min(FINE - 1);
+        let (coarse, last) = (springs.fine_node(edge.last), springs.last_fine_shell(edge.last, now.shift[0]));
         let mut fine = FineEdge { last, coarse, stiffness: [[0.0; FINE]; 2], secant: [0.0; 2], step: [0.0; 2] };
         for k in 0..2 {
             fine.step[k] = (now.shift[k] - springs.fine_shift[k][last]).max(TINY);
@@ -107,30 +100,4 @@ pub(crate) fn step(
     }
     let force = forces.map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
     (force, energy)
-}
-
-/// The part of a motion that a spring follows: all, unless the load rises to its size within the step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Share {
-    /// 1/ΔS; 0 unless the load rises.
-    pub per_rise: Both<f64>,
-}
-
-impl Share {
-    #[inline(always)]
-    pub fn new(before: &Pressed, now: &Pressed) -> Share {
-        let per = |k: usize| {
-            let rise = now.shift[k] - before.shift[k];
-            if rise > 0.0 { 1.0 / rise.max(TINY) } else { 0.0 }
-        };
-        Share { per_rise: [per(0), per(1)] }
-    }
-
-    /// For the distance S_b - S_j.
-    #[inline(always)]
-    pub fn of(&self, k: usize, limit: f64) -> f64 {
-        // Negative for springs outside, of which some have a shift near the largest double.
-        let share = limit.max(0.0) * self.per_rise[k];
-        if self.per_rise[k] > 0.0 && share < 1.0 { share } else { 1.0 }
-    }
 }

@@ -263,7 +263,7 @@ pub(crate) fn harmonic_force(
         largest = if sample[2] > so_far { index } else { largest };
     }
     let top = workspace.sample(largest);
-    let mut from = Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0 };
+    let mut from = Header::NONE;
     let mut memory = Memory::RELAXED;
     let mut course = Course::new();
     let frictionless = element.friction_coefficient == 0.0;

@@ -3,8 +3,7 @@
 //! The map B depends on the load through the column of the last spring only. With `h = B (dz* - dB'σ) + dB z - e dp` the multipliers
 //! change by `dσ = S (h - p e' dθ)`, and the angles by `K dθ = -(dσ at fixed angles) × n - σ × dn`, with the factors of Newton's method.
 
-use super::edge::Map;
-use super::fine::Share;
+use super::edge::{Map, Share};
 use super::slip::{DirectionSlopes, at as point, product, solve_columns};
 use super::springs::{Both, FINE, Row, SPRINGS, Springs};
 use super::step::{Course, Memory, Motion};

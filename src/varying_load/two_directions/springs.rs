@@ -25,7 +25,7 @@ const BEYOND: [f64; 5] = [1.0, 1.1, 1.3, 1.7, 2.5];
 /// Springs of the law.
 pub(crate) const SPRINGS: usize = UNDER_FLAT + GRADED + BEYOND.len();
 /// Springs of the fine bank for each of the law.
-pub(crate) const REFINEMENT: usize = 3;
+pub(crate) const REFINEMENT: usize = 5;
 /// Springs of the fine bank, in whole vectors.
 pub(crate) const FINE: usize = (REFINEMENT * (GRADED + BEYOND.len())).next_multiple_of(4);
 /// Share of the sine in the distribution of nodes: they are densest at the edge.
@@ -36,6 +36,8 @@ const POINT: f64 = 0.2;
 const SMALLEST_FLAT: f64 = 1e-9;
 /// The least stiffness of a spring, relative to that of all together: above the rounding errors of differences.
 pub(crate) const LEAST_STIFFNESS: f64 = 1e-12;
+/// Nodes closer to the present size than this part of it do not count as inside: their shell would be lost in rounding.
+const THINNEST: f64 = 1e-9;
 /// A shift that no contact reaches.
 const NEVER: f64 = f64::MAX;
 
@@ -95,6 +97,37 @@ impl Springs {
         fine_secant: [[0.0; FINE]; 2],
         fine_stiffness: [[0.0; FINE]; 2],
     };
+
+    /// The shell at the edge of a contact with a shift.
+    #[inline(always)]
+    pub fn last_shell(&self, shift: f64) -> usize {
+        let mut last = self.under_flat;
+        for j in 0..SPRINGS {
+            if j > self.under_flat && self.shift[0][j] < shift * (1.0 - THINNEST) {
+                last = j;
+            }
+        }
+        last.min(SPRINGS - 1)
+    }
+
+    /// The node of the fine bank at that of the law.
+    #[inline(always)]
+    pub fn fine_node(&self, j: usize) -> usize {
+        (REFINEMENT * j.saturating_sub(self.under_flat)).min(FINE - 1)
+    }
+
+    /// The shell of the fine bank at the edge of a contact, from that of the law.
+    #[inline(always)]
+    pub fn last_fine_shell(&self, last: usize, shift: f64) -> usize {
+        let coarse = self.fine_node(last);
+        let mut last = coarse;
+        for j in 0..FINE {
+            if j > coarse && self.fine_shift[0][j] < shift * (1.0 - THINNEST) {
+                last = j;
+            }
+        }
+        last.min(FINE - 1)
+    }
 
     /// Stiffness of a spring of the fine bank alone.
     #[inline(always)]

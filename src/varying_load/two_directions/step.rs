@@ -3,8 +3,8 @@
 //! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If the traction at no point then
 //! exceeds the pressure, this is the end of the step; otherwise the points slip. All in the units of the springs.
 
-use super::edge::{Edge, Map, Pressed};
-use super::fine::{self, FineEdge, FineRow, Share};
+use super::edge::{Edge, Map, Pressed, Share};
+use super::fine::{self, FineEdge, FineRow};
 use super::slip::{Problem, Slip, at, product};
 use super::springs::{Both, Row, SPRINGS, Springs, dot};
 use crate::shape::TINY;
@@ -30,7 +30,7 @@ impl Memory {
 }
 
 /// Excess of the square of a traction over that of its limit by which a state that has slipped may round: it sticks.
-const ROUNDING: f64 = 1e-14;
+pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// A step, straight in S and in the displacement.
 pub(crate) struct Motion {
