@@ -314,7 +314,8 @@ fn stick(element: &Element, state: &[f64], [u, v, input]: [f64; 3], requested: R
     }
     let now = element.pressed_without_size(header.load, header.shift);
     let stuck = (requested.kernel.stuck)(&element.springs, &stored(state)?, &now, &offset)?;
-    let sum = [0, 1].map(|k| header.sum[k] + stuck.stiffness[k] * offset[k]);
+    let Stuck { stiffness: [k_x, k_y], .. } = stuck;
+    let sum = [header.sum[0] + k_x * offset[0], header.sum[1] + k_y * offset[1]];
     if product(&sum, &sum) > now.load * now.load {
         return None;
     }

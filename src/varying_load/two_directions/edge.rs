@@ -227,8 +227,8 @@ impl Map<'_> {
             for j in 0..SPRINGS {
                 inner[j] *= self.inside[j];
             }
-            for i in 0..last + 1 {
-                if !skipped[i] {
+            for i in 0..SPRINGS {
+                if i <= last && !skipped[i] {
                     let fixed = if i < last { dot(&self.springs.traction[i][k], &inner) } else { 0.0 };
                     tractions[k][i] = fixed + self.column[k][i] * z[k][last];
                 }

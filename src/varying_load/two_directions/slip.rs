@@ -166,7 +166,7 @@ impl Slip {
     /// Whether all points slip from the first one on.
     #[inline(always)]
     fn all_slip(&self, last: usize) -> bool {
-        (self.first..last + 1).all(|i| self.slips[i.min(SPRINGS - 1)])
+        (self.first..=last).all(|i| self.slips[i.min(SPRINGS - 1)])
     }
 
     /// Solves the problem: springs and tractions at the end.
@@ -237,25 +237,25 @@ impl Slip {
     #[inline(always)]
     fn invert(&mut self, problem: &Problem, known: usize, constant: &mut Both<Row>) {
         let Problem { map, trial, .. } = *problem;
-        let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
+        let (first, end) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1) + 1);
         for k in 0..2 {
             let square = &mut self.inverse[k];
             let column = map.inverse_column(k, first);
-            for m in first..known.min(last + 1) {
+            for m in first..known.min(end) {
                 let row = map.inverse_row(k, m, column[m]);
                 add(&mut constant[k], trial[k][m], &row);
-                for i in m..last + 1 {
+                for i in m..end {
                     add(&mut square[i], row[i], &row);
                 }
             }
-            for t in first..last + 1 {
+            for t in first..end {
                 if self.slips[t] {
                     continue;
                 }
                 let row = square[t];
                 let reciprocal = 1.0 / row[t].max(TINY);
                 let constant_there = constant[k][t];
-                for i in first..last + 1 {
+                for i in first..end {
                     let factor = row[i] * reciprocal;
                     add(&mut square[i], -factor, &row);
                     constant[k][i] -= factor * constant_there;
@@ -267,9 +267,9 @@ impl Slip {
     /// Finds σ for the tractions q; the residuals of its directions n, and the square of the largest angle between both.
     #[inline(always)]
     fn multipliers(&mut self, constant: &Both<Row>, q: &Both<Row>, n: &Both<Row>, last: usize) -> (Row, f64) {
-        let mut held = [[0.0; SPRINGS]; 2];
+        let (mut held, end) = ([[0.0; SPRINGS]; 2], last.min(SPRINGS - 1) + 1);
         for k in 0..2 {
-            for i in self.first..last + 1 {
+            for i in self.first..end {
                 held[k][i] = dot(&self.inverse[k][i], &q[k]);
             }
         }
@@ -291,8 +291,8 @@ impl Slip {
     /// The Jacobian of the residuals by the angles, of opposite sign.
     #[inline(always)]
     fn linearise(&mut self, q: &Both<Row>, directions: &Directions, last: usize) {
-        let Directions { vector: n, by_angle } = directions;
-        for i in self.first..last + 1 {
+        let (Directions { vector: n, by_angle }, end) = (directions, last.min(SPRINGS - 1) + 1);
+        for i in self.first..end {
             let row = &mut self.factors[i];
             let [x, y] = [&self.inverse[0][i], &self.inverse[1][i]];
             for j in 0..SPRINGS {
