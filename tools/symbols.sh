@@ -58,7 +58,9 @@ $OBJDUMP -d --no-show-raw-insn "$archive" | awk '
 constants() {
     sed -n "$2" "$1" | sed 's/^MSLIP_ABI_VERSION/MSLIP_MODULE_ABI_VERSION/' | grep -v '^MSLIP_VERSION_' | sort
 }
-constants "$prefix/include/microslip.h" 's/^#define \(MSLIP_[A-Z_]*\) \([0-9][0-9]*\)$/\1 \2/p' > "$work/c_constants"
+# Indices count from 0 in C, from 1 in Fortran.
+constants "$prefix/include/microslip.h" 's/^#define \(MSLIP_[A-Z_]*\) \([0-9][0-9]*\)$/\1 \2/p' |
+    awk '/^MSLIP_BY_/ { $2 += 1 } { print }' > "$work/c_constants"
 constants "$prefix/include/microslip.f90" \
     's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' > "$work/fortran_constants"
 
