@@ -7,13 +7,12 @@ import pickle
 import re
 import threading
 
+import microslip
 import numpy as np
 import pytest
+from microslip import _contact, _core, _element, _memory
 from numpy.testing import assert_allclose
 from tables import REPOSITORY
-
-import microslip
-from microslip import _contact, _core, _element, _memory
 
 FLAT = {
     "flat_half_width": 0.5e-3,

@@ -7,12 +7,11 @@ result passes through zero.
 
 from __future__ import annotations
 
+import microslip
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from tables import column, flat, groups, rows
-
-import microslip
 
 CLOSE = 1e-12
 
