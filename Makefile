@@ -17,7 +17,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header docs dist clean help
+	figures host stress fuzz check parallel header python docs dist clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -136,6 +136,11 @@ stress:
 fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh
+
+## python: build the Python wheel into target/wheels and test it
+python:
+	@tools/dependencies.sh python
+	tools/python.sh
 
 ## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
 header:

@@ -1,6 +1,6 @@
 //! Writes the declarations of `microslip.h` to `header.h` in the target directory, from which maturin makes the Python bindings.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::{env, fs};
 
 const HEADER: &str = "../include/microslip.h";
@@ -10,10 +10,13 @@ fn main() {
     let build = out.ancestors().find(|path| path.ends_with("build")).expect("OUT_DIR is below build/");
     let target = build.ancestors().nth(2).expect("build/ is in the directory of a profile");
     let header = target.join("header.h");
-    let text = fs::read_to_string(HEADER).expect("include/microslip.h is beside python/");
-    fs::write(&header, declarations(&text)).expect("the target directory can be written");
+    let text = declarations(&fs::read_to_string(HEADER).expect("include/microslip.h is beside python/"));
+    // Written only if it differs: a newer file causes another build.
+    if fs::read_to_string(&header).ok().as_ref() != Some(&text) {
+        fs::write(&header, text).expect("the target directory can be written");
+    }
     println!("cargo::rerun-if-changed={HEADER}");
-    println!("cargo::rerun-if-changed={}", Path::new(&header).display());
+    println!("cargo::rerun-if-changed={}", header.display());
 }
 
 /// The header without what only a C compiler understands: inclusion guards, includes and the brackets of C++.

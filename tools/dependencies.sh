@@ -5,7 +5,7 @@
 set -eu
 
 table='
-gcc             demo test check bench figures host fuzz docs accuracy : command gcc
+gcc             demo test check bench figures host fuzz docs accuracy python : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
 libblas-dev     demo test check host parallel                         : library blas
@@ -25,7 +25,7 @@ cmake           check                                                 : command 
 meson           check                                                 : command meson
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
-python3-venv    check docs                                            : command python3 -c "import ensurepip"
+python3-venv    test check docs python                                          : command python3 -c "import ensurepip"
 openmpi-bin     check parallel                                        : command mpirun
 libopenmpi-dev  check parallel                                        : command mpifort
 dpkg-dev        host                                                  : command dpkg-source
@@ -44,7 +44,7 @@ found() {
     esac > /dev/null 2>&1
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|parallel..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|parallel|python..." >&2; exit 2; }
 missing=$(
     echo "$table" | while IFS=: read -r head probe; do
         package=${head%% *}

@@ -15,7 +15,6 @@ force, as for tmdsimpy's Jenkins element. The approach keeps its mean.
 """
 
 import sys
-import time
 
 import microslip
 import numpy as np
@@ -99,7 +98,7 @@ class MicroslipForce(HystereticForce):
 
 
 def main():
-    from spring_slider import harmonic_force
+    from spring_slider import harmonic_force, microseconds
 
     law = microslip.Contact(
         flat_half_width=0.2e-3,
@@ -112,15 +111,9 @@ def main():
     )
     force = MicroslipForce(np.eye(1), np.eye(1), law)
     U, h = law.slip_displacement * np.random.default_rng(1).standard_normal(11), np.arange(6)
-    force.aft(U, 1.0, h)
-    for name, calls, call in [
-        ("microslip, aft()", 1000, lambda: force.aft(U, 1.0, h)),
-        ("spring-slider in NumPy", 20, lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128)),
-    ]:
-        begin = time.perf_counter()
-        for _ in range(calls):
-            call()
-        print(f"{name}: {1e6 * (time.perf_counter() - begin) / calls:.0f} µs for force and Jacobian")
+    slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 10)
+    print(f"microslip, aft(): {microseconds(lambda: force.aft(U, 1.0, h), 200):.0f} µs for force and Jacobian")
+    print(f"spring-slider in NumPy: {slider:.0f} µs")
     return 0
 
 

@@ -1,0 +1,88 @@
+#!/bin/sh
+# python.sh [all]: build the wheel of the Python package, and test it installed in a clean environment. `all` tests it also by the
+# oldest and the newest other Python that are found, and tests types, format, adapters, examples and the programs of the documents.
+# PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${PYTHON:=python3}"
+tools=$PWD/target/tools/python
+wheels=$PWD/target/wheels
+package=$PWD/python
+PIP_DISABLE_PIP_VERSION_CHECK=1
+PIP_QUIET=1
+export PIP_DISABLE_PIP_VERSION_CHECK PIP_QUIET
+. tools/checks.sh
+
+version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+
+# With the crates of Cargo.lock and the tools there, a wheel is built without a network.
+tools() {
+    "$tools/bin/maturin" --version 2> /dev/null || { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
+}
+wheel() {
+    rm -rf "$wheels" && { cargo fetch --locked --offline || cargo fetch --locked; } &&
+        (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true maturin build --release --out "$wheels") &&
+        ls "$wheels/microslip-$version-py3-none-"*.whl
+}
+# environment DIRECTORY PYTHON PACKAGE...: a clean one with the wheel.
+environment() {
+    directory=$1
+    "$2" -m venv "$directory" && shift 2 && "$directory/bin/pip" install "$wheels"/*.whl pytest "$@"
+}
+# tests NAME DIRECTORY ARGUMENT...: counts the tests of pytest.
+tests() {
+    name=$1 directory=$2
+    shift 2
+    (cd "$work" && "$directory/bin/pytest" -q -p no:cacheprovider -c "$package/pyproject.toml" "$@") > "$work/pytest" 2>&1 ||
+        tail -n 60 "$work/pytest"
+    good=$(sed -n 's/^\(.* \)\{0,1\}\([0-9]*\) passed.*/\2/p' "$work/pytest" | tail -n 1)
+    bad=$(sed -n 's/^\([0-9]*\) failed.*/\1/p; s/.* \([0-9]*\) error.*/\1/p' "$work/pytest" | tail -n 1)
+    [ -n "$good$bad" ] || bad=1
+    passed=$((passed + ${good:-0}))
+    failed=$((failed + ${bad:-0}))
+    echo "$name: ${good:-0} passed, ${bad:-0} failed"
+}
+
+check 'build tools' tools
+check 'wheel' wheel
+[ "$failed" -eq 0 ] || { counts; exit; }
+check "clean environment" environment "$work/python" "$PYTHON"
+tests "tests, $("$PYTHON" --version)" "$work/python" "$package"/tests/test_interface.py "$package"/tests/test_tables.py
+[ "${1:-}" = all ] || { counts; exit; }
+
+# The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
+others() {
+    for minor in 9 10 11 12 13 14; do
+        for candidate in $(command -v python3.$minor) "${PYENV_ROOT:-$HOME/.pyenv}/versions/3.$minor".*/bin/python3; do
+            if "$candidate" -c "import ensurepip, sys; sys.exit(sys.version_info[1] != $minor)" 2> /dev/null; then
+                [ "$minor" -eq "$("$PYTHON" -c 'import sys; print(sys.version_info[1])')" ] || echo "$candidate"
+                break
+            fi
+        done
+    done | sed -n '1p; $p' | uniq
+}
+for other in $(others); do
+    check "clean environment, $("$other" --version)" environment "$work/other" "$other"
+    tests "tests, $("$other" --version)" "$work/other" "$package"/tests/test_interface.py "$package"/tests/test_tables.py
+    rm -rf "$work/other"
+done
+from_source() {
+    "$PYTHON" -m venv "$work/source" && "$work/source/bin/pip" install ./python && (cd "$work" && source/bin/python -c 'import microslip')
+}
+check 'pip install ./python' from_source
+# Kept, because pyHarm brings many packages.
+adapters=$PWD/target/tools/python-adapters
+examples() {
+    { [ -e "$adapters/bin/ruff" ] || { "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install matplotlib mypy pyHarm-os pytest ruff; }; } &&
+        "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install "$wheels"/*.whl
+}
+check 'packages of the examples' examples
+types() {
+    (cd "$work" && "$adapters/bin/mypy" --config-file "$package/pyproject.toml" -p microslip)
+}
+check 'types' types
+check 'format' "$adapters/bin/ruff" format --check python
+check 'lints' "$adapters/bin/ruff" check python
+tests 'adapters and examples' "$adapters" "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_documents.py
+counts
