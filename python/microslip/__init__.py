@@ -19,12 +19,13 @@ from ._contact import (
     Jenkins,
     MonotonicDisplacement,
     MonotonicForce,
+    Sensitivity,
     Slip,
     Step,
     StiffnessTable,
     Tractions,
 )
-from ._core import Error, Status, ffi, lib, status_text
+from ._core import Error, Parameter, Status, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce
 from ._memory import ElementState, ElementWorkspace, State, Workspace
 
@@ -63,6 +64,8 @@ __all__ = [
     "MonotonicForce",
     "NormalApproach",
     "NormalForce",
+    "Parameter",
+    "Sensitivity",
     "Slip",
     "State",
     "Status",

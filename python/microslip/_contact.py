@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ._core import (
     Array,
     Field,
+    Parameter,
     Struct,
     Values,
     check,
@@ -91,6 +92,13 @@ class HarmonicForce(NamedTuple):
     force: Array
     jacobian: Values
     dissipated: Values
+
+
+class Sensitivity(NamedTuple):
+    """Force [N] and its derivatives, sensitivity[..., p] with respect to parameter p, in [N] over the unit of the parameter."""
+
+    force: Values
+    sensitivity: Array
 
 
 class Jenkins(NamedTuple):
@@ -207,6 +215,16 @@ class Contact(Struct):
         check(lib.mslip_monotonic_force(self._c, displacement.size, pointer(displacement), *map(pointer, out)))
         return MonotonicForce(*values(out))
 
+    def monotonic_sensitivity(self, displacement: ArrayLike) -> Sensitivity:
+        """Force [N] of the monotonic curve at displacements [m], and its derivatives with respect to the parameters at fixed
+        displacements: sensitivity[..., p], p a `Parameter`. The modulus stands for both Young's moduli in a fixed ratio.
+        """
+        displacement = doubles(displacement, "displacement")
+        force, sensitivity = np.empty(displacement.shape), np.empty((*displacement.shape, len(Parameter)))
+        arrays = map(pointer, (displacement, force, sensitivity))
+        check(lib.mslip_monotonic_sensitivity(self._c, displacement.size, *arrays))
+        return Sensitivity(force[()], sensitivity)
+
     def update(self, state: State, displacement: ArrayLike, out: State | None = None) -> Step:
         """Advances a load history to a displacement [m], or through n displacements: the force [N], tangent stiffness [N/m] and
         dissipated energy [J] of each step, and the new state.
@@ -270,6 +288,18 @@ class Contact(Struct):
         with workspace.lock:
             check(lib.mslip_harmonic_force(self._c, workspace._pointer, *arguments))
         return HarmonicForce(force, None if matrix is None else transposed(matrix), dissipated[()])
+
+    def harmonic_sensitivity(self, workspace: Workspace, displacement: ArrayLike) -> Sensitivity:
+        """Coefficients (2H+1) of the harmonic force [N], and their derivatives with respect to the parameters at fixed coefficients
+        of the displacement [m]: sensitivity[i, p], p a `Parameter`.
+        """
+        size = 2 * workspace.harmonics + 1
+        displacement = doubles(displacement, "displacement", (size,))
+        force, sensitivity = np.empty(size), np.empty((len(Parameter), size))
+        arrays = map(pointer, (displacement, force, sensitivity))
+        with workspace.lock:
+            check(lib.mslip_harmonic_sensitivity(self._c, workspace._pointer, *arrays))
+        return Sensitivity(force, transposed(sensitivity))
 
     def jenkins_equivalent(self, amplitude: float) -> Jenkins:
         """The Jenkins element (spring and slider) with the same K' and K'' at a displacement amplitude [m]."""

@@ -56,6 +56,17 @@ class Status(IntEnum):
     BAD_ALIGNMENT = 91
 
 
+class Parameter(IntEnum):
+    """Columns of a sensitivity: the derivative with respect to this parameter."""
+
+    NORMAL_FORCE = 0
+    FRICTION_COEFFICIENT = 1
+    FLAT_HALF_WIDTH = 2
+    EDGE_RADIUS = 3
+    LENGTH = 4
+    COMPOSITE_MODULUS = 5
+
+
 class Error(ValueError):
     """A call that the library rejected. The text is the message of the status code; no state has changed."""
 

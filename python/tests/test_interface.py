@@ -70,6 +70,8 @@ CALLS = {
     "slip": lambda: contact.slip(100, 0.0),
     "monotonic_displacement": lambda: contact.monotonic_displacement(100),
     "monotonic_force": lambda: contact.monotonic_force(1e-7),
+    "monotonic_sensitivity": lambda: contact.monotonic_sensitivity(1e-7),
+    "harmonic_sensitivity": lambda: contact.harmonic_sensitivity(workspace, HARMONICS),
     "state_length": lambda: microslip.State(),
     "state_init": lambda: microslip.State(),
     "state_check": lambda: reloaded(microslip.State()),
@@ -141,6 +143,9 @@ def test_status_codes_and_constants_are_those_of_the_header():
     assert defined.pop("OK") == 0
     for name in ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "APPROACH", "NORMAL_FORCE"]:
         assert getattr(microslip, name) == defined.pop(name)
+    assert len(microslip.Parameter) == defined.pop("PARAMETERS")
+    for parameter in microslip.Parameter:
+        assert parameter.value == defined.pop(f"BY_{parameter.name}")
     assert {status.name: status.value for status in microslip.Status} == defined
     # The comment above each definition of a code is its message.
     for text, name in re.findall(r"// (.*)\n#define MSLIP_(\w+) \d+", HEADER):
@@ -288,6 +293,27 @@ def test_tangents_are_not_transposed(directions):
     assert (tangent[0] == found.tangent).all()
     assert dissipated[0] == found.dissipated
     assert (new[0] == found.state.array).all()
+
+
+@pytest.mark.parametrize("parameter", microslip.Parameter)
+def test_sensitivities_are_derivatives(parameter):
+    name = "young_modulus" if parameter == microslip.Parameter.COMPOSITE_MODULUS else parameter.name.lower()
+
+    def changed(factor):
+        return microslip.Contact(**(FLAT | {name: np.multiply(FLAT[name], factor)}))
+
+    step = 1e-5
+    value = contact.composite_modulus if name == "young_modulus" else FLAT[name]
+    displacement = np.array([[0.3, 0.9], [-0.7, 1.5]]) * SLIP
+    for found, evaluate in [
+        (contact.monotonic_sensitivity(displacement), lambda one: one.monotonic_force(displacement).force),
+        (contact.harmonic_sensitivity(workspace, HARMONICS), lambda one: one.harmonic_force(workspace, HARMONICS).force),
+    ]:
+        assert_allclose(found.force, evaluate(contact), rtol=0, atol=1e-13 * contact.slip_force)
+        expected = (evaluate(changed(1 + step)) - evaluate(changed(1 - step))) / (2 * step * value)
+        assert found.sensitivity.shape == (*expected.shape, 6)
+        # Differences of second order, and roundings of the force over the step.
+        assert_allclose(found.sensitivity[..., parameter], expected, rtol=1e-6, atol=1e-8 * contact.slip_force / value)
 
 
 def test_batches_are_single_calls():
