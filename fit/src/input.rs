@@ -3,6 +3,7 @@
 
 
 
+use crate::error::{Error, error};
 use serde::{Deserialize, Serialize};
 
 /// The contact, by the names of a parameter file. What is fitted is only a start value here.
@@ -118,4 +119,22 @@ pub enum ShapeParameter {
     EdgeRadius,
     /// None: the shape is that of the contact.
     Fixed,
+}
+
+impl Options {
+    /// Checks the fixed values.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        let not_negative = |value: f64| value.is_finite() && value >= 0.0;
+        if !self.friction_coefficient.is_none_or(positive) {
+            return error("a fixed friction coefficient must be > 0");
+        }
+        if ![self.series_compliance, self.contact_compliance].iter().all(|value| value.is_none_or(not_negative)) {
+            return error("a fixed compliance must be >= 0");
+        }
+        if self.series_compliance == Some(0.0) && self.contact_compliance == Some(0.0) {
+            return error("both compliances are fixed at 0: a rigid slider");
+        }
+        Ok(())
+    }
 }

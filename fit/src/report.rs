@@ -1,5 +1,7 @@
 //! The result of a fit.
 
+use crate::cycles::Loop;
+use crate::input::{Contact, DisplacementReference, Geometry};
 use serde::{Deserialize, Serialize};
 
 /// Result of a fit. All numbers are in the units of the input.
@@ -108,4 +110,77 @@ pub struct FittedLoop {
     pub measured_force: Vec<f64>,
     /// Forces of the law \[N\].
     pub force: Vec<f64>,
+}
+
+impl Misfit {
+    /// Of measured and computed forces at the samples of each loop.
+    pub(crate) fn new(loops: &[Loop], forces: &[Vec<[f64; 2]>]) -> Misfit {
+        let differences = || forces.iter().flatten().map(|[measured, model]| measured - model);
+        let count = differences().count() as f64;
+        let energies: Vec<_> = loops.iter().zip(forces).map(|(one, forces)| energies(one, forces)).collect();
+        let relative = |[measured, model]: &[f64; 2]| (model / measured - 1.0).powi(2);
+        Misfit {
+            force_rms: (differences().map(|difference| difference * difference).sum::<f64>() / count).sqrt(),
+            force_max: differences().fold(0.0, |most: f64, difference| most.max(difference.abs())),
+            energy: (energies.iter().map(relative).sum::<f64>() / loops.len() as f64).sqrt(),
+        }
+    }
+}
+
+/// Energy per cycle, measured and computed.
+fn energies(one: &Loop, forces: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|which| one.energy(&forces.iter().map(|pair| pair[which]).collect::<Vec<_>>()))
+}
+
+impl FittedLoop {
+    pub(crate) fn new(one: &Loop, forces: &[[f64; 2]]) -> FittedLoop {
+        let [measured_energy, energy] = energies(one, forces);
+        FittedLoop {
+            name: one.name.clone(),
+            normal_force: one.normal_force,
+            amplitude: one.amplitude,
+            measured_energy,
+            energy,
+            displacement: one.samples.iter().map(|sample| sample.displacement).collect(),
+            measured_force: forces.iter().map(|pair| pair[0]).collect(),
+            force: forces.iter().map(|pair| pair[1]).collect(),
+        }
+    }
+}
+
+/// The fitted contact as a parameter file. A factor κ on the displacements of the law is a modulus E/κ, and a radius R/κ so that
+/// the contact has the same width.
+pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; 4]) -> String {
+    let [friction, series, factor, _] = parameters;
+    let mut text = format!("# Fitted to measured loops. Series compliance of rig and bodies, not in the contact: {series:e}\n");
+    if *factor != 1.0 {
+        text += &format!("# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n", match
+            geometry
+        {
+            Geometry::Flat { .. } => " and edge_radius",
+            Geometry::Ellipse { .. } => "",
+        });
+    }
+    match geometry {
+        Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
+            let reference = match displacement_reference {
+                DisplacementReference::CentrePoint => "centre_point",
+                DisplacementReference::RigidStrip => "rigid_strip",
+            };
+            text += &format!(
+                "flat_half_width = {flat_half_width:e}\nedge_radius = {:e}\nlength = {length:e}\n\
+                 displacement_reference = \"{reference}\"\n",
+                edge_radius / factor
+            );
+        }
+        Geometry::Ellipse { semi_axis_x, semi_axis_y } => {
+            text += &format!("semi_axis_x = {semi_axis_x:e}\nsemi_axis_y = {semi_axis_y:e}\n");
+        }
+    }
+    text += &format!("normal_force = {:e}\nfriction_coefficient = {friction:e}\n", contact.normal_force);
+    for body in &contact.material {
+        let (modulus, ratio) = (body.young_modulus / factor, body.poisson_ratio);
+        text += &format!("\n[[material]]\nyoung_modulus = {modulus:e}\npoisson_ratio = {ratio:e}\n");
+    }
+    text
 }
