@@ -37,7 +37,7 @@ OFFSET(mslip_contact, slip_displacement, 24);
 OFFSET(mslip_contact, initial_stiffness, 32);
 OFFSET(mslip_contact, slip_energy, 40);
 OFFSET(mslip_contact, reserved, 48);
-SIZE(mslip_contact, 1976);
+SIZE(mslip_contact, 2032);
 
 OFFSET(mslip_element, composite_modulus, 0);
 OFFSET(mslip_element, friction_coefficient, 8);

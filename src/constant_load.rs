@@ -13,6 +13,7 @@ pub(crate) mod hysteresis_loop;
 pub(crate) mod interpolant;
 pub mod masing;
 pub(crate) mod memory;
+pub(crate) mod sensitivity;
 pub mod state;
 pub(crate) mod steady_state;
 pub(crate) mod stiffness_table;

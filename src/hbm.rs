@@ -24,10 +24,12 @@ pub(crate) mod rows;
 mod sampled_gradients;
 pub(crate) mod sampled_jacobian;
 mod segments;
+mod sensitivity;
 mod uniform_sampling;
 pub(crate) mod workspace;
 
 use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::sensitivity::PARAMETERS;
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
 use workspace::{TAGS, WorkspaceLayout};
@@ -149,6 +151,41 @@ pub fn harmonic_force(
     match &mut workspace.0 {
         ByRule::UniformSampling(workspace) => uniform_sampling::harmonic_force(law, workspace, displacement, output),
         ByRule::EventDriven(workspace) => event_driven::harmonic_force(law, workspace, displacement, output),
+    }
+    Ok(())
+}
+
+/// Derivatives of the harmonic force with respect to the parameters of [`Sensitivity`](crate::Sensitivity) at fixed coefficients of the
+/// displacement, by the rule of the workspace: derivative of force i by parameter j at `i + (2H + 1) j`.
+///
+/// With uniform sampling they are the exact derivatives of the discrete force; event-driven, the rule applied to the exact derivatives
+/// of the integrals. Without friction or without normal force they are one-sided.
+///
+/// # Errors
+/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
+pub fn harmonic_sensitivity(
+    contact: &Contact,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    sensitivity: &mut [f64],
+) -> Result<(), Error> {
+    let n = workspace.coefficients();
+    if displacement.len() != n || sensitivity.len() != PARAMETERS * n {
+        return Err(Error::BadArraySize);
+    }
+    check_coefficients(displacement)?;
+    if displacement.iter().all(|&coefficient| coefficient == 0.0) {
+        sensitivity.fill(0.0);
+        return Ok(());
+    }
+    let law = |reversals, with_energy| SteadyState::new(contact, reversals, with_energy);
+    match &mut workspace.0 {
+        ByRule::UniformSampling(workspace) => {
+            uniform_sampling::harmonic_sensitivity(law, workspace, displacement, sensitivity);
+        }
+        ByRule::EventDriven(workspace) => {
+            event_driven::harmonic_sensitivity(law, workspace, displacement, sensitivity);
+        }
     }
     Ok(())
 }

@@ -4,6 +4,8 @@
 //! leaves reversal r, `dT = k (dδ - dδ_r) + dT_r` with the tangent stiffness k: the derivative depends only on the reversals on the
 //! stack.
 
+use crate::constant_load::sensitivity::Sensitivity;
+
 /// A point of a load history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Point {
@@ -68,6 +70,9 @@ pub(crate) trait Law {
 
     /// Response at a displacement on the present branch.
     fn response(&self, displacement: f64) -> Response;
+
+    /// Derivatives of the force at a displacement on the present branch, less those at the reversal that it leaves.
+    fn sensitivity(&self, displacement: f64) -> Sensitivity;
 
     /// Applies a step from a point of the present branch, which may reverse, close loops and enter gross slip. Returns whether the
     /// point is now a reversal on the stack.

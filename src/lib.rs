@@ -32,5 +32,6 @@ pub use constant_load::complex_stiffness::ComplexStiffness;
 pub use constant_load::contact::Contact;
 pub use constant_load::curve::CurvePoint;
 pub use constant_load::hysteresis_loop::HysteresisLoop;
+pub use constant_load::sensitivity::{PARAMETERS, Sensitivity};
 pub use error::Error;
 pub use parameters::{EllipticParameters, Material, Parameters};

@@ -3,10 +3,12 @@
 
 use crate::constant_load::complex_stiffness::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
+use crate::constant_load::sensitivity::Sensitivity;
 use crate::error::Error;
 use crate::numerics::fp_class::abs_le;
 use crate::parameters::{EllipticParameters, Material, Pair, Parameters};
 use crate::range::in_range;
+use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
@@ -61,6 +63,10 @@ pub struct Contact {
     rounded_flat: RoundedFlatZones,
     interpolant: ForceInterpolant,
     gross_slip_quadrature: GrossSlipQuadrature,
+    /// mu N over each parameter; over b instead of a.
+    pub(crate) sensitivity_scales: Sensitivity,
+    /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
+    pub(crate) reference_slope: f64,
     /// Makes the sum of all words 0, in a contact that was written by the C interface.
     pub(crate) checksum: u64,
 }
@@ -69,7 +75,7 @@ pub struct Contact {
 const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 
-const _: () = assert!(size_of::<Contact>() == 1976);
+const _: () = assert!(size_of::<Contact>() == 2032);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -82,10 +88,11 @@ impl Contact {
         // A zero without its sign, which would show in results.
         let flat_half_width = parameters.flat_half_width.abs();
         let parameters = &Parameters { flat_half_width, ..*parameters };
-        let Parameters { length, normal_force, friction_coefficient, .. } = *parameters;
+        let Parameters { edge_radius, length, normal_force, friction_coefficient, .. } = *parameters;
         check_moduli(&parameters.material)?;
         let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        let open = Contact { composite_modulus, tag: TAG_ROUNDED_FLAT, friction_coefficient, ..EMPTY };
+        let tag = TAG_ROUNDED_FLAT;
+        let open = Contact { composite_modulus, tag, ..EMPTY }.with_slip_forces(normal_force, friction_coefficient);
         if normal_force == 0.0 {
             return Ok(open);
         }
@@ -98,9 +105,10 @@ impl Contact {
             pressure_scale: normal_force / length / half_width,
             stiffness_scale: 0.5 * PI * composite_modulus * length,
             rounded_flat: RoundedFlatZones::new(shape.punch(), shape.reference_compliance()),
+            reference_slope: reference_slope(parameters, half_width),
             ..open
         };
-        geometry.with_friction(normal_force)
+        geometry.with_friction(normal_force, [half_width, edge_radius, length, composite_modulus])
     }
 
     /// Initialises an elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -113,7 +121,8 @@ impl Contact {
             *parameters;
         check_moduli(material)?;
         let composite_modulus = Pair::new(material).composite_modulus;
-        let open = Contact { composite_modulus, tag: TAG_ELLIPTIC, friction_coefficient, ..EMPTY };
+        let tag = TAG_ELLIPTIC;
+        let open = Contact { composite_modulus, tag, ..EMPTY }.with_slip_forces(normal_force, friction_coefficient);
         if normal_force == 0.0 {
             return Ok(open);
         }
@@ -123,11 +132,20 @@ impl Contact {
             pressure_scale: normal_force / semi_axis_x / semi_axis_y,
             ..open
         };
-        geometry.with_friction(normal_force)
+        // The radius of the sphere with this semi-axis. Nothing depends on the other two lengths.
+        in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
+        let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
+        geometry.with_friction(normal_force, [semi_axis_x, radius, semi_axis_x, composite_modulus])
     }
 
-    /// The tangential law, from geometry and stiffness.
-    fn with_friction(self, normal_force: f64) -> Result<Contact, Error> {
+    /// The derivatives of mu N.
+    fn with_slip_forces(self, normal_force: f64, friction_coefficient: f64) -> Contact {
+        let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0];
+        Contact { friction_coefficient, sensitivity_scales, ..self }
+    }
+
+    /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
+    fn with_friction(self, normal_force: f64, parameters: [f64; 4]) -> Result<Contact, Error> {
         if self.friction_coefficient == 0.0 {
             return Ok(self);
         }
@@ -136,6 +154,8 @@ impl Contact {
         in_range(&[self.friction_coefficient, self.pressure_scale], &[])?;
         let slip_force = self.friction_coefficient * normal_force;
         in_range(&[slip_force], &[self.stiffness_scale])?;
+        parameters.iter().try_for_each(|&parameter| in_range(&[slip_force], &[parameter]))?;
+        let [by_size, by_radius, by_length, by_modulus] = parameters.map(|parameter| slip_force / parameter);
         let displacement_scale = slip_force / self.stiffness_scale;
         let zones = self.stick_zones();
         let energy = zones.dissipation_beyond_half(&zones.at_load_remaining(0.0));
@@ -163,6 +183,7 @@ impl Contact {
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
             gross_slip_quadrature: gross_slip_quadrature(zones),
+            sensitivity_scales: [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus],
             ..self
         })
     }
@@ -248,6 +269,8 @@ const EMPTY: Contact = Contact {
     rounded_flat: RoundedFlatZones::EMPTY,
     interpolant: ForceInterpolant::NONE,
     gross_slip_quadrature: NO_QUADRATURE,
+    sensitivity_scales: [0.0; _],
+    reference_slope: 0.0,
     checksum: 0,
 };
 

@@ -4,6 +4,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::masing::BranchEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, push};
+use crate::constant_load::sensitivity::{Sensitivity, times};
 use crate::law::{BranchRange, Law, Point, Response, Reversal};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.
@@ -66,6 +67,15 @@ impl<'c> Law for SteadyState<'c, '_> {
     #[inline(always)]
     fn response(&self, displacement: f64) -> Response {
         self.branch.response(self.contact, displacement)
+    }
+
+    fn sensitivity(&self, displacement: f64) -> Sensitivity {
+        let Branch { direction, scale, gross_slip, .. } = self.branch;
+        if gross_slip || self.contact.is_frictionless() {
+            return times(direction, self.contact.slip_sensitivity());
+        }
+        let distance = self.branch.distance(self.contact.slip_displacement, displacement);
+        times(direction * scale, self.contact.sensitivity(distance))
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@
 use super::fourier::{clear_opposite_parity, fill_columns, normalise};
 use super::motion::{Grid, Instant, Motion, fill_integrals, fill_phi};
 use super::segments::{Integrals, PANEL, Segment};
+use super::sensitivity::{self, ReversalSensitivities};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use super::{HarmonicOutput, Requested, jacobian};
 use crate::error::Error;
@@ -154,6 +155,7 @@ pub(super) fn harmonic_force<'w, L: Law>(
         requested,
         motion,
         now: Response { force: 0.0, stiffness: 0.0 },
+        sensitivity: None,
     };
     if count == 0 {
         period.integrate_constant(buffers, span);
@@ -174,6 +176,34 @@ pub(super) fn harmonic_force<'w, L: Law>(
         let sums = |order| buffers.integrals.stiffness_of_order(order);
         jacobian::complete(jacobian, buffers.integrals.harmonics, sums, 1.0 / span, half_wave_symmetric);
     }
+}
+
+/// Computes the derivatives with respect to the parameters.
+pub(super) fn harmonic_sensitivity<'w, L: Law>(
+    law: impl FnOnce(&'w mut [Reversal], bool) -> L,
+    workspace: &'w mut Workspace,
+    displacement: &[f64],
+    sensitivity: &mut [f64],
+) {
+    let Workspace { reversals, buffers } = workspace;
+    let motion = Motion::new(displacement);
+    let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
+    let (count, half_wave_symmetric) = motion.find_reversals(grid, buffers.instants);
+    let span = if half_wave_symmetric { PI } else { 2.0 * PI };
+    sensitivity.fill(0.0);
+    let mut period = Period {
+        law: law(reversals, false),
+        requested: Requested { force: false, stiffness: false },
+        motion,
+        now: Response { force: 0.0, stiffness: 0.0 },
+        sensitivity: Some(&mut *sensitivity),
+    };
+    if count == 0 {
+        period.integrate_constant(buffers, span);
+    } else {
+        period.integrate(buffers, count, span, half_wave_symmetric, &mut None);
+    }
+    sensitivity::complete(sensitivity, 1.0 / span, half_wave_symmetric);
 }
 
 impl Buffers<'_> {
@@ -198,6 +228,8 @@ struct Period<'m, L> {
     motion: Motion<'m>,
     /// Response at the present instant.
     now: Response,
+    /// Integrals of the derivatives with respect to the parameters, if requested.
+    sensitivity: Option<&'m mut [f64]>,
 }
 
 impl<L: Law> Period<'_, L> {
@@ -208,6 +240,10 @@ impl<L: Law> Period<'_, L> {
         let Integrals { force, stiffness, .. } = &mut buffers.integrals;
         if let (Some(force), Some(stiffness)) = (force.first_mut(), stiffness.first_mut()) {
             (*force, *stiffness) = (span * self.now.force, span * self.now.stiffness);
+        }
+        if let Some(sums) = &mut self.sensitivity {
+            fill_integrals(buffers.row, 0.0, span);
+            sensitivity::add(sums, 1.0, buffers.row, self.law.sensitivity(self.motion.mean));
         }
     }
 
@@ -282,6 +318,14 @@ impl<L: Law> Period<'_, L> {
     #[inline(always)]
     fn reverse(&mut self, buffers: &mut Buffers, at: Instant, direction: f64) {
         let left = self.law.branch().depth;
+        if self.sensitivity.is_some() {
+            let mut stack = ReversalSensitivities::new(buffers.gradients);
+            let sensitivity = stack.at(&self.law, at.displacement);
+            if self.law.reverse(Point { displacement: at.displacement, force: 0.0 }, direction) {
+                stack.store(&self.law, sensitivity);
+            }
+            return;
+        }
         if !self.law.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
             return;
         }
@@ -314,6 +358,9 @@ impl<L: Law> Period<'_, L> {
         jacobian: &mut Option<&mut [f64]>,
     ) {
         self.law.account_for(from.displacement, to.displacement);
+        if self.sensitivity.is_some() {
+            return self.integrate_sensitivity(buffers, Segment { from: from.t, to: to.t, to_slip });
+        }
         let Requested { force, stiffness } = self.requested;
         if to.t <= from.t || !(force || stiffness) {
             return;
@@ -339,6 +386,24 @@ impl<L: Law> Period<'_, L> {
             fill_integrals(buffers.phi_integrals, from.t, to.t);
             let up_to_h = buffers.integrals.segment_stiffness.get(..n).unwrap_or(&[]);
             jacobian::add_reversal_term(jacobian, phi, gradient, buffers.phi_integrals, up_to_h);
+        }
+    }
+
+    /// Adds a segment of the present branch to the integrals of the derivatives with respect to the parameters.
+    #[inline(never)]
+    fn integrate_sensitivity(&mut self, buffers: &mut Buffers, segment: Segment) {
+        let Some(sums) = &mut self.sensitivity else { return };
+        let stack = ReversalSensitivities::new(buffers.gradients);
+        if segment.to <= segment.from {
+        } else if self.law.branch().gross_slip {
+            fill_integrals(buffers.row, segment.from, segment.to);
+            sensitivity::add(sums, 1.0, buffers.row, stack.at(&self.law, 0.0));
+        } else {
+            segment.panels(buffers.integrals.nodes_per_period).for_each(|t, weight| {
+                fill_phi(buffers.row, t);
+                let [displacement, ..] = self.motion.derivatives(t);
+                sensitivity::add(sums, weight, buffers.row, stack.at(&self.law, displacement));
+            });
         }
     }
 }

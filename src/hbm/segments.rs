@@ -28,6 +28,61 @@ pub(super) struct Segment {
     pub to_slip: bool,
 }
 
+/// The nodes of a segment, panel by panel.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Panels {
+    segment: Segment,
+    count: usize,
+    rule: &'static [[[f64; 4]; 2]],
+}
+
+impl Segment {
+    /// The rule for a density of nodes.
+    #[inline(always)]
+    pub fn panels(self, nodes_per_period: usize) -> Panels {
+        // Nodes of the cube root are three times as far apart at the start of the segment.
+        let (density, fewest) = if self.to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
+        let blocks_per_radian = nodes_per_period as f64 / (8.0 * PI);
+        let blocks = ((density * (self.to - self.from) * blocks_per_radian + 0.5) as usize).max(fewest);
+        let count = blocks.div_ceil(MAX_GAUSS_BLOCKS);
+        Panels { segment: self, count, rule: gauss_rule(blocks.div_ceil(count.max(1))) }
+    }
+}
+
+impl Panels {
+    /// Instants and weights of the nodes of a panel.
+    #[inline(always)]
+    fn nodes(&self, panel: usize) -> [Nodes; 2] {
+        let Segment { from, to, to_slip } = self.segment;
+        let (length, fraction) = (to - from, 1.0 / self.count as f64);
+        let [mut times, mut weights]: [Nodes; 2] = [[[0.0; 4]; _]; _];
+        for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(self.rule) {
+            for k in 0..4 {
+                let s = (panel as f64 + nodes[k]) * fraction;
+                let weight = length * fraction * rule_weights[k];
+                if to_slip {
+                    let root = 1.0 - s;
+                    times[k] = to - length * (root * root * root);
+                    weights[k] = 3.0 * root * root * weight;
+                } else {
+                    times[k] = from + length * s;
+                    weights[k] = weight;
+                }
+            }
+        }
+        [times, weights]
+    }
+
+    /// Calls a function for the instant and the weight of each node.
+    pub fn for_each(&self, mut function: impl FnMut(f64, f64)) {
+        for panel in 0..self.count {
+            let [times, weights] = self.nodes(panel);
+            let nodes = times.as_flattened().iter().zip(weights.as_flattened());
+            nodes.take(4 * self.rule.len()).for_each(|(&t, &weight)| function(t, weight));
+        }
+    }
+}
+
 /// Fourier integrals over segments.
 #[derive(Debug)]
 pub(super) struct Integrals<'a> {
@@ -61,36 +116,14 @@ impl Integrals<'_> {
     #[inline(always)]
     pub fn add(&mut self, evaluator: impl Evaluator, motion: &Motion, segment: Segment, requested: Requested) {
         let Requested { force, stiffness } = requested;
-        let Segment { from, to, to_slip } = segment;
-        let length = to - from;
-        // Nodes of the cube root are three times as far apart at the start of the segment.
-        let (density, fewest) = if to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
-        let blocks_per_radian = self.nodes_per_period as f64 / (8.0 * PI);
-        let blocks = ((density * length * blocks_per_radian + 0.5) as usize).max(fewest);
-        let panels = blocks.div_ceil(MAX_GAUSS_BLOCKS);
-        let rule = gauss_rule(blocks.div_ceil(panels.max(1)));
-        let fraction = 1.0 / panels as f64;
+        let panels = segment.panels(self.nodes_per_period);
+        let rule = panels.rule;
         let orders = if stiffness { 2 * self.harmonics } else { self.harmonics };
         if stiffness {
             self.segment_stiffness.fill(0.0);
         }
-        for panel in 0..panels {
-            let mut times: Nodes = [[0.0; 4]; _];
-            let mut weights: Nodes = [[0.0; 4]; _];
-            for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(rule) {
-                for k in 0..4 {
-                    let s = (panel as f64 + nodes[k]) * fraction;
-                    let weight = length * fraction * rule_weights[k];
-                    if to_slip {
-                        let root = 1.0 - s;
-                        times[k] = to - length * (root * root * root);
-                        weights[k] = 3.0 * root * root * weight;
-                    } else {
-                        times[k] = from + length * s;
-                        weights[k] = weight;
-                    }
-                }
-            }
+        for panel in 0..panels.count {
+            let [times, weights] = panels.nodes(panel);
             let times = times.get(..rule.len()).unwrap_or(&[]);
             let mut forces: Nodes = [[0.0; 4]; _];
             let mut stiffnesses = weights;

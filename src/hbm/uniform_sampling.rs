@@ -6,10 +6,12 @@
 
 use super::HarmonicOutput;
 use super::folded_fourier::{self, FoldedFourier, sample_length};
-use super::fourier::normalise;
+use super::fourier::{angle, normalise};
+use super::motion::fill_phi;
 use super::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
 use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients};
 use super::sampled_jacobian::{self, Assembly};
+use super::sensitivity::{self, ReversalSensitivities};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::error::Error;
 use crate::law::{BEYOND, BranchRange, Evaluator, Law, Point, Reversal};
@@ -125,17 +127,9 @@ pub(super) fn harmonic_force<'w, L: Law>(
 ) {
     let Workspace { size, fourier, reversals, period, path, gradients, assembly } = workspace;
     let HarmonicOutput { force, jacobian, dissipated } = output;
-    let count = size.samples;
-    fourier.synthesise(displacement, period);
-    let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
-    let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
-    let half_wave_symmetric = count.is_multiple_of(2) && only_odd_orders;
-    let length = if half_wave_symmetric { count / 2 } else { count };
-    let farthest = farthest(period, length);
-    rotate(period.get(..count).unwrap_or(&[]), farthest, path.displacement);
-    if let Some(end) = path.displacement.get_mut(count) {
-        *end = at(period, farthest);
-    }
+    let order = sample(size.samples, fourier, period, path, displacement);
+    let Order { count, farthest, half_wave_symmetric } = order;
+    let length = order.length();
     let mut law = law(reversals, dissipated.is_some());
     if jacobian.is_some() {
         path.advance::<true, true, L>(&mut law, length);
@@ -147,7 +141,6 @@ pub(super) fn harmonic_force<'w, L: Law>(
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
-    let order = Order { count, farthest, half_wave_symmetric };
     if let Some(force) = force {
         order.copy_to_period(path.force, -1.0, period);
         fourier.sum(period, force);
@@ -164,6 +157,48 @@ pub(super) fn harmonic_force<'w, L: Law>(
     }
 }
 
+/// Computes the derivatives with respect to the parameters.
+pub(super) fn harmonic_sensitivity<'w, L: Law>(
+    law: impl FnOnce(&'w mut [Reversal], bool) -> L,
+    workspace: &'w mut Workspace,
+    displacement: &[f64],
+    sensitivity: &mut [f64],
+) {
+    let Workspace { size, fourier, reversals, period, path, gradients, .. } = workspace;
+    let order = sample(size.samples, fourier, period, path, displacement);
+    let (mut law, mut stack) = (law(reversals, false), ReversalSensitivities::new(gradients.sums.as_flattened_mut()));
+    let (mut from, row) = (at(path.displacement, 0), path.force.get_mut(..size.coefficients()).unwrap_or(&mut []));
+    law.begin(from);
+    let mut now = law.sensitivity(from);
+    sensitivity.fill(0.0);
+    for (n, &displacement) in path.displacement.iter().enumerate().take(order.length() + 1).skip(1) {
+        if displacement != from {
+            if law.advance(Point { displacement: from, force: 0.0 }, displacement) {
+                stack.store(&law, now);
+            }
+            (now, from) = (stack.at(&law, displacement), displacement);
+        }
+        fill_phi(row, angle(1, order.farthest + n, order.count));
+        sensitivity::add(sensitivity, 1.0, row, now);
+    }
+    sensitivity::complete(sensitivity, 1.0 / order.length() as f64, order.half_wave_symmetric);
+}
+
+/// Samples a displacement, from the farthest sample on.
+#[inline(always)]
+fn sample(count: usize, fourier: &FoldedFourier, period: &mut [f64], path: &mut Path, displacement: &[f64]) -> Order {
+    fourier.synthesise(displacement, period);
+    let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
+    let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
+    let mut order = Order { count, farthest: 0, half_wave_symmetric: count.is_multiple_of(2) && only_odd_orders };
+    order.farthest = farthest(period, order.length());
+    rotate(period.get(..count).unwrap_or(&[]), order.farthest, path.displacement);
+    if let Some(end) = path.displacement.get_mut(count) {
+        *end = at(period, order.farthest);
+    }
+    order
+}
+
 /// Order of the samples on a path.
 #[derive(Debug, Clone, Copy)]
 struct Order {
@@ -173,6 +208,12 @@ struct Order {
 }
 
 impl Order {
+    /// Samples to be evaluated.
+    #[inline(always)]
+    fn length(&self) -> usize {
+        if self.half_wave_symmetric { self.count / 2 } else { self.count }
+    }
+
     /// Copies values of a path, which ends at the farthest sample, to the samples of the period. Under half-wave symmetry the path is
     /// first completed by values of the given sign.
     #[inline(always)]

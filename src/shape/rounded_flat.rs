@@ -91,12 +91,10 @@ impl RoundedFlat {
         let [normal, tangential] = match parameters.displacement_reference {
             CENTRE_POINT => [0.0; 2],
             // The kernels of Boussinesq and of Cerruti have the same mean over a rigid patch if ν = 0.
-            _ => [1.0, pair.mean(|nu| (1.0 - 2.0 * nu) / (1.0 - nu))]
-                .map(|factor| strip_correction(factor / slenderness)),
+            _ => [1.0, pair.mean(cerruti_factor)].map(|factor| strip_correction(factor / slenderness)),
         };
         let kappa = pair.mean(|nu| nu / (1.0 - nu));
-        let end_correction =
-            if parameters.displacement_reference == CENTRE_POINT { 0.0 } else { 8.0 / (PI * PI) / slenderness };
+        let end_correction = if parameters.displacement_reference == CENTRE_POINT { 0.0 } else { ACROSS / slenderness };
         let shape = RoundedFlat {
             flat,
             length,
@@ -336,12 +334,28 @@ fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, Rounde
     Ok((unit * size, scaled))
 }
 
+/// `MSLIP_RIGID_STRIP`: mean of a displacement that grows as the square across the strip, over b/L.
+const ACROSS: f64 = 8.0 / (PI * PI);
+
+/// dκ/d(ln b) of S: 0 unless κ depends on b/L.
+pub(crate) fn reference_slope(parameters: &Parameters, half_width: f64) -> f64 {
+    match parameters.displacement_reference {
+        CENTRE_POINT => 0.0,
+        _ => ACROSS * (Pair::new(&parameters.material).mean(cerruti_factor) / (parameters.length / half_width)),
+    }
+}
+
+/// Factor of Cerruti's kernel, relative to that of Boussinesq, in the correction across the strip.
+fn cerruti_factor(nu: f64) -> f64 {
+    (1.0 - 2.0 * nu) / (1.0 - nu)
+}
+
 /// Reduction of κ by three-dimensional contact mechanics: the mean instead of the centre of the displacement along and across the
 /// strip (1 - ln 2, and `across`, b/L times a function of Poisson's ratio), and the redistribution of traction along it (0.093,
 /// fitted to boundary-element results for 16 strips, which scatter from 0.081 to 0.102).
 fn strip_correction(across: f64) -> f64 {
     const REDISTRIBUTION: f64 = 0.093;
-    (1.0 - LN_2) + REDISTRIBUTION - 8.0 / (PI * PI) * across
+    (1.0 - LN_2) + REDISTRIBUTION - ACROSS * across
 }
 
 #[cfg(test)]

@@ -45,6 +45,19 @@ pub(crate) struct CurvePoint {
     pub curvature: f64,
 }
 
+/// Moments of the curvature h'' over the load t from 0 to τ, each free of cancellation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moments {
+    /// ∫ h'' dt = λ.
+    pub increase: f64,
+    /// ∫ t h'' dt = τ λ - h.
+    pub first: f64,
+    /// ∫ (1-t) h'' dt = β_b - s β_c.
+    pub complement: f64,
+    /// ∫ (4w/g_b) h'' dt.
+    pub by_flat: f64,
+}
+
 impl RoundedFlatZones {
     /// Those of an open contact.
     pub(crate) const EMPTY: RoundedFlatZones = RoundedFlatZones {
@@ -170,15 +183,52 @@ impl RoundedFlatZones {
         RoundedPunch::new(self.flat, RoundedPunch::initial_guess_w(self.flat, load))
     }
 
+    /// Moments of the curvature at a load; λ, to the rounding of Λ + λ, is used for τ > 1/2.
+    ///
+    /// With C(w) = w - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is w/(c ψ).
+    pub(crate) fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
+        let RoundedFlatZones { flat, w, .. } = *self;
+        let tau = load.consumed;
+        let (increase, first, complement, w_difference) = if tau <= 0.5 {
+            let [increase, first] = self.small_load.moments(tau);
+            let squares = -(-2.0 * increase).exp_m1();
+            (increase, first, increase - first, squares / (w + (w * w - squares).max(0.0).sqrt()))
+        } else {
+            let (punch, load_c) = self.punch_near(load.remaining, compliance_increase);
+            let increase = self.compliance_increase(&punch);
+            let complement = self.beta - load.remaining * punch.beta(load_c);
+            (increase, increase - complement, complement, w - punch.w)
+        };
+        let by_flat = if w * w <= 3.0 * flat * flat {
+            // 2 ∫ (1-t) h'' dt + a ∫ 4w/g_b h'' dt = τ; the first term is the smaller one.
+            (tau - 2.0 * complement) / flat
+        } else {
+            let angle = (flat * w_difference).atan2(flat * flat + w * (w - w_difference));
+            4.0 / self.load * (w_difference - flat * angle)
+        };
+        Moments { increase, first, complement, by_flat }
+    }
+
+    /// d(ln b)/d(ln g_b), and db/da at a constant load.
+    pub(crate) fn size_slopes(&self) -> [f64; 2] {
+        [self.small_load.initial_curvature(), self.w / self.psi]
+    }
+
     /// Dissipation and its derivative with respect to τ at the stick zone with `1 - τ = remaining`, λ given to the rounding of Λ + λ.
     /// With `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
     pub(crate) fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+        let (punch, load) = self.punch_near(remaining, compliance_increase);
+        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
+        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
+    }
+
+    /// The stick zone with `1 - τ = remaining` and its load, λ given to the rounding of Λ + λ.
+    #[inline(always)]
+    fn punch_near(&self, remaining: f64, compliance_increase: f64) -> (RoundedPunch, f64) {
         let w =
             (self.w * self.w + (-2.0 * compliance_increase).exp_m1()).max(0.25 * self.w * self.w * remaining).sqrt();
         let load = remaining * self.load;
-        let punch = RoundedPunch::newton_step_from(RoundedPunch::new(self.flat, w), load);
-        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
-        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
+        (RoundedPunch::newton_step_from(RoundedPunch::new(self.flat, w), load), load)
     }
 
     /// Eq. 13-16.

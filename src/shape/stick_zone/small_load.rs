@@ -158,6 +158,11 @@ impl SmallLoadSeries {
         terms
     }
 
+    /// λ = ∫ h'' dt and ∫ t h'' dt from 0 to τ.
+    pub fn moments(&self, tau: f64) -> [f64; 2] {
+        [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.d_dissipation(tau)]
+    }
+
     /// e at τ.
     pub fn dissipation(&self, tau: f64) -> f64 {
         self.sum(&DISSIPATION, tau) * tau * tau * tau
