@@ -49,13 +49,18 @@ const CLOSED: f64 = 0.1;
 /// order, so that an error of its square, a percent of the force, remains.
 const LARGEST_SWING: f64 = 0.1;
 
+/// Samples of a branch; of more, successive ones are averaged.
+const SAMPLES: usize = 500;
+/// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.04.
+const REST: [f64; 2] = [1e-3, 0.1];
+
 /// The loops of a record.
-pub(crate) fn loops(record: &Record) -> Result<Vec<Loop>, Error> {
+pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
+    let mut record = original;
     let (count, fail) = (record.time.len(), |reason: &str| error(format!("{}: {reason}", record.name)));
     let least = |record: &Record| SMALLEST_CYCLE * range(&record.displacement) + 6.0 * record.noise[0];
     let mut reversals = reversals(&smoothed(&record.displacement), least(record));
     let rotated;
-    let mut record = record;
     if reversals.len() < 3 {
         let is_closed = |values: &[f64]| (values[count - 1] - values[0]).abs() <= CLOSED * range(values);
         if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
@@ -65,6 +70,10 @@ pub(crate) fn loops(record: &Record) -> Result<Vec<Loop>, Error> {
         rotated = record.rotated(highest.unwrap_or_default());
         record = &rotated;
         reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count - 1]].concat();
+    }
+    let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
+    if branch >= 2 * SAMPLES {
+        return self::loops(&original.averaged(branch / SAMPLES));
     }
     let displacement = smoothed(&record.displacement);
     let half_range = |i: usize| 0.5 * (displacement[reversals[i + 1]] - displacement[reversals[i]]).abs();
@@ -145,6 +154,16 @@ impl Loop {
         };
         let reversal_error = record.noise[0] + 0.5 * mean(reversals.iter().map(step));
 
+        // At rest the force may creep, which is no part of the law.
+        let mut rests = vec![false; smooth.len()];
+        for &reversal in reversals {
+            let at_rest = |i: &usize| (smooth[*i] - smooth[reversal]).abs() <= REST[0] * (ends[1] - ends[0]);
+            let from = (samples.start..=reversal).rev().take_while(at_rest).last().unwrap_or(reversal);
+            let to = (reversal..end).take_while(at_rest).last().unwrap_or(reversal);
+            let length = (reversals[reversals.len() - 1] - samples.start) as f64 / (reversals.len() - 1) as f64;
+            rests[from..=to].fill((to - from) as f64 > REST[1] * length);
+        }
+
         let normal_force = mean(samples.clone().map(|i| record.normal_force[i]));
         let mut branch = 0;
         let sample = |i: usize| {
@@ -161,6 +180,7 @@ impl Loop {
                 distance: direction * (displacement - start(branch)),
             }
         };
+        let last = reversals[2 * ((reversals.len() - 1) / 2)];
         Loop {
             name: record.name.clone(),
             normal_force,
@@ -169,8 +189,8 @@ impl Loop {
             noise: record.noise,
             has_drift,
             cycles: (reversals.len() - 1) / 2,
-            complete: reversals[2 * ((reversals.len() - 1) / 2)] + 1 - samples.start,
-            samples: samples.map(sample).collect(),
+            complete: (samples.start..=last).filter(|i| !rests[*i]).count(),
+            samples: samples.filter(|i| !rests[*i]).map(sample).collect(),
         }
     }
 

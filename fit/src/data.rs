@@ -23,7 +23,6 @@ const LEAST_SAMPLES: usize = 40;
 const LARGEST_STEP: f64 = 0.25;
 /// Number of equal extreme values, over the number of samples, that a saturated sensor has.
 const CLIPPED: f64 = 0.02;
-
 impl Record {
     pub fn new(measurement: &Measurement, index: usize, normal_force: f64) -> Result<Record, Error> {
         let name = match measurement.name.as_str() {
@@ -98,6 +97,22 @@ impl Record {
         let noise = [noise(displacement), noise(force)];
         let (displacement, force, normal_force) = (displacement.clone(), force.clone(), smoothed(normal_force));
         Ok(Record { name, time, displacement, force, normal_force, noise })
+    }
+
+    /// Means of the given number of successive samples.
+    pub fn averaged(&self, samples: usize) -> Record {
+        let mean = |values: &[f64]| -> Vec<f64> {
+            values.chunks_exact(samples).map(|part| part.iter().sum::<f64>() / samples as f64).collect()
+        };
+        let [displacement, force] = [mean(&self.displacement), mean(&self.force)];
+        Record {
+            name: self.name.clone(),
+            time: mean(&self.time),
+            noise: [noise(&displacement), noise(&force)],
+            displacement,
+            force,
+            normal_force: mean(&self.normal_force),
+        }
     }
 
     /// The same record from another sample on, if it ends where it starts.

@@ -71,30 +71,44 @@ impl<'a> Fit<'a> {
 
     fn models(&self) -> impl Iterator<Item = (&Loop, LoopModel<'_>)> {
         let of_loop = self.loops.iter().zip(&self.curves).zip(&self.nuisances);
-        of_loop.map(|((one, curve), nuisances)| (one, LoopModel::new(one, curve, &self.parameters, nuisances)))
+        of_loop.map(|((one, curve), nuisances)| (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE])))
     }
 
-    /// Weights, and forces at the mean normal force, from the present model.
+    /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a loop
+    /// is an error of the model, of the same size everywhere.
     pub fn update_targets(&mut self) {
         let target = |(one, model): (&Loop, LoopModel)| {
             let [of_displacement, of_force] = one.noise;
-            // Computed loops may have no noise.
-            let size = one.samples.iter().fold(0.0, |size: f64, sample| size.max(sample.force.abs()));
-            let at = |sample| {
+            let at = |sample: &Sample| {
                 let at = model.at(sample);
-                let sigma = of_force.max(1e-7 * size).hypot(at.stiffness * of_displacement);
-                [sample.force - sample.load_excess * at.load_slope, sigma]
+                let force = sample.force - sample.load_excess * at.load_slope;
+                let variance = of_force.powi(2) + (at.stiffness * of_displacement).powi(2);
+                ([force, variance], (force - at.force).powi(2) - variance)
             };
-            one.samples.iter().map(at).collect()
+            let (mut targets, excess): (Vec<_>, Vec<_>) = one.samples.iter().map(at).unzip();
+            // Computed loops may have no noise.
+            let least = (1e-7 * one.height()).powi(2);
+            let excess = (excess.iter().sum::<f64>() / excess.len() as f64).max(least);
+            targets.iter_mut().for_each(|[_, variance]| *variance = (*variance + excess).sqrt());
+            targets
         };
         self.targets = self.models().map(target).collect();
+    }
+
+    /// Fits, with weights that follow the model.
+    pub fn settle(&mut self, free: Free) {
+        for _ in 0..3 {
+            self.minimize(free);
+            self.update_targets();
+        }
+        self.minimize(free);
     }
 
     /// Minimises over the free parameters. A parameter that ends at a limit stays there.
     pub fn minimize(&mut self, free: Free) {
         self.free = free;
         for _ in 0..PARAMETERS {
-            let method = LevenbergMarquardt::new().with_ftol(1e-10).with_xtol(1e-8).with_gtol(1e-10).with_patience(20);
+            let method = LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_gtol(1e-8).with_patience(20);
             *self = method.minimize(self.clone()).0;
             let at_limit = |i: usize| self.free[i] && self.limits[i].contains(&self.parameters[i]);
             let Some(i) = (0..PARAMETERS).find(|i| at_limit(*i)) else { break };
@@ -143,26 +157,35 @@ impl<'a> Fit<'a> {
         self.loops.iter().zip(&self.curves).map(of_loop).collect()
     }
 
-    /// Initial compliance of the contact in each loop.
-    pub fn contact_compliances(&self) -> Vec<f64> {
-        self.curves.iter().map(|curve| 1.0 / curve.initial_stiffness()).collect()
+    /// Initial compliance of the law under the normal force of the contact, and its derivative with respect to the shape.
+    pub fn law_compliance(&self) -> [f64; 2] {
+        let at = |shape: f64| {
+            let curve = self.family.reference_curve(self.has_shape.then_some(shape));
+            curve.map_or(f64::NAN, |curve| 1.0 / curve.initial_stiffness())
+        };
+        // The compliance depends on the shape by a logarithm only: a one-sided difference suffices for an interval.
+        let (step, here) = (1e-4, at(self.parameters[SHAPE]));
+        [here, if self.has_shape { (at(self.parameters[SHAPE] + step) - here) / step } else { 0.0 }]
     }
 
-    /// Variances of the free parameters if the residuals have variance 1; zero for the others.
-    pub fn variances(&self) -> [f64; PARAMETERS] {
-        let mut variances = [0.0; PARAMETERS];
-        let Some(mut jacobian) = self.jacobian() else { return variances };
+    /// Variances of linear combinations of the parameters, of which only the free ones vary, if the residuals have variance 1.
+    pub fn variances<const COUNT: usize>(&self, combinations: &[[f64; PARAMETERS]; COUNT]) -> [f64; COUNT] {
+        let Some(mut jacobian) = self.jacobian() else { return [f64::NAN; COUNT] };
         let norms: Vec<_> = jacobian.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
         for (mut column, norm) in jacobian.column_iter_mut().zip(&norms) {
             column /= *norm;
         }
         let normal = jacobian.tr_mul(&jacobian).symmetric_eigen();
-        for (k, i) in self.columns().into_iter().enumerate() {
-            // An eigenvalue of rounding errors only: the parameter is undetermined.
-            let of_vector = |(j, value): (usize, &f64)| normal.eigenvectors[(k, j)].powi(2) / value.max(1e-15);
-            variances[i] = normal.eigenvalues.iter().enumerate().map(of_vector).sum::<f64>() / norms[k].powi(2);
-        }
-        variances
+        let columns = self.columns();
+        combinations.map(|combination| {
+            let along = |j: usize| -> f64 {
+                let part = |(k, i): (usize, &usize)| normal.eigenvectors[(k, j)] * combination[*i] / norms[k];
+                columns.iter().enumerate().map(part).sum()
+            };
+            // An eigenvalue of rounding errors only: undetermined.
+            let of_vector = |(j, value): (usize, &f64)| along(j).powi(2) / value.max(1e-15);
+            normal.eigenvalues.iter().enumerate().map(of_vector).sum()
+        })
     }
 }
 

@@ -57,7 +57,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let [friction, series, contact_factor, _] = solution.fit.parameters;
     let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0];
     let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
-    slider.minimize([options.friction_coefficient.is_none(), true, false, false]);
+    slider.settle([options.friction_coefficient.is_none(), true, false, false]);
     let [friction_coefficient, compliance, ..] = slider.parameters;
     let spring_slider = SpringSlider {
         friction_coefficient,
@@ -80,6 +80,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         friction_coefficient: friction,
         series_compliance: series,
         contact_compliance,
+        total_compliance: solution.total_compliance,
         shape,
         law: Misfit::new(&loops, &forces),
         spring_slider,

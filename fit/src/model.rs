@@ -56,19 +56,33 @@ impl Family {
         Some(flat_half_width / contact.half_width)
     }
 
-    /// The geometry with another a/b. In units of b, Eq. 1 is `4NR/(E*L b²) = 2ψ - 2 (a/b) w`, w = sqrt(1 - (a/b)²), ψ = acos(a/b).
-    pub fn geometry(&self, shape: f64) -> Geometry {
-        let mut geometry = self.contact.geometry;
+    /// The geometry with another a/b, and the derivatives of a and R with respect to it. In units of b, Eq. 1 is
+    /// `4NR/(E*L b²) = 2ψ - 2 (a/b) w`, w = sqrt(1 - (a/b)²), ψ = acos(a/b); its derivative is -4w.
+    fn shaped(&self, shape: f64) -> (Geometry, [f64; 2]) {
+        let (mut geometry, mut slopes) = (self.contact.geometry, [0.0; 2]);
         if let Geometry::Flat { flat_half_width, edge_radius, length, .. } = &mut geometry {
-            let load = 2.0 * (shape.acos() - shape * ((1.0 - shape) * (1.0 + shape)).sqrt());
+            let w = ((1.0 - shape) * (1.0 + shape)).sqrt();
+            let load = 2.0 * (shape.acos() - shape * w);
             let scale = 4.0 * self.contact.normal_force / (self.modulus * *length);
             match self.parameter {
-                ShapeParameter::FlatHalfWidth => *flat_half_width = shape * (scale * *edge_radius / load).sqrt(),
-                ShapeParameter::EdgeRadius => *edge_radius = (*flat_half_width / shape).powi(2) * load / scale,
+                ShapeParameter::FlatHalfWidth => {
+                    let half_width = (scale * *edge_radius / load).sqrt();
+                    *flat_half_width = shape * half_width;
+                    slopes[0] = half_width * (1.0 + 2.0 * shape * w / load);
+                }
+                ShapeParameter::EdgeRadius => {
+                    *edge_radius = (*flat_half_width / shape).powi(2) * load / scale;
+                    slopes[1] = -*edge_radius * (2.0 / shape + 4.0 * w / load);
+                }
                 ShapeParameter::Fixed => {}
             }
         }
-        geometry
+        (geometry, slopes)
+    }
+
+    /// The geometry with another a/b.
+    pub fn geometry(&self, shape: f64) -> Geometry {
+        self.shaped(shape).0
     }
 
     /// Smallest and largest ratio a/b that are fitted: from a cylinder to a stamp with nearly sharp edges. The radius of a cylinder
@@ -116,26 +130,23 @@ impl Family {
         contact.map_err(|reason| Error(format!("the contact under a normal force of {normal_force:e}: {reason}")))
     }
 
+    /// The curve under the normal force of the contact.
+    pub fn reference_curve(&self, shape: Option<f64>) -> Result<Curve, Error> {
+        self.curve(shape, self.contact.normal_force)
+    }
+
     /// The curve under a normal force at a/b, or of the given geometry.
     pub fn curve(&self, shape: Option<f64>, normal_force: f64) -> Result<Curve, Error> {
-        let at = |shape: f64| self.at(&self.geometry(shape), normal_force);
-        let Some(shape) = shape else {
-            return Ok(Curve { contact: self.at(&self.contact.geometry, normal_force)?, neighbours: None });
-        };
-        let ends = [(shape - STEP).max(self.shape_range()[0]), shape + STEP];
-        let neighbours = Some((Box::new([at(ends[0])?, at(ends[1])?]), ends[1] - ends[0]));
-        Ok(Curve { contact: at(shape)?, neighbours })
+        let (geometry, shape_slopes) = shape.map_or((self.contact.geometry, [0.0; 2]), |shape| self.shaped(shape));
+        Ok(Curve { contact: self.at(&geometry, normal_force)?, shape_slopes })
     }
 }
 
-/// Step of the differences with respect to a/b.
-const STEP: f64 = 1e-5;
-
-/// The monotonic curve of a contact, a friction coefficient of 1, and two neighbours of other shape with their distance.
+/// The monotonic curve of a contact of friction coefficient 1, and the derivatives of a and R with respect to the shape.
 #[derive(Debug, Clone)]
 pub(crate) struct Curve {
     contact: Contact,
-    neighbours: Option<(Box<[Contact; 2]>, f64)>,
+    shape_slopes: [f64; 2],
 }
 
 /// A point of the total curve: force, and its derivatives with respect to the displacement and the parameters.
@@ -147,7 +158,7 @@ pub(crate) struct Point {
 }
 
 fn contact_force(contact: &Contact, displacement: f64) -> (f64, f64) {
-    contact.curve_at_displacement(displacement).map_or((f64::NAN, f64::NAN), |at| (at.force(), at.stiffness()))
+    contact.curve_at_displacement(displacement).map_or((f64::NAN, f64::NAN), |at| at.force_and_stiffness())
 }
 
 impl Curve {
@@ -162,7 +173,7 @@ impl Curve {
     }
 
     /// The point at a total displacement, odd in it.
-    pub fn at(&self, displacement: f64, parameters: &[f64; PARAMETERS]) -> Point {
+    fn at(&self, displacement: f64, parameters: &[f64; PARAMETERS], with_shape: bool) -> Point {
         let [friction, series, contact, _] = *parameters;
         let (distance, sign) = (displacement.abs(), displacement.signum());
         if distance >= self.slip_displacement(parameters) {
@@ -175,7 +186,7 @@ impl Curve {
             contact * (force - stiffness * z),
             -stiffness * friction * force,
             -stiffness * friction * z,
-            contact * friction * self.shape_slope(z),
+            if with_shape { contact * friction * self.shape_slope(z) } else { 0.0 },
         ];
         Point {
             force: sign * friction * force,
@@ -198,11 +209,11 @@ impl Curve {
         (z, response)
     }
 
+    /// dT₁/d(a/b) at constant z.
     fn shape_slope(&self, z: f64) -> f64 {
-        self.neighbours.as_ref().map_or(0.0, |(contacts, distance)| {
-            let [below, above] = [0, 1].map(|i| contact_force(&contacts[i], z).0);
-            (above - below) / distance
-        })
+        let [of_flat, of_radius] = self.shape_slopes;
+        let [_, _, by_flat, by_radius, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; 6]);
+        by_flat * of_flat + by_radius * of_radius
     }
 }
 
@@ -227,18 +238,22 @@ pub(crate) struct LoopModel<'a> {
     curve: &'a Curve,
     parameters: &'a [f64; PARAMETERS],
     nuisances: &'a [f64; NUISANCES],
+    with_shape: bool,
     end: Point,
 }
 
 impl<'a> LoopModel<'a> {
+    /// With or without the derivatives with respect to the shape.
     pub fn new(
         one: &Loop,
         curve: &'a Curve,
         parameters: &'a [f64; PARAMETERS],
         nuisances: &'a [f64; NUISANCES],
+        with_shape: bool,
     ) -> LoopModel<'a> {
         let amplitude = one.amplitude + 0.5 * (nuisances[2] + nuisances[3]);
-        LoopModel { curve, parameters, nuisances, end: curve.at(amplitude, parameters) }
+        let end = curve.at(amplitude, parameters, with_shape);
+        LoopModel { curve, parameters, nuisances, with_shape, end }
     }
 
     /// Masing's rule from the reversal of the branch.
@@ -249,7 +264,7 @@ impl<'a> LoopModel<'a> {
         let (sign, [offset, drift, low, high]) = (sample.direction, *self.nuisances);
         let (start, place) = if sign > 0.0 { (low, 2) } else { (high, 3) };
         let half = 0.5 * (sample.distance + start);
-        let point = self.curve.at(half, self.parameters);
+        let point = self.curve.at(half, self.parameters, self.with_shape);
         let mut nuisance_slopes = [1.0, sample.time, -0.5 * sign * self.end.stiffness, -0.5 * sign * self.end.stiffness];
         nuisance_slopes[place] += sign * point.stiffness;
         // d = u - C T, and k/(1 + C k) of the contact is the total stiffness K: (T - k d)/(1 + C k) = T - K u.

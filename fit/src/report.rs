@@ -13,6 +13,8 @@ pub struct Report {
     pub series_compliance: Estimate,
     /// Factor on the displacements of the law \[-\].
     pub contact_compliance: Estimate,
+    /// Initial compliance of contact, rig and bodies, under the normal force of the contact \[m/N\].
+    pub total_compliance: Estimate,
     /// Half-width of the flat over that of the contact under the normal force of the contact \[-\]; none of an ellipse.
     pub shape: Option<Estimate>,
     /// Misfit of the law.

@@ -23,6 +23,8 @@ const WIDEST: [f64; 3] = [0.1, 0.1, 0.5];
 pub(crate) struct Solution<'a> {
     pub fit: Fit<'a>,
     pub estimates: [Estimate; PARAMETERS],
+    /// Initial compliance of contact, rig and bodies.
+    pub total_compliance: Estimate,
     pub profile: Vec<ProfilePoint>,
     pub slips: bool,
 }
@@ -47,11 +49,7 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
     let others: Free = std::array::from_fn(|i| i != SHAPE && given[i].is_none());
     let all: Free = std::array::from_fn(|i| i == SHAPE || others[i]);
-    // Weights and the effect of the load depend on the model.
-    for _ in 0..2 {
-        start.minimize(others);
-        start.update_targets();
-    }
+    start.settle(others);
     let mut candidates = Vec::new();
     match range {
         None => candidates.push(Candidate::new(start, others)),
@@ -113,7 +111,7 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
         let shapes: Vec<_> = candidates.iter().map(|one| (one.fit.parameters[SHAPE], excess(one).sqrt())).collect();
         let mut refined = fit.clone();
         refined.free = all;
-        let error = QUANTILE * (unit * refined.variances()[SHAPE]).sqrt();
+        let error = QUANTILE * (unit * refined.variances(&[[0.0, 0.0, 0.0, 1.0]])[0]).sqrt();
         let value = fit.parameters[SHAPE];
         let end = |range: &mut dyn Iterator<Item = usize>, limit: f64, sign: f64| {
             let mut last = shapes[best];
@@ -144,37 +142,51 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
             at_shapes = admitted.map(|(candidate, _)| (candidate.fit.clone(), others)).collect();
         }
     }
-    let law = mean(&fit.contact_compliances());
-    let total = fit.parameters[SERIES] + fit.parameters[CONTACT] * law;
-    for i in (0..SHAPE).filter(|i| given[*i].is_none()) {
-        let value = fit.parameters[i];
-        let (mut lower, mut upper) = (value, value);
-        for (fit, free) in &mut at_shapes {
-            fit.free = *free;
-            let error = QUANTILE * (unit * fit.variances()[i]).sqrt();
-            (lower, upper) = (lower.min(fit.parameters[i] - error), upper.max(fit.parameters[i] + error));
+    // The three parameters, and the total compliance C + κ/k.
+    let values = |fit: &Fit| {
+        let ([friction, series, contact, _], [law, slope]) = (fit.parameters, fit.law_compliance());
+        let combinations = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 1.0, law, contact * slope],
+        ];
+        ([friction, series, contact, series + contact * law], combinations)
+    };
+    let best_values = values(&fit).0;
+    let (mut lower, mut upper) = (best_values, best_values);
+    for (fit, free) in &mut at_shapes {
+        fit.free = *free;
+        let (values, combinations) = values(fit);
+        for (i, variance) in fit.variances(&combinations).into_iter().enumerate() {
+            let error = QUANTILE * (unit * variance).sqrt();
+            (lower[i], upper[i]) = (lower[i].min(values[i] - error), upper[i].max(values[i] + error));
         }
-        let scale = [value, total, value][i];
-        let half_width = 0.5 * (upper - lower);
+    }
+    let estimate = |i: usize, scale: f64, widest: f64| {
+        let half_width = 0.5 * (upper[i] - lower[i]);
         let status = match i {
             FRICTION if !slips => Status::Bounded,
-            _ if half_width <= WIDEST[i] * scale => Status::Determined,
-            SERIES if half_width < scale => Status::Bounded,
-            CONTACT if lower > 0.0 => Status::Bounded,
-            FRICTION if lower > 0.0 => Status::Bounded,
+            _ if half_width <= widest * scale => Status::Determined,
+            SERIES if upper[i] < scale => Status::Bounded,
+            _ if lower[i] > 0.0 => Status::Bounded,
             _ => Status::NotDetermined,
         };
-        estimates[i] = Estimate { value, lower: lower.max(0.0), upper: Some(upper), status };
+        Estimate { value: best_values[i], lower: lower[i].max(0.0), upper: Some(upper[i]), status }
+    };
+    let scales = [best_values[FRICTION], best_values[SHAPE], best_values[CONTACT]];
+    for i in (0..SHAPE).filter(|i| given[*i].is_none()) {
+        estimates[i] = estimate(i, scales[i], WIDEST[i]);
     }
-    Ok(Solution { fit, estimates, profile, slips })
+    let total_compliance = match given {
+        [_, Some(_), Some(_)] if range.is_none() => fixed(best_values[SHAPE]),
+        _ => estimate(SHAPE, best_values[SHAPE], WIDEST[SERIES]),
+    };
+    Ok(Solution { fit, estimates, total_compliance, profile, slips })
 }
 
 fn fixed(value: f64) -> Estimate {
     Estimate { value, lower: value, upper: Some(value), status: Status::Fixed }
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation, up to five times that sum (Sokal).
@@ -210,12 +222,17 @@ pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<
             _ => format!("The friction coefficient is only bounded: {}.", interval(friction)),
         });
     }
-    let law = mean(&solution.fit.contact_compliances());
-    let part = contact.value * law / (contact.value * law + series.value);
-    sentences.push(format!(
-        "The contact has {:.1} % of the initial compliance, rig and bodies the rest.",
-        100.0 * part
-    ));
+    let total = &solution.total_compliance;
+    let part = (1.0 - series.value / total.value).max(0.0);
+    let percent = 100.0 * part;
+    sentences.push(match total.status {
+        Status::Determined | Status::Fixed => {
+            let stiffness = 1.0 / total.value;
+            format!("Contact, rig and bodies have an initial stiffness of {stiffness:.3e}.")
+        }
+        _ => "The stiffness of contact, rig and bodies is not determined.".to_owned(),
+    });
+    sentences.push(format!("In the best fit the contact has {percent:.1} % of the compliance."));
     for (name, estimate) in [("series compliance", series), ("compliance of the contact", contact)] {
         match estimate.status {
             Status::Fixed => {}

@@ -4,22 +4,35 @@ mod common;
 use common::*;
 use microslip_fit::*;
 
+fn report_of(series: f64, noise: [f64; 2], correlation: f64, seed: u64, samples: usize, options: &Options) -> Report {
+    let contact = flat();
+    let k = library_contact(&contact, 800.0).initial_stiffness;
+    let mut random = Random::new(seed);
+    let rigs = [0.7, 1.2, 2.0].map(|amplitude| Rig { series_compliance: series / k, amplitude, noise, correlation, samples, ..RIG });
+    let loops: Vec<_> = rigs.iter().map(|rig| measured(&contact, rig, &mut random)).collect();
+    fit(&contact, &loops, options).unwrap()
+}
+
 #[test]
 fn explore() {
     let contact = flat();
     let law = library_contact(&contact, 800.0);
     let k = law.initial_stiffness;
-    println!("b {:e} slip {:e} k {:e} a/b {}", law.half_width, law.slip_displacement, k, 0.1e-3/law.half_width);
-    for (c, noise) in [(0.0, 0.0), (0.2, 0.001), (0.2, 0.003), (0.2,0.01), (1.0,0.003), (20.0, 0.01)] {
+    for (c, noise, corr, samples) in [(0.2, [1e-3, 0.0], 0.0, 120), (0.2, [1e-3, 1e-4], 0.0, 120), (0.2, [1e-3, 5e-4], 0.0, 120), (0.2, [1e-3, 1e-4], 0.7, 120), (20.0, [1e-2, 1e-3], 0.0, 120),(20.0, [1e-2, 1e-3], 0.7, 120)] {
+        let truth = [0.5, c / k, 1.0, 0.1e-3 / law.half_width, (1.0 + c) / k];
         let started = std::time::Instant::now();
-        let mut random = Random::new(1);
-        let rigs = [0.7, 1.2, 2.0].map(|amplitude| Rig { series_compliance: c / k, amplitude, noise: [noise, 0.1*noise], ..RIG });
-        let loops: Vec<_> = rigs.iter().map(|rig| measured(&contact, rig, &mut random)).collect();
-        let report = fit(&contact, &loops, &Options::default()).unwrap();
-        println!("\nC k0 = {c} noise {noise}: {:?}", started.elapsed());
-        println!("mu {:?}\nC*k {:?} {:?}\nkappa {:?}\nshape {:?}", report.friction_coefficient, report.series_compliance.value*k, report.series_compliance, report.contact_compliance, report.shape);
-        println!("{:?}\n{:?}", report.law, report.spring_slider);
-        for p in &report.profile { println!("  {:.3} {:.5} {}", p.shape, p.relative_rms, p.admitted); }
-        println!("{:#?} {:?}", report.verdict, report.warnings);
+        let mut hits = [0; 5];
+        let mut status = [[0; 4]; 5];
+        let mut width = [0.0; 5];
+        for seed in 0..200 {
+            let report = report_of(c, noise, corr, seed, samples, &Options::default());
+            let e = [report.friction_coefficient, report.series_compliance, report.contact_compliance, report.shape.unwrap(), report.total_compliance];
+            for i in 0..5 {
+                hits[i] += usize::from((e[i].lower..=e[i].upper.unwrap_or(f64::INFINITY)).contains(&truth[i]));
+                status[i][e[i].status as usize] += 1;
+                width[i] += 0.5*(e[i].upper.unwrap_or(0.0)-e[i].lower)/200.0/truth[i];
+            }
+        }
+        println!("{c} {noise:?} {corr}: {hits:?} {status:?} {width:.4?} {:?}", started.elapsed()/200);
     }
 }

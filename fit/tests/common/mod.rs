@@ -94,7 +94,7 @@ pub const RIG: Rig = Rig {
 };
 
 pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measurement {
-    let law = library_contact(contact, rig.normal_force);
+    let law = &library_contact(contact, rig.normal_force);
     let mut state = vec![0.0; state_length(16)];
     state_init(&mut state).unwrap();
     let amplitude = rig.amplitude * law.slip_displacement;
@@ -106,7 +106,7 @@ pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measuremen
         // The reversals are between samples.
         let phase = TAU * (i as f64 + 0.3) / rig.samples as f64;
         let at = amplitude * phase.sin();
-        let point = step(&law, &state, at);
+        let point = step(law, &state, at);
         let tangential = point.force();
         point.write(&mut state);
         let scatter = (1.0 - rig.correlation * rig.correlation).sqrt();
