@@ -104,17 +104,32 @@ impl<'a> Fit<'a> {
         self.minimize(free);
     }
 
-    /// Minimises over the free parameters. A parameter that ends at a limit stays there.
+    /// Minimises over the free parameters. A parameter at a limit stays there as long as the residuals push it outwards.
     pub fn minimize(&mut self, free: Free) {
-        self.free = free;
-        for _ in 0..PARAMETERS {
-            let method = LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_gtol(1e-8).with_patience(20);
+        let method = LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_gtol(1e-8).with_patience(10);
+        let mut fixed = self.limits_at_which(|_| true);
+        for _ in 0..=PARAMETERS {
+            self.free = std::array::from_fn(|i| free[i] && !fixed[i]);
             *self = method.minimize(self.clone()).0;
-            let at_limit = |i: usize| self.free[i] && self.limits[i].contains(&self.parameters[i]);
-            let Some(i) = (0..PARAMETERS).find(|i| at_limit(*i)) else { break };
-            self.free[i] = false;
+            self.free = free;
+            let Some((residuals, jacobian)) = self.residuals().zip(self.jacobian()) else { break };
+            let gradient = jacobian.tr_mul(&residuals);
+            let columns = self.columns();
+            let pushed = self.limits_at_which(|i| {
+                let place = columns.iter().position(|column| *column == i);
+                let slope = place.map_or(0.0, |place| gradient[place]);
+                if self.parameters[i] == self.limits[i][0] { slope > 0.0 } else { slope < 0.0 }
+            });
+            if (0..PARAMETERS).all(|i| !free[i] || pushed[i] == fixed[i]) {
+                break;
+            }
+            fixed = pushed;
         }
-        self.free = free;
+    }
+
+    /// Which parameters are at a limit, and meet a condition.
+    fn limits_at_which(&self, condition: impl Fn(usize) -> bool) -> [bool; PARAMETERS] {
+        std::array::from_fn(|i| self.limits[i].contains(&self.parameters[i]) && condition(i))
     }
 
     fn columns(&self) -> Vec<usize> {

@@ -13,7 +13,7 @@ use crate::report::{Estimate, ProfilePoint, Status};
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
 const QUANTILE: f64 = 1.96;
 /// Number of shapes of the profile.
-const SHAPES: usize = 12;
+const SHAPES: usize = 10;
 /// Widest interval of a/b, and half-widths of the others as fractions, of a parameter that is determined.
 const WIDEST_SHAPE: f64 = 0.3;
 const WIDEST: [f64; 3] = [0.1, 0.1, 0.5];
