@@ -51,8 +51,8 @@ const LARGEST_SWING: f64 = 0.1;
 
 /// Samples of a branch; of more, successive ones are averaged.
 const SAMPLES: usize = 500;
-/// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.04.
-const REST: [f64; 2] = [1e-3, 0.1];
+/// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.09.
+const REST: [f64; 2] = [5e-3, 0.2];
 
 /// The loops of a record.
 pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {

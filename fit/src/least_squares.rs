@@ -190,16 +190,14 @@ impl<'a> Fit<'a> {
         for (mut column, norm) in jacobian.column_iter_mut().zip(&norms) {
             column /= *norm;
         }
-        let normal = jacobian.tr_mul(&jacobian).symmetric_eigen();
-        let columns = self.columns();
+        // With J = QR, the variance of wᵀp is |R⁻ᵀw|²; without squares of the condition of J.
+        let (upper, columns) = (jacobian.qr().r(), self.columns());
         combinations.map(|combination| {
-            let along = |j: usize| -> f64 {
-                let part = |(k, i): (usize, &usize)| normal.eigenvectors[(k, j)] * combination[*i] / norms[k];
-                columns.iter().enumerate().map(part).sum()
-            };
-            // An eigenvalue of rounding errors only: undetermined.
-            let of_vector = |(j, value): (usize, &f64)| along(j).powi(2) / value.max(1e-15);
-            normal.eigenvalues.iter().enumerate().map(of_vector).sum()
+            let mut weights = DVector::zeros(norms.len());
+            for (k, i) in columns.iter().enumerate() {
+                weights[k] = combination[*i] / norms[k];
+            }
+            upper.tr_solve_upper_triangular(&weights).map_or(f64::INFINITY, |solution| solution.norm_squared())
         })
     }
 }

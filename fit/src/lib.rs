@@ -58,11 +58,11 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0];
     let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
     slider.settle([options.friction_coefficient.is_none(), true, false, false]);
-    let [friction_coefficient, compliance, ..] = slider.parameters;
+    let ([friction_coefficient, compliance, ..], slider_forces) = (slider.parameters, slider.forces());
     let spring_slider = SpringSlider {
         friction_coefficient,
         stiffness: 1.0 / compliance,
-        misfit: Misfit::new(&loops, &slider.forces()),
+        misfit: Misfit::new(&loops, &slider_forces),
     };
 
     let (forces, [mut friction, series, contact_compliance, shape_estimate]) = (solution.fit.forces(), solution.estimates);
@@ -76,6 +76,8 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         Some(_) => shape_estimate,
         None => Estimate { value: given, lower: given, upper: Some(given), status: Status::Fixed },
     });
+    let forces_of_loops = forces.iter().zip(&slider_forces);
+    let fitted = |(one, (law, slider)): (&cycles::Loop, (&Vec<_>, &Vec<_>))| FittedLoop::new(one, law, slider);
     Ok(Report {
         friction_coefficient: friction,
         series_compliance: series,
@@ -88,7 +90,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         profile: solution.profile,
         warnings,
         contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),
-        loops: loops.iter().zip(&forces).map(|(one, forces)| FittedLoop::new(one, forces)).collect(),
+        loops: loops.iter().zip(forces_of_loops).map(fitted).collect(),
     })
 }
 

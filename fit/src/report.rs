@@ -112,6 +112,8 @@ pub struct FittedLoop {
     pub measured_force: Vec<f64>,
     /// Forces of the law \[N\].
     pub force: Vec<f64>,
+    /// Forces of the spring-slider \[N\].
+    pub slider_force: Vec<f64>,
 }
 
 impl Misfit {
@@ -135,7 +137,7 @@ fn energies(one: &Loop, forces: &[[f64; 2]]) -> [f64; 2] {
 }
 
 impl FittedLoop {
-    pub(crate) fn new(one: &Loop, forces: &[[f64; 2]]) -> FittedLoop {
+    pub(crate) fn new(one: &Loop, forces: &[[f64; 2]], slider: &[[f64; 2]]) -> FittedLoop {
         let [measured_energy, energy] = energies(one, forces);
         FittedLoop {
             name: one.name.clone(),
@@ -146,6 +148,8 @@ impl FittedLoop {
             displacement: one.samples.iter().map(|sample| sample.displacement).collect(),
             measured_force: forces.iter().map(|pair| pair[0]).collect(),
             force: forces.iter().map(|pair| pair[1]).collect(),
+            // Its offset differs a little from that of the law.
+            slider_force: forces.iter().zip(slider).map(|(law, slider)| slider[1] + law[0] - slider[0]).collect(),
         }
     }
 }
