@@ -137,7 +137,7 @@ fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh
 
-## python: build the Python wheel into target/wheels and test it
+## python: build the Python wheel into target/python and test it
 python:
 	@tools/dependencies.sh python
 	tools/python.sh

@@ -1,7 +1,14 @@
-//! Writes the declarations of `microslip.h` to `header.h` in the target directory, from which maturin makes the Python bindings.
+//! Writes the declarations of `microslip.h`, and those of the package, to `header.h` in the target directory, from which maturin
+//! makes the Python bindings.
 
 use std::path::PathBuf;
 use std::{env, fs};
+
+/// The functions of `src/lib.rs`.
+const OWN: &str = "
+int32_t microslip_python_fit(const char *problem, char **answer);
+void microslip_python_free(char *text);
+";
 
 const HEADER: &str = "../include/microslip.h";
 
@@ -10,7 +17,7 @@ fn main() {
     let build = out.ancestors().find(|path| path.ends_with("build")).expect("OUT_DIR is below build/");
     let target = build.ancestors().nth(2).expect("build/ is in the directory of a profile");
     let header = target.join("header.h");
-    let text = declarations(&fs::read_to_string(HEADER).expect("include/microslip.h is beside python/"));
+    let text = declarations(&fs::read_to_string(HEADER).expect("include/microslip.h is beside python/")) + OWN;
     // Written only if it differs: a newer file causes another build.
     if fs::read_to_string(&header).ok().as_ref() != Some(&text) {
         fs::write(&header, text).expect("the target directory can be written");

@@ -7,7 +7,7 @@ set -eu
 cd "$(dirname "$0")/.."
 : "${PYTHON:=python3}"
 tools=$PWD/target/tools/python
-wheels=$PWD/target/wheels
+wheels=$PWD/target/python
 package=$PWD/python
 PIP_DISABLE_PIP_VERSION_CHECK=1
 PIP_QUIET=1
@@ -44,11 +44,16 @@ tests() {
     echo "$name: ${good:-0} passed, ${bad:-0} failed"
 }
 
+# core DIRECTORY: the tests that need nothing but the wheel.
+core() {
+    tests "tests, $("$1/bin/python" --version)" "$1" "$package"/tests/test_interface.py "$package"/tests/test_tables.py "$package"/tests/test_fit.py
+}
+
 check 'build tools' tools
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }
 check "clean environment" environment "$work/python" "$PYTHON"
-tests "tests, $("$PYTHON" --version)" "$work/python" "$package"/tests/test_interface.py "$package"/tests/test_tables.py
+core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
 
 # The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
@@ -64,18 +69,22 @@ others() {
 }
 for other in $(others); do
     check "clean environment, $("$other" --version)" environment "$work/other" "$other"
-    tests "tests, $("$other" --version)" "$work/other" "$package"/tests/test_interface.py "$package"/tests/test_tables.py
+    core "$work/other"
     rm -rf "$work/other"
 done
 from_source() {
     "$PYTHON" -m venv "$work/source" && "$work/source/bin/pip" install ./python && (cd "$work" && source/bin/python -c 'import microslip')
 }
 check 'pip install ./python' from_source
-# Kept, because pyHarm brings many packages.
+# Kept, because they are many. pyHarm names Jupyter among its requirements, a hundred packages that it does not need.
 adapters=$PWD/target/tools/python-adapters
 examples() {
-    { [ -e "$adapters/bin/ruff" ] || { "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install matplotlib mypy pyHarm-os pytest ruff; }; } &&
-        "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install "$wheels"/*.whl
+    { [ -e "$adapters/bin/ruff" ] || {
+        "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install --no-deps pyHarm-os && "$adapters/bin/python" -c '
+from importlib.metadata import requires
+print(*(r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))), sep="\n")' > "$work/required" &&
+            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib mypy pytest ruff
+    }; } && "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install cffi numpy
 }
 check 'packages of the examples' examples
 types() {

@@ -27,6 +27,7 @@ from ._contact import (
 )
 from ._core import Error, Parameter, Status, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce
+from ._fit import FitError, fit
 from ._memory import ElementState, ElementWorkspace, State, Workspace
 
 __version__: str = ffi.string(lib.mslip_version()).decode()
@@ -56,6 +57,7 @@ __all__ = [
     "ElementStep",
     "ElementWorkspace",
     "Error",
+    "FitError",
     "HarmonicForce",
     "HysteresisLoop",
     "Iwan",
@@ -74,5 +76,6 @@ __all__ = [
     "Tractions",
     "Workspace",
     "__version__",
+    "fit",
     "status_text",
 ]
