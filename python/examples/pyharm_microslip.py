@@ -197,9 +197,9 @@ def main():
             element.evalResidual(x, 1.0)
             element.evalJacobian(x, 1.0)
 
-        print(f"{name}: {microseconds(residual_and_jacobian, 50):.0f} µs for a residual and a Jacobian")
+        print(f"{name}: {microseconds(residual_and_jacobian, 20):.0f} µs for a residual and a Jacobian")
     displacement = slip * random.standard_normal(11)
-    print(f"spring-slider in NumPy: {microseconds(lambda: harmonic_force(stiffness, slip_force, displacement, 128), 10):.0f} µs")
+    print(f"spring-slider in NumPy: {microseconds(lambda: harmonic_force(stiffness, slip_force, displacement, 128), 3):.0f} µs")
     return 0
 
 

@@ -111,8 +111,8 @@ def main():
     )
     force = MicroslipForce(np.eye(1), np.eye(1), law)
     U, h = law.slip_displacement * np.random.default_rng(1).standard_normal(11), np.arange(6)
-    slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 10)
-    print(f"microslip, aft(): {microseconds(lambda: force.aft(U, 1.0, h), 200):.0f} µs for force and Jacobian")
+    slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 3)
+    print(f"microslip, aft(): {microseconds(lambda: force.aft(U, 1.0, h), 20):.0f} µs for force and Jacobian")
     print(f"spring-slider in NumPy: {slider:.0f} µs")
     return 0
 

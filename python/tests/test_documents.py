@@ -37,9 +37,11 @@ def test_pictures(tmp_path):
     assert min(pictures.values()) > 10_000
 
 
-@pytest.mark.parametrize("name", ["pyharm_microslip", "tmdsimpy_microslip"])
-def test_times_of_the_adapters(name, tmp_path):
+@pytest.mark.parametrize("name", ["times", "pyharm_microslip", "tmdsimpy_microslip"])
+def test_programs_that_measure_times(name, tmp_path):
     output = run(str(EXAMPLES / f"{name}.py"), directory=tmp_path)
-    print(output)
-    assert re.search(r"microslip.*: \d+ µs", output)
-    assert re.search(r"spring-slider in NumPy: \d+ µs", output)
+    times = dict(re.findall(r"^(.*): ([\d.]+) µs", output, re.MULTILINE))
+    assert len(times) >= 2
+    slider = next(float(time) for name, time in times.items() if name.startswith("spring-slider in NumPy"))
+    # A factor of ten to eighty, on whatever machine.
+    assert all(float(time) < slider for name, time in times.items() if "slider" not in name and "Jenkins" not in name)
