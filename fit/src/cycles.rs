@@ -31,8 +31,9 @@ pub(crate) struct Sample {
     /// Displacement from the middle of the loop.
     pub displacement: f64,
     pub force: f64,
-    /// N over its mean, less 1.
+    /// Normal force less its mean: of the sample, and of the reversal.
     pub load_excess: f64,
+    pub load_excess_at_reversal: f64,
     /// +1 if the displacement grows, otherwise -1.
     pub direction: f64,
     /// Distance from the reversal.
@@ -175,7 +176,8 @@ impl Loop {
                 time: record.time[i],
                 displacement,
                 force: record.force[i],
-                load_excess: record.normal_force[i] / normal_force - 1.0,
+                load_excess: record.normal_force[i] - normal_force,
+                load_excess_at_reversal: record.normal_force[reversals[branch]] - normal_force,
                 direction,
                 distance: direction * (displacement - start(branch)),
             }
@@ -197,7 +199,7 @@ impl Loop {
     /// Checks the direction of the loop and the swing of the normal force.
     fn check(&self) -> Result<(), Error> {
         let fail = |reason: String| error(format!("{}: {reason}", self.name));
-        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt();
+        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt() / self.normal_force;
         if swing > LARGEST_SWING {
             return fail(format!(
                 "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under \

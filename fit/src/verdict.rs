@@ -228,9 +228,9 @@ pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<
     sentences.push(match total.status {
         Status::Determined | Status::Fixed => {
             let stiffness = 1.0 / total.value;
-            format!("Contact, rig and bodies have an initial stiffness of {stiffness:.3e}.")
+            format!("The initial stiffness of contact, rig and bodies together is determined: {stiffness:.4e}.")
         }
-        _ => "The stiffness of contact, rig and bodies is not determined.".to_owned(),
+        _ => "The initial stiffness of contact, rig and bodies together is not determined.".to_owned(),
     });
     sentences.push(format!("In the best fit the contact has {percent:.1} % of the compliance."));
     for (name, estimate) in [("series compliance", series), ("compliance of the contact", contact)] {
