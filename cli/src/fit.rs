@@ -14,7 +14,7 @@ use microslip_fit::{Estimate, FittedLoop, Measurement, Misfit, NormalForce, Opti
 use std::path::{Path, PathBuf};
 
 /// Loops that a picture has at most.
-const LOOPS: usize = 6;
+const LOOPS: usize = 4;
 
 pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
     let extra: Vec<&Path> = [&options.fitted, &options.json].into_iter().flatten().map(PathBuf::as_path).collect();
@@ -22,12 +22,10 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
     let measured = options.measured.iter().enumerate().map(|(index, path)| measurement(options, spec, index, path));
     let measured = measured.collect::<Result<Vec<_>>>()?;
     let contact = spec.given.fit_contact()?;
-    let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec))
-        .map_err(|error| CliError::Input(error.to_string()))?;
+    let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec)).map_err(|error| CliError::Input(error.to_string()))?;
     if let Some(path) = &options.fitted {
         let units = if spec.units == Units::Mm { "units = \"mm\"\n" } else { "" };
-        let (comments, parameters): (Vec<_>, Vec<_>) =
-            found.contact_toml.lines().partition(|line| line.starts_with('#'));
+        let (comments, parameters): (Vec<_>, Vec<_>) = found.contact_toml.lines().partition(|line| line.starts_with('#'));
         write_file(path, format!("{}\n{units}{}\n", comments.join("\n"), parameters.join("\n")).as_bytes())?;
     }
     if let Some(path) = &options.json {
@@ -77,8 +75,7 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
     if !table.has_second {
         return usage(format!("{}: --force-column must select a column", path.display()));
     }
-    let values =
-        |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
+    let values = |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
     let load = match options.loads[..] {
         [] if table.alternative.is_some() => Some(NormalForce::Samples(values(2, force.1))),
         [] => None,
@@ -184,24 +181,23 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
     Table::of_text("quantity,value,lower,upper,unit,status", rows)
 }
 
-/// A panel of each loop, and the misfit over the shape.
+/// Two panels of each loop, and the misfit over the shape.
 fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
     let of_loop = |one: &FittedLoop| {
-        let line = |name: &str, forces: &[f64]| Line {
+        let line = |name: &str, forces: Vec<f64>| Line {
             name: name.to_owned(),
-            points: one.displacement.iter().copied().zip(forces.iter().copied()).collect(),
+            points: one.displacement.iter().copied().zip(forces).collect(),
         };
-        Panel {
-            x: Axis::linear("displacement", Length),
-            y: Axis::linear("force", Force),
-            lines: vec![
-                line("measured", &one.measured_force),
-                line("law", &one.force),
-                line("spring-slider", &one.slider_force),
-            ],
-        }
+        let less = |forces: &[f64]| one.measured_force.iter().zip(forces).map(|(one, other)| one - other).collect();
+        let panel = |name, lines| Panel { x: Axis::linear("displacement", Length), y: Axis::linear(name, Force), lines };
+        let loops = [("measured", &one.measured_force), ("law", &one.force), ("spring-slider", &one.slider_force)];
+        let differences = [("measured - law", &one.force), ("measured - spring-slider", &one.slider_force)];
+        [
+            panel("force", loops.map(|(name, forces)| line(name, forces.clone())).into()),
+            panel("difference of force", differences.map(|(name, forces)| line(name, less(forces))).into()),
+        ]
     };
-    let mut panels: Vec<_> = found.loops.iter().take(LOOPS).map(of_loop).collect();
+    let mut panels: Vec<_> = found.loops.iter().take(LOOPS).flat_map(of_loop).collect();
     if !found.profile.is_empty() {
         let points = found.profile.iter().map(|at| (at.shape, at.relative_rms)).collect();
         panels.push(Panel {

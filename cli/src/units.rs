@@ -12,7 +12,7 @@ pub enum Units {
     Mm,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     Number,
     Angle,

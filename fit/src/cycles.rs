@@ -31,8 +31,9 @@ pub(crate) struct Sample {
     /// Displacement from the middle of the loop.
     pub displacement: f64,
     pub force: f64,
-    /// N over its mean, less 1.
+    /// Normal force less its mean: of the sample, and of the reversal.
     pub load_excess: f64,
+    pub load_excess_at_reversal: f64,
     /// +1 if the displacement grows, otherwise -1.
     pub direction: f64,
     /// Distance from the reversal.
@@ -64,15 +65,12 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     if reversals.len() < 3 {
         let is_closed = |values: &[f64]| (values[count - 1] - values[0]).abs() <= CLOSED * range(values);
         if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
-            return fail(
-                "less than one cycle of displacement: at least from one reversal to the next but one is needed",
-            );
+            return fail("less than one cycle of displacement: at least from one reversal to the next but one is needed");
         }
         let highest = (0..count).max_by(|i, j| record.displacement[*i].total_cmp(&record.displacement[*j]));
         rotated = record.rotated(highest.unwrap_or_default());
         record = &rotated;
-        reversals =
-            [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count - 1]].concat();
+        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count - 1]].concat();
     }
     let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
     if branch >= 2 * SAMPLES {
@@ -94,9 +92,7 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
         first = last;
     }
     if loops.is_empty() {
-        return fail(
-            "the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops",
-        );
+        return fail("the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops");
     }
     loops.iter().try_for_each(Loop::check)?;
     Ok(loops)
@@ -180,7 +176,8 @@ impl Loop {
                 time: record.time[i],
                 displacement,
                 force: record.force[i],
-                load_excess: record.normal_force[i] / normal_force - 1.0,
+                load_excess: record.normal_force[i] - normal_force,
+                load_excess_at_reversal: record.normal_force[reversals[branch]] - normal_force,
                 direction,
                 distance: direction * (displacement - start(branch)),
             }
@@ -202,7 +199,7 @@ impl Loop {
     /// Checks the direction of the loop and the swing of the normal force.
     fn check(&self) -> Result<(), Error> {
         let fail = |reason: String| error(format!("{}: {reason}", self.name));
-        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt();
+        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt() / self.normal_force;
         if swing > LARGEST_SWING {
             return fail(format!(
                 "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under \

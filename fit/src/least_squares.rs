@@ -71,9 +71,7 @@ impl<'a> Fit<'a> {
 
     fn models(&self) -> impl Iterator<Item = (&Loop, LoopModel<'_>)> {
         let of_loop = self.loops.iter().zip(&self.curves).zip(&self.nuisances);
-        of_loop.map(|((one, curve), nuisances)| {
-            (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE]))
-        })
+        of_loop.map(|((one, curve), nuisances)| (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE])))
     }
 
     /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a loop
@@ -83,7 +81,7 @@ impl<'a> Fit<'a> {
             let [of_displacement, of_force] = one.noise;
             let at = |sample: &Sample| {
                 let at = model.at(sample);
-                let force = sample.force - sample.load_excess * at.load_slope;
+                let force = sample.force - model.load_effect(sample);
                 let variance = of_force.powi(2) + (at.stiffness * of_displacement).powi(2);
                 ([force, variance], (force - at.force).powi(2) - variance)
             };
@@ -160,8 +158,8 @@ impl<'a> Fit<'a> {
     pub fn forces(&self) -> Vec<Vec<[f64; 2]>> {
         let of_loop = |((one, model), [offset, drift, ..]): ((&Loop, LoopModel), &[f64; NUISANCES])| {
             let at = |sample: &Sample| {
-                let (zero, at) = (offset + drift * sample.time, model.at(sample));
-                [sample.force - zero, at.force - zero + sample.load_excess * at.load_slope]
+                let zero = offset + drift * sample.time;
+                [sample.force - zero, model.at(sample).force - zero + model.load_effect(sample)]
             };
             one.samples.iter().map(at).collect()
         };

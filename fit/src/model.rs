@@ -93,10 +93,10 @@ impl Family {
 
     /// The contact under a normal force, with a friction coefficient of 1.
     fn at(&self, geometry: &Geometry, normal_force: f64) -> Result<Contact, Error> {
-        let material = self
-            .contact
-            .material
-            .map(|body| Material { young_modulus: body.young_modulus, poisson_ratio: body.poisson_ratio });
+        let material = self.contact.material.map(|body| Material {
+            young_modulus: body.young_modulus,
+            poisson_ratio: body.poisson_ratio,
+        });
         let contact = match *geometry {
             Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
                 Contact::rounded_flat(&Parameters {
@@ -209,6 +209,17 @@ impl Curve {
         (z, response)
     }
 
+    /// dT/dN at a total displacement >= 0.
+    fn load_slope(&self, displacement: f64, parameters: &[f64; PARAMETERS]) -> f64 {
+        let [friction, series, contact, _] = *parameters;
+        if displacement >= self.slip_displacement(parameters) {
+            return friction;
+        }
+        let (z, (_, stiffness)) = self.solve(displacement / friction, series, contact);
+        let [by_load, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; 6]);
+        contact * friction * by_load / (contact + series * stiffness).max(f64::MIN_POSITIVE)
+    }
+
     /// dT₁/d(a/b) at constant z.
     fn shape_slope(&self, z: f64) -> f64 {
         let [of_flat, of_radius] = self.shape_slopes;
@@ -228,8 +239,6 @@ pub(crate) struct Prediction {
     pub nuisance_slopes: [f64; NUISANCES],
     /// dF/d(displacement).
     pub stiffness: f64,
-    /// Derivative with respect to the excess of the normal force, as a fraction of its mean.
-    pub load_slope: f64,
 }
 
 /// The loop with given parameters.
@@ -239,6 +248,7 @@ pub(crate) struct LoopModel<'a> {
     parameters: &'a [f64; PARAMETERS],
     nuisances: &'a [f64; NUISANCES],
     with_shape: bool,
+    amplitude: f64,
     end: Point,
 }
 
@@ -253,30 +263,40 @@ impl<'a> LoopModel<'a> {
     ) -> LoopModel<'a> {
         let amplitude = one.amplitude + 0.5 * (nuisances[2] + nuisances[3]);
         let end = curve.at(amplitude, parameters, with_shape);
-        LoopModel { curve, parameters, nuisances, with_shape, end }
+        LoopModel { curve, parameters, nuisances, with_shape, amplitude, end }
+    }
+
+    /// The correction of the reversal from which a branch starts, and its place among the nuisances.
+    fn start(&self, sample: &Sample) -> (f64, usize) {
+        let place = if sample.direction > 0.0 { 2 } else { 3 };
+        (self.nuisances[place], place)
     }
 
     /// Masing's rule from the reversal of the branch.
-    ///
-    /// The normal force is included to first order. Of parallel sliders with limits in proportion to N, those that slip follow it;
-    /// their force on a branch is `T - k d` of the monotonic curve at half the distance. The series compliance takes a part of it.
     pub fn at(&self, sample: &Sample) -> Prediction {
-        let (sign, [offset, drift, low, high]) = (sample.direction, *self.nuisances);
-        let (start, place) = if sign > 0.0 { (low, 2) } else { (high, 3) };
-        let half = 0.5 * (sample.distance + start);
-        let point = self.curve.at(half, self.parameters, self.with_shape);
-        let mut nuisance_slopes =
-            [1.0, sample.time, -0.5 * sign * self.end.stiffness, -0.5 * sign * self.end.stiffness];
+        let (sign, [offset, drift, ..], (start, place)) = (sample.direction, *self.nuisances, self.start(sample));
+        let point = self.curve.at(0.5 * (sample.distance + start), self.parameters, self.with_shape);
+        let of_end = -0.5 * sign * self.end.stiffness;
+        let mut nuisance_slopes = [1.0, sample.time, of_end, of_end];
         nuisance_slopes[place] += sign * point.stiffness;
-        // d = u - C T, and k/(1 + C k) of the contact is the total stiffness K: (T - k d)/(1 + C k) = T - K u.
-        let sliding = point.force - point.stiffness * half;
         Prediction {
             force: offset + drift * sample.time + sign * (2.0 * point.force - self.end.force),
             slopes: std::array::from_fn(|i| sign * (2.0 * point.slopes[i] - self.end.slopes[i])),
             nuisance_slopes,
             stiffness: point.stiffness,
-            load_slope: sign * sliding,
         }
+    }
+
+    /// Effect of the swing of the normal force, to first order.
+    ///
+    /// Between the stick zone and the present edge of the contact the shear has the sign of the present branch, further inside that of
+    /// the one before, whose slip zone started at the edge under the load of the reversal. With G(d) the derivative dT/dN of the
+    /// monotonic curve, and dN from the mean, the force changes by `G(half) dN - (G(end) - G(half)) dN(reversal)`; in gross slip by μ dN.
+    pub fn load_effect(&self, sample: &Sample) -> f64 {
+        let [here, end] = [0.5 * (sample.distance + self.start(sample).0), self.amplitude]
+            .map(|displacement| self.curve.load_slope(displacement, self.parameters));
+        let [now, then] = [sample.load_excess, sample.load_excess_at_reversal];
+        sample.direction * (here * now - (end - here) * then)
     }
 }
 
@@ -285,17 +305,53 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    #[test]
-    fn a_cylinder_has_the_half_width_of_hertz() {
+    fn contact(flat_half_width: f64) -> input::Contact {
         let material = input::Material { young_modulus: 2e11, poisson_ratio: 0.3 };
         let geometry = Geometry::Flat {
-            flat_half_width: 0.0,
+            flat_half_width,
             edge_radius: 5e-2,
             length: 2e-2,
             displacement_reference: DisplacementReference::CentrePoint,
         };
-        let contact =
-            input::Contact { geometry, normal_force: 800.0, friction_coefficient: 0.5, material: [material; 2] };
+        input::Contact { geometry, normal_force: 800.0, friction_coefficient: 0.5, material: [material; 2] }
+    }
+
+    /// Central differences of relative step 1e-5 have an error of about 1e-10 of third derivatives, which grow towards gross slip.
+    #[test]
+    fn derivatives_are_those_of_the_force() {
+        for parameter in [ShapeParameter::FlatHalfWidth, ShapeParameter::EdgeRadius] {
+            let family = Family::new(&contact(1e-4), parameter).unwrap();
+            let stiffness = family.reference_curve(None).unwrap().initial_stiffness();
+            let parameters = [0.5, 0.3 / stiffness, 1.2, 0.4];
+            // Another load than that of the ratio a/b.
+            let curve = |parameters: &[f64; PARAMETERS]| family.curve(Some(parameters[SHAPE]), 500.0).unwrap();
+            let end = curve(&parameters).slip_displacement(&parameters);
+            for part in [1e-3, 0.3, 0.7, 0.95, -0.5, 1.5] {
+                let at = curve(&parameters).at(part * end, &parameters, true);
+                let differences = |i: usize| {
+                    let step = 1e-5 * parameters[i];
+                    let [low, high] = [-step, step].map(|step| {
+                        let mut changed = parameters;
+                        changed[i] += step;
+                        curve(&changed).at(part * end, &changed, false).force
+                    });
+                    (high - low) / (2.0 * step)
+                };
+                for i in 0..PARAMETERS {
+                    let scale = at.force.abs() / parameters[i];
+                    assert!((at.slopes[i] - differences(i)).abs() < 1e-6 * scale, "{parameter:?} {part} {i}");
+                }
+                let step = 1e-6 * end;
+                let [low, high] = [-step, step].map(|step| curve(&parameters).at(part * end + step, &parameters, false).force);
+                assert!((at.stiffness - (high - low) / (2.0 * step)).abs() < 1e-6 * stiffness, "{part}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cylinder_has_the_half_width_of_hertz() {
+        let contact = contact(0.0);
+        let geometry = contact.geometry;
         let family = Family::new(&contact, ShapeParameter::FlatHalfWidth).unwrap();
         let Geometry::Flat { flat_half_width, .. } = family.geometry(0.5) else { panic!() };
         let with_flat = family.at(&family.geometry(0.5), 800.0).unwrap();

@@ -2,9 +2,9 @@
 
 mod common;
 use common::*;
-use microslip_fit::{
-    Contact, Error, Estimate, Geometry, NormalForce, Options, Report, ShapeParameter, Status, fit, fit_json,
-};
+use microslip::varying_load::element::{Directions, Element, NormalInput};
+use microslip::varying_load::state::{advance, state_init, state_length};
+use microslip_fit::{Contact, Error, Estimate, Geometry, Measurement, NormalForce, Options, Report, ShapeParameter, Status, fit, fit_json};
 use std::thread;
 
 /// Reports of loops of two amplitudes, one with and one without gross slip; the series compliance in units of the contact's.
@@ -32,9 +32,7 @@ const SEEDS: u64 = 200;
 
 /// How often the intervals contain the truth, and the reports.
 fn coverage(series: f64, noise: [f64; 2]) -> ([usize; 5], Vec<Report>) {
-    let part = move |seeds: std::ops::Range<u64>| -> Vec<_> {
-        seeds.map(|seed| report(series, noise, seed).unwrap()).collect()
-    };
+    let part = move |seeds: std::ops::Range<u64>| -> Vec<_> { seeds.map(|seed| report(series, noise, seed).unwrap()).collect() };
     let half = thread::spawn(move || part(SEEDS / 2..SEEDS));
     let reports = [part(0..SEEDS / 2), half.join().unwrap()].concat();
     let contains = |report: &Report, i: usize| {
@@ -103,8 +101,7 @@ fn loops_at_several_loads_and_another_radius() {
     let shape = 0.1e-3 / library_contact(&contact, 800.0).half_width;
     let Geometry::Flat { edge_radius, .. } = &mut contact.geometry else { panic!() };
     *edge_radius *= 1.7;
-    let options =
-        Options { shape: ShapeParameter::EdgeRadius, series_compliance: Some(0.3 / stiffness), ..Options::default() };
+    let options = Options { shape: ShapeParameter::EdgeRadius, series_compliance: Some(0.3 / stiffness), ..Options::default() };
     let report = fit(&contact, &loops, &options).unwrap();
     assert_recovered(report.shape.unwrap(), shape, "a/b");
     assert_recovered(report.contact_compliance, 1.25, "contact compliance");
@@ -113,6 +110,71 @@ fn loops_at_several_loads_and_another_radius() {
     let line = report.contact_toml.lines().find(|line| line.starts_with("edge_radius")).unwrap();
     let radius: f64 = line.split(" = ").nth(1).unwrap().parse().unwrap();
     assert!((radius / (50e-3 / report.contact_compliance.value) - 1.0).abs() < 1e-3, "{line}");
+}
+
+/// A sphere: the law against Mindlin's closed form `T = μN (1 - (1 - d/d0)^(3/2))`, loops by Masing's rule.
+#[test]
+fn a_sphere_has_no_shape() {
+    let axis = 0.2e-3;
+    let contact = Contact { geometry: Geometry::Ellipse { semi_axis_x: axis, semi_axis_y: axis }, ..flat() };
+    // Mindlin's stiffness 8 G* a, 1/G* = sum of (2-ν)/G; d0 = 3/2 μN/k.
+    let shear = 2e11 / 2.6;
+    let stiffness = 8.0 * axis / (2.0 * 1.7 / shear);
+    let (force, series) = (0.4 * 800.0, 0.25 / stiffness);
+    let end = 1.5 * force / stiffness;
+    let curve = |d: f64| force * (1.0 - (1.0 - (d / end).min(1.0)).powf(1.5));
+    let loops = [0.7, 1.8].map(|part: f64| {
+        let amplitude = part * end;
+        let at = |i: i32| {
+            let branch = 50 - (i % 200 - 100).abs();
+            let (from, sign) = if i % 200 < 100 { (-1.0, 1.0) } else { (1.0, -1.0) };
+            let d = amplitude * (std::f64::consts::PI * f64::from(branch) / 100.0).sin();
+            let tangential = sign * (2.0 * curve(0.5 * (d - from * amplitude).abs()) - curve(amplitude));
+            (d + series * tangential, tangential)
+        };
+        let (displacement, force) = (0..500).map(at).unzip();
+        Measurement { displacement, force, ..Measurement::default() }
+    });
+    let report = fit(&contact, &loops, &Options::default()).unwrap();
+    assert_recovered(report.friction_coefficient, 0.4, "mu");
+    assert_recovered(report.series_compliance, series, "series");
+    assert_recovered(report.contact_compliance, 1.0, "contact");
+    assert!(report.shape.is_none() && report.profile.is_empty());
+}
+
+/// Loops of the element under a normal force that swings by the given fraction, with its column; friction coefficient and its error
+/// without the column.
+fn under_swing(swing: f64) -> [f64; 2] {
+    let contact = flat();
+    let element = Element::rounded_flat(&library_parameters(&contact, 1000.0), Directions::One, NormalInput::Force).unwrap();
+    let end = library_contact(&contact, 800.0).slip_displacement;
+    let loops = [0.8, 2.0].map(|amplitude| {
+        let mut state = vec![0.0; state_length(4000)];
+        state_init(&mut state).unwrap();
+        let (mut force, mut displacement, mut loads) = (Vec::new(), Vec::new(), Vec::new());
+        for i in 0..700 {
+            let phase = std::f64::consts::TAU * f64::from(i) / 200.0;
+            let load = 800.0 * (1.0 + swing * (2.0 * phase + 0.7).sin());
+            let at = amplitude * end * phase.sin();
+            force.push(advance(&element, &mut state, [at, load], false).unwrap().force[0]);
+            displacement.push(at);
+            loads.push(load);
+        }
+        Measurement { displacement, force, normal_force: Some(NormalForce::Samples(loads)), ..Measurement::default() }
+    });
+    let friction = |loops: &[Measurement]| fit(&contact, loops, &Options::default()).unwrap().friction_coefficient.value;
+    let without = loops.clone().map(|one| Measurement { normal_force: None, ..one });
+    [friction(&loops), friction(&without)].map(|friction| (friction / 0.5 - 1.0).abs())
+}
+
+/// The swing is included to first order, so that an error of its square remains.
+#[test]
+fn a_small_swing_of_the_normal_force_is_included() {
+    for swing in [0.02, 0.08] {
+        let [with, without] = under_swing(swing);
+        println!("swing {swing}: relative error of the friction coefficient {with:.1e}, without the column {without:.1e}");
+        assert!(with < swing * swing && without > 2.0 * with, "{with} {without}");
+    }
 }
 
 #[test]
@@ -136,7 +198,7 @@ fn one_amplitude_is_a_warning() {
 }
 
 /// The message about a loop that was changed.
-fn message(change: impl Fn(&mut microslip_fit::Measurement)) -> String {
+fn message(change: impl Fn(&mut Measurement)) -> String {
     let (contact, mut random) = (flat(), Random::new(11));
     let mut one = measured(&contact, &Rig { noise: [2e-3, 1e-5], ..RIG }, &mut random);
     change(&mut one);
@@ -146,9 +208,9 @@ fn message(change: impl Fn(&mut microslip_fit::Measurement)) -> String {
 #[test]
 fn bad_data_are_reported() {
     let times = |factor: f64| move |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value *= factor);
-    let cases: [(&str, &dyn Fn(&mut microslip_fit::Measurement)); 13] = [
+    let cases: [(&str, &dyn Fn(&mut Measurement)); 13] = [
         ("force of sample 8 is not a number", &|one| one.force[7] = f64::NAN),
-        ("force has 499 values", &|one| drop(one.force.pop())),
+        ("force has 499 values", &|one| one.force.truncate(499)),
         ("jumps by more than a quarter", &|one| {
             one.displacement.drain(80..140);
             one.force.drain(80..140);

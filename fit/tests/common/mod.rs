@@ -1,9 +1,8 @@
 //! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
-#![allow(dead_code)]
 
-use microslip::Parameters;
 use microslip::constant_load::masing::step;
 use microslip::constant_load::state::{state_init, state_length};
+use microslip::Parameters;
 use microslip_fit::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce};
 use std::f64::consts::TAU;
 
@@ -21,22 +20,18 @@ pub fn flat() -> Contact {
 }
 
 /// The same contact as the library takes it.
-pub fn library_contact(contact: &Contact, normal_force: f64) -> microslip::Contact {
+pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
     let Geometry::Flat { flat_half_width, edge_radius, length, .. } = contact.geometry else { panic!("a flat") };
-    let material = contact
-        .material
-        .map(|body| microslip::Material { young_modulus: body.young_modulus, poisson_ratio: body.poisson_ratio });
+    let material = contact.material.map(|Material { young_modulus, poisson_ratio }| microslip::Material {
+        young_modulus,
+        poisson_ratio,
+    });
     let friction_coefficient = contact.friction_coefficient;
-    microslip::Contact::rounded_flat(&Parameters {
-        flat_half_width,
-        edge_radius,
-        length,
-        normal_force,
-        friction_coefficient,
-        material,
-        ..Parameters::default()
-    })
-    .unwrap()
+    Parameters { flat_half_width, edge_radius, length, normal_force, friction_coefficient, material, ..Parameters::default() }
+}
+
+pub fn library_contact(contact: &Contact, normal_force: f64) -> microslip::Contact {
+    microslip::Contact::rounded_flat(&library_parameters(contact, normal_force)).unwrap()
 }
 
 /// Random numbers: a linear congruential generator of 64 bits.
@@ -45,7 +40,9 @@ pub struct Random(u64);
 impl Random {
     pub fn new(seed: u64) -> Random {
         let mut random = Random(seed);
-        (0..8).for_each(|_| drop(random.uniform()));
+        (0..8).for_each(|_| {
+            random.uniform();
+        });
         random
     }
 
