@@ -24,7 +24,7 @@ program bad_input
     logical :: batch = .false., element = .false.
   end type procedure_info
 
-  type(procedure_info), parameter :: procedures(38) = [ &
+  type(procedure_info), parameter :: procedures(40) = [ &
     procedure_info('tractions', force, position, 'vv'), &
     procedure_info('slip', force, position, 'vv'), &
     procedure_info('monotonic_displacement', none, force, 'vvv'), &
@@ -62,7 +62,9 @@ program bad_input
     procedure_info('batch_element_advance', none, shift, 'abv', 's', .true., .true.), &
     procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.), &
     procedure_info('complex_stiffness_tabulated', none, amplitude, 'vvvv', 't'), &
-    procedure_info('complex_stiffness_tabulated, one', amplitude, none, 'ssss', 't')]
+    procedure_info('complex_stiffness_tabulated, one', amplitude, none, 'ssss', 't'), &
+    procedure_info('monotonic_sensitivity', none, shift, 'vq'), &
+    procedure_info('harmonic_sensitivity', none, shift, 'cr', 'w')]
 
   ! One component is allocated; if none is, the argument is absent.
   type :: output
@@ -179,6 +181,8 @@ contains
       case ('c'); out(i)%v = spread(untouched, 1, m)
       case ('N'); out(i)%v = spread(untouched, 1, size(state))
       case ('f'); out(i)%m = reshape([real(wp) ::], [m, n], pad=[untouched])
+      case ('q'); out(i)%m = reshape([real(wp) ::], [int(MSLIP_PARAMETERS), n], pad=[untouched])
+      case ('r'); out(i)%m = reshape([real(wp) ::], [m, int(MSLIP_PARAMETERS)], pad=[untouched])
       case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
       case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
       case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
@@ -241,6 +245,8 @@ contains
       call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
     case (38)
       call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
+    case (39); call mslip_monotonic_sensitivity(contacts(1), x, status, out(1)%v, out(2)%m)
+    case (40); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
     end select
   end subroutine perform
 
@@ -280,7 +286,7 @@ contains
   logical function is_optional(i)
     integer, intent(in) :: i
 
-    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdegh') > 0
+    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdeghqr') > 0
   end function is_optional
 
   subroutine test_subsets()
