@@ -222,7 +222,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(4073) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(5225) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 

@@ -111,7 +111,7 @@ pub struct mslip_element {
     /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 4073],
+    pub reserved: [f64; 5225],
 }
 
 const _: () = {
