@@ -115,8 +115,7 @@ pub enum Command {
         "quantity, value, lower, upper (95 % confidence), unit, status (fixed, determined, bounded, not_determined);
   comments have the verdict: which parameters the data determine",
         "fit contact.toml --measured loop1.csv,loop2.csv --data-units um,N --loads 100,200 --plot fit.svg
-  microslip fit contact.toml --measured rig.csv --column x --force-column F --normal-force-column N \\
-      --fix contact_compliance,shape --fitted fitted.toml --json fit.json"
+  microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
     ))]
     Fit(ContactCommand<Fit>),
     /// Print a parameter file with comments

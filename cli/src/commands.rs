@@ -364,12 +364,7 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let column_y = ColumnSpec { option: "--column-y", selected, names, unit: length };
     let normal = [
         ColumnSpec { option: "--approach-column", selected: approach, names: &["approach"], unit: length },
-        ColumnSpec {
-            option: "--normal-force-column",
-            selected: normal_force,
-            names: &["normal_force"],
-            unit: force,
-        },
+        ColumnSpec { option: "--normal-force-column", selected: normal_force, names: &["normal_force"], unit: force },
     ];
     // A selected column of normal forces leaves no choice.
     let first = usize::from(normal_force.is_some());

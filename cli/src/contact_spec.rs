@@ -249,7 +249,10 @@ impl ContactArgs {
     /// The contact as the start of a fit.
     pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
         let bodies = |material: [Material; 2]| {
-            material.map(|Material { young_modulus, poisson_ratio }| microslip_fit::Material { young_modulus, poisson_ratio })
+            material.map(|Material { young_modulus, poisson_ratio }| microslip_fit::Material {
+                young_modulus,
+                poisson_ratio,
+            })
         };
         Ok(match self.shape(1.0)? {
             ShapeParameters::Flat(parameters) => microslip_fit::Contact {

@@ -22,10 +22,12 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
     let measured = options.measured.iter().enumerate().map(|(index, path)| measurement(options, spec, index, path));
     let measured = measured.collect::<Result<Vec<_>>>()?;
     let contact = spec.given.fit_contact()?;
-    let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec)).map_err(|error| CliError::Input(error.to_string()))?;
+    let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec))
+        .map_err(|error| CliError::Input(error.to_string()))?;
     if let Some(path) = &options.fitted {
         let units = if spec.units == Units::Mm { "units = \"mm\"\n" } else { "" };
-        let (comments, parameters): (Vec<_>, Vec<_>) = found.contact_toml.lines().partition(|line| line.starts_with('#'));
+        let (comments, parameters): (Vec<_>, Vec<_>) =
+            found.contact_toml.lines().partition(|line| line.starts_with('#'));
         write_file(path, format!("{}\n{units}{}\n", comments.join("\n"), parameters.join("\n")).as_bytes())?;
     }
     if let Some(path) = &options.json {
@@ -72,19 +74,20 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
     }];
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
     let table = read_columns(path, [&column, &forces], normal)?;
+    if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
+        return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
+    }
     if !table.has_second {
         return usage(format!("{}: --force-column must select a column", path.display()));
     }
-    let values = |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
+    let values =
+        |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
     let load = match options.loads[..] {
         [] if table.alternative.is_some() => Some(NormalForce::Samples(values(2, force.1))),
         [] => None,
         [one] => Some(NormalForce::Constant(force.1 * one)),
         _ => Some(NormalForce::Constant(force.1 * options.loads.get(index).copied().unwrap_or(f64::NAN))),
     };
-    if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
-        return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
-    }
     Ok(Measurement {
         name: path.to_string_lossy().into_owned(),
         displacement: values(0, length.1),
@@ -189,7 +192,8 @@ fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
             points: one.displacement.iter().copied().zip(forces).collect(),
         };
         let less = |forces: &[f64]| one.measured_force.iter().zip(forces).map(|(one, other)| one - other).collect();
-        let panel = |name, lines| Panel { x: Axis::linear("displacement", Length), y: Axis::linear(name, Force), lines };
+        let panel =
+            |name, lines| Panel { x: Axis::linear("displacement", Length), y: Axis::linear(name, Force), lines };
         let loops = [("measured", &one.measured_force), ("law", &one.force), ("spring-slider", &one.slider_force)];
         let differences = [("measured - law", &one.force), ("measured - spring-slider", &one.slider_force)];
         [

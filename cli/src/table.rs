@@ -77,11 +77,7 @@ pub struct ColumnSpec<'a> {
 
 /// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if
 /// it is selected or has its default name in the header; and the first of the alternatives of which that is true.
-pub fn read_columns(
-    path: &Path,
-    columns: [&ColumnSpec; 2],
-    alternatives: &[ColumnSpec],
-) -> Result<InputTable> {
+pub fn read_columns(path: &Path, columns: [&ColumnSpec; 2], alternatives: &[ColumnSpec]) -> Result<InputTable> {
     let text = read_text(path)?;
     parse_columns(&text, columns, alternatives).map_err(|reason| CliError::in_file(path, reason))
 }

@@ -65,12 +65,14 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     if reversals.len() < 3 {
         let is_closed = |values: &[f64]| (values[count - 1] - values[0]).abs() <= CLOSED * range(values);
         if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
-            return fail("less than one cycle of displacement: at least from one reversal to the next but one is needed");
+            return fail(
+                "less than one cycle of displacement: at least from one reversal to the next but one is needed",
+            );
         }
         let highest = (0..count).max_by(|i, j| record.displacement[*i].total_cmp(&record.displacement[*j]));
         rotated = record.rotated(highest.unwrap_or_default());
         record = &rotated;
-        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count - 1]].concat();
+        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count]].concat();
     }
     let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
     if branch >= 2 * SAMPLES {
@@ -86,13 +88,15 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
         let last = (first..reversals.len() - 1).take_while(equal).last().unwrap_or(first) + 1;
         if last >= first + 2 {
             // The rest of the record follows the same loop.
-            let end = if last + 1 == reversals.len() { count } else { reversals[last] };
+            let end = if last + 1 == reversals.len() { record.time.len() } else { reversals[last] };
             loops.push(Loop::new(record, &displacement, &reversals[first..=last], end));
         }
         first = last;
     }
     if loops.is_empty() {
-        return fail("the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops");
+        return fail(
+            "the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops",
+        );
     }
     loops.iter().try_for_each(Loop::check)?;
     Ok(loops)

@@ -115,9 +115,9 @@ impl Record {
         }
     }
 
-    /// The same record from another sample on, if it ends where it starts.
+    /// The same record from another sample on, which is repeated at the end, if it ends where it starts.
     pub fn rotated(&self, start: usize) -> Record {
-        let rotate = |values: &[f64]| [&values[start..], &values[..start]].concat();
+        let rotate = |values: &[f64]| [&values[start..], &values[..=start]].concat();
         Record {
             name: self.name.clone(),
             time: rotate(&self.time),

@@ -1,8 +1,5 @@
 //! The input of a fit: the contact, measured loops, and what is fixed. All numbers are in one consistent set of units.
 
-
-
-
 use crate::error::{Error, error};
 use serde::{Deserialize, Serialize};
 

@@ -71,7 +71,9 @@ impl<'a> Fit<'a> {
 
     fn models(&self) -> impl Iterator<Item = (&Loop, LoopModel<'_>)> {
         let of_loop = self.loops.iter().zip(&self.curves).zip(&self.nuisances);
-        of_loop.map(|((one, curve), nuisances)| (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE])))
+        of_loop.map(|((one, curve), nuisances)| {
+            (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE]))
+        })
     }
 
     /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a loop

@@ -14,7 +14,9 @@ mod report;
 mod verdict;
 
 pub use error::Error;
-pub use input::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter};
+pub use input::{
+    Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter,
+};
 pub use report::{Estimate, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status};
 
 use data::Record;
@@ -59,13 +61,11 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
     slider.settle([options.friction_coefficient.is_none(), true, false, false]);
     let ([friction_coefficient, compliance, ..], slider_forces) = (slider.parameters, slider.forces());
-    let spring_slider = SpringSlider {
-        friction_coefficient,
-        stiffness: 1.0 / compliance,
-        misfit: Misfit::new(&loops, &slider_forces),
-    };
+    let spring_slider =
+        SpringSlider { friction_coefficient, stiffness: 1.0 / compliance, misfit: Misfit::new(&loops, &slider_forces) };
 
-    let (forces, [mut friction, series, contact_compliance, shape_estimate]) = (solution.fit.forces(), solution.estimates);
+    let (forces, [mut friction, series, contact_compliance, shape_estimate]) =
+        (solution.fit.forces(), solution.estimates);
     if !solution.slips && friction.status != Status::Fixed {
         // The largest force that the contact carried.
         friction.lower = plausibility::carried(&loops);

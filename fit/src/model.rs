@@ -93,10 +93,10 @@ impl Family {
 
     /// The contact under a normal force, with a friction coefficient of 1.
     fn at(&self, geometry: &Geometry, normal_force: f64) -> Result<Contact, Error> {
-        let material = self.contact.material.map(|body| Material {
-            young_modulus: body.young_modulus,
-            poisson_ratio: body.poisson_ratio,
-        });
+        let material = self
+            .contact
+            .material
+            .map(|body| Material { young_modulus: body.young_modulus, poisson_ratio: body.poisson_ratio });
         let contact = match *geometry {
             Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
                 Contact::rounded_flat(&Parameters {
@@ -342,7 +342,8 @@ mod tests {
                     assert!((at.slopes[i] - differences(i)).abs() < 1e-6 * scale, "{parameter:?} {part} {i}");
                 }
                 let step = 1e-6 * end;
-                let [low, high] = [-step, step].map(|step| curve(&parameters).at(part * end + step, &parameters, false).force);
+                let [low, high] =
+                    [-step, step].map(|step| curve(&parameters).at(part * end + step, &parameters, false).force);
                 assert!((at.stiffness - (high - low) / (2.0 * step)).abs() < 1e-6 * stiffness, "{part}");
             }
         }

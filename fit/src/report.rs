@@ -158,14 +158,16 @@ impl FittedLoop {
 /// the contact has the same width.
 pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; 4]) -> String {
     let [friction, series, factor, _] = parameters;
-    let mut text = format!("# Fitted to measured loops. Series compliance of rig and bodies, not in the contact: {series:e}\n");
+    let mut text =
+        format!("# Fitted to measured loops. Series compliance of rig and bodies, not in the contact: {series:e}\n");
     if *factor != 1.0 {
-        text += &format!("# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n", match
-            geometry
-        {
-            Geometry::Flat { .. } => " and edge_radius",
-            Geometry::Ellipse { .. } => "",
-        });
+        text += &format!(
+            "# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n",
+            match geometry {
+                Geometry::Flat { .. } => " and edge_radius",
+                Geometry::Ellipse { .. } => "",
+            }
+        );
     }
     match geometry {
         Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {

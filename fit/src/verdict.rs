@@ -77,7 +77,9 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     }
     candidates.sort_by(|one, other| one.fit.parameters[SHAPE].total_cmp(&other.fit.parameters[SHAPE]));
     let best_of = |candidates: &[Candidate]| {
-        (0..candidates.len()).min_by(|i, j| candidates[*i].chi_squared.total_cmp(&candidates[*j].chi_squared)).unwrap_or(0)
+        (0..candidates.len())
+            .min_by(|i, j| candidates[*i].chi_squared.total_cmp(&candidates[*j].chi_squared))
+            .unwrap_or(0)
     };
     let mut best = best_of(&candidates);
     if range.is_some() {
@@ -120,7 +122,11 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
                     // The root of the excess is nearly linear; next to the minimum the covariance is more accurate.
                     let part = (QUANTILE - last.1) / (shapes[k].1 - last.1);
                     let crossing = last.0 + part * (shapes[k].0 - last.0);
-                    return if last.0 == value { value + sign * error.min((shapes[k].0 - value).abs()) } else { crossing };
+                    return if last.0 == value {
+                        value + sign * error.min((shapes[k].0 - value).abs())
+                    } else {
+                        crossing
+                    };
                 }
                 last = shapes[k];
             }
@@ -145,12 +151,8 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     // The three parameters, and the total compliance C + κ/k.
     let values = |fit: &Fit| {
         let ([friction, series, contact, _], [law, slope]) = (fit.parameters, fit.law_compliance());
-        let combinations = [
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 1.0, 0.0],
-            [0.0, 1.0, law, contact * slope],
-        ];
+        let combinations =
+            [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 1.0, law, contact * slope]];
         ([friction, series, contact, series + contact * law], combinations)
     };
     let best_values = values(&fit).0;
@@ -193,7 +195,8 @@ fn fixed(value: f64) -> Estimate {
 /// The residuals of a wrong model are correlated over long parts of a cycle.
 fn correlation(residuals: &[Vec<f64>]) -> f64 {
     let sum = |lag: usize| -> f64 {
-        let of_loop = |one: &Vec<f64>| one.iter().zip(one.iter().skip(lag)).map(|(one, other)| one * other).sum::<f64>();
+        let of_loop =
+            |one: &Vec<f64>| one.iter().zip(one.iter().skip(lag)).map(|(one, other)| one * other).sum::<f64>();
         residuals.iter().map(of_loop).sum()
     };
     let (variance, longest) = (sum(0), residuals.iter().map(Vec::len).max().unwrap_or(0));
@@ -210,7 +213,8 @@ fn correlation(residuals: &[Vec<f64>]) -> f64 {
 /// The verdict in sentences.
 pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<[f64; 2]>) -> Vec<String> {
     let [_, series, contact, shape] = &solution.estimates;
-    let interval = |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
+    let interval =
+        |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
     let mut sentences = Vec::new();
     if friction.status != Status::Fixed {
         sentences.push(match friction.status {

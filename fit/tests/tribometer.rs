@@ -20,12 +20,18 @@ fn a_tribometer_determines_friction_and_the_stiffness_of_the_rig_but_no_shape() 
         time: Some(column(0, 1.0)),
     };
     // Any contact of steel of millimetres: it is a thousand times stiffer than the rig.
-    let geometry =
-        Geometry::Flat { flat_half_width: 1e-4, edge_radius: 5e-2, length: 2e-2, displacement_reference: Default::default() };
+    let geometry = Geometry::Flat {
+        flat_half_width: 1e-4,
+        edge_radius: 5e-2,
+        length: 2e-2,
+        displacement_reference: Default::default(),
+    };
     let material = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
     let contact = Contact { geometry, normal_force: 5.0, friction_coefficient: 0.5, material };
     for contact_compliance in [None, Some(1.0)] {
-        let report = fit(&contact, std::slice::from_ref(&measurement), &Options { contact_compliance, ..Options::default() }).unwrap();
+        let report =
+            fit(&contact, std::slice::from_ref(&measurement), &Options { contact_compliance, ..Options::default() })
+                .unwrap();
         let (friction, stiffness) = (report.friction_coefficient, 1e-6 / report.total_compliance.value);
         println!("mu {friction:?}, stiffness {stiffness:.4} N/µm, {:?}, {:?}", report.law, report.spring_slider);
         println!("{}", report.verdict.join("\n"));

@@ -1,8 +1,8 @@
 //! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
 
+use microslip::Parameters;
 use microslip::constant_load::masing::step;
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::Parameters;
 use microslip_fit::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce};
 use std::f64::consts::TAU;
 
@@ -22,12 +22,19 @@ pub fn flat() -> Contact {
 /// The same contact as the library takes it.
 pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
     let Geometry::Flat { flat_half_width, edge_radius, length, .. } = contact.geometry else { panic!("a flat") };
-    let material = contact.material.map(|Material { young_modulus, poisson_ratio }| microslip::Material {
-        young_modulus,
-        poisson_ratio,
-    });
+    let material = contact
+        .material
+        .map(|Material { young_modulus, poisson_ratio }| microslip::Material { young_modulus, poisson_ratio });
     let friction_coefficient = contact.friction_coefficient;
-    Parameters { flat_half_width, edge_radius, length, normal_force, friction_coefficient, material, ..Parameters::default() }
+    Parameters {
+        flat_half_width,
+        edge_radius,
+        length,
+        normal_force,
+        friction_coefficient,
+        material,
+        ..Parameters::default()
+    }
 }
 
 pub fn library_contact(contact: &Contact, normal_force: f64) -> microslip::Contact {
