@@ -5,7 +5,8 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${PYTHON:=python3}"
+: "${PYTHON:=python3}" "${CARGO:=cargo}"
+export CARGO
 tools=$PWD/target/tools/python
 wheels=$PWD/target/python
 package=$PWD/python
@@ -16,14 +17,14 @@ export PIP_DISABLE_PIP_VERSION_CHECK PIP_QUIET
 
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 
-# With the crates of Cargo.lock and the tools there, a wheel is built without a network, which it has not if the system permits that.
+# A wheel is built from the crates of Cargo.lock without a network, in a namespace without one if the system permits that.
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 tools() {
     "$tools/bin/maturin" --version 2> /dev/null || { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
 }
 wheel() {
-    rm -rf "$wheels" && { cargo fetch --locked --offline || cargo fetch --locked; } &&
+    rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
         (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated maturin build --release --out "$wheels") &&
         ls "$wheels/microslip-$version-py3-none-"*.whl
 }

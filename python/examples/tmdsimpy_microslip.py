@@ -32,7 +32,9 @@ class MicroslipForce(HystereticForce):
     """Contacts or elements of one law as a hysteretic force."""
 
     def __init__(self, Q, T, law, interference=0.0, unloaded_at_mean=True):
-        self.Q, self.T, self.law = np.atleast_2d(Q), np.asarray(T).reshape(-1, np.atleast_2d(Q).shape[0]), law
+        self.Q, self.T, self.law = np.asarray(Q, dtype=float), np.asarray(T, dtype=float), law
+        if self.T.shape != self.Q.shape[::-1]:
+            raise ValueError(f"T must have the shape {self.Q.shape[::-1]}, not {self.T.shape}")
         self.unloaded_at_mean = unloaded_at_mean
         self.is_element = isinstance(law, microslip.Element)
         if self.is_element and law.normal_input != microslip.APPROACH:
@@ -54,7 +56,7 @@ class MicroslipForce(HystereticForce):
         h = np.asarray(h)
         highest = int(h.max())
         places = np.concatenate([[2 * k - 1, 2 * k] if k else [0] for k in h])
-        n = self.Q.shape[1]
+        n = self.Q.shape[1]  # degrees of freedom
         u = np.zeros((self.items, self.components, 2 * highest + 1))
         u[:, :, places] = (self.Q @ np.reshape(U, (-1, n)).T).reshape(self.items, self.components, -1)
         u[:, :, 0] += self.rest
@@ -92,8 +94,8 @@ class MicroslipForce(HystereticForce):
         force, slope = found[0].ravel(), found[1].reshape(self.items, self.components, self.components)
         if update_hist:
             self.states = found[3]
-        T = self.T.reshape(-1, self.items, self.components)
-        Q = self.Q.reshape(self.items, self.components, -1)
+        T = self.T.reshape(self.Q.shape[1], self.items, self.components)
+        Q = self.Q.reshape(self.items, self.components, self.Q.shape[1])
         return self.T @ force, np.einsum("xia,iab,iby->xy", T, slope, Q)
 
 

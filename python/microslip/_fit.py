@@ -25,10 +25,10 @@ def fit(
     fixed: Mapping[str, float] | None = None,
     shape: str = "flat_half_width",
 ) -> Any:
-    """Fits friction coefficient, series compliance, contact compliance and shape to measured loops.
+    """Fits the friction coefficient, series compliance, contact compliance and shape to measured loops.
 
     Each loop is a pair displacement[n] [m], force[n] [N] with at least one cycle, or a mapping with the keys `displacement`,
-    `force` and, if wanted, `name`, `normal_force` (a number or n of them [N]) and `time`[n] [s]. `contact` has the
+    `force` and optionally `name`, `normal_force` (a number or n of them [N]) and `time`[n] [s]. `contact` has the
     parameters of `Contact` or `Contact.elliptic` by name; those that are fitted are start values.
 
     `fixed` gives values to `friction_coefficient`, `series_compliance` [m/N] or `contact_compliance` (a factor on the displacements
@@ -40,13 +40,23 @@ def fit(
     `verdict` and `warnings`; `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """
     given = dict(contact)
+    reference = REFERENCES[given.pop("displacement_reference", 0)]
     materials = zip(pair(given.pop("young_modulus")), pair(given.pop("poisson_ratio")))
-    given["material"] = [{"young_modulus": modulus, "poisson_ratio": ratio} for modulus, ratio in materials]
-    if "displacement_reference" in given:
-        given["displacement_reference"] = REFERENCES[given["displacement_reference"]]
-    problem = {"contact": given, "loops": [_loop(loop) for loop in loops], "options": {"shape": shape, **(fixed or {})}}
+    problem = {
+        "contact": {
+            **{name: float(value) for name, value in given.items()},
+            "material": [{"young_modulus": modulus, "poisson_ratio": ratio} for modulus, ratio in materials],
+            "displacement_reference": reference,
+        },
+        "loops": [_loop(loop) for loop in loops],
+        "options": {"shape": shape, **{name: float(value) for name, value in (fixed or {}).items()}},
+    }
+    try:
+        text = json.dumps(problem, allow_nan=False)
+    except ValueError:
+        raise FitError("all numbers must be finite") from None
     answer = ffi.new("char **")
-    status = lib.microslip_python_fit(json.dumps(problem).encode(), answer)
+    status = lib.microslip_python_fit(text.encode(), answer)
     try:
         text = ffi.string(answer[0]).decode()
     finally:

@@ -47,6 +47,8 @@ def test_known_parameters_are_recovered():
     assert report.law.force_rms < 1e-3 * contact.slip_force
     assert report.spring_slider.misfit.force_rms > report.law.force_rms
     assert all(isinstance(loop.force, np.ndarray) for loop in report.loops)
+    strip = microslip.fit(loops(), start | {"displacement_reference": microslip.RIGID_STRIP})
+    assert strip.shape.value != report.shape.value
     fixed = microslip.fit(loops(), start, fixed={"series_compliance": SERIES}, shape="fixed")
     assert (fixed.series_compliance.value, fixed.series_compliance.status) == (SERIES, "fixed")
 
@@ -65,5 +67,7 @@ def test_errors():
         microslip.fit([], TRUTH)
     with pytest.raises(microslip.FitError, match="unknown field"):
         microslip.fit(loops(), TRUTH, fixed={"stiffness": 1.0})
+    with pytest.raises(microslip.FitError, match="finite"):
+        microslip.fit([([0.0, np.nan], [0.0, 1.0])], TRUTH)
     with pytest.raises(TypeError, match="force must be real numbers"):
         microslip.fit([([0.0, 1.0], ["a", "b"])], TRUTH)
