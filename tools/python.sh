@@ -21,7 +21,8 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 tools() {
-    "$tools/bin/maturin" --version 2> /dev/null || { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
+    "$tools/bin/maturin" --version 2> /dev/null ||
+        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
 }
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
@@ -49,7 +50,8 @@ tests() {
 
 # core DIRECTORY: the tests that need nothing but the wheel.
 core() {
-    tests "tests, $("$1/bin/python" --version)" "$1" "$package"/tests/test_interface.py "$package"/tests/test_tables.py "$package"/tests/test_fit.py
+    tests "tests, $("$1/bin/python" --version)" "$1" \
+        "$package"/tests/test_interface.py "$package"/tests/test_tables.py "$package"/tests/test_fit.py
 }
 
 check 'build tools' tools
@@ -76,17 +78,19 @@ for other in $(others); do
     rm -rf "$work/other"
 done
 from_source() {
-    "$PYTHON" -m venv "$work/source" && "$work/source/bin/pip" install ./python && (cd "$work" && source/bin/python -c 'import microslip')
+    "$PYTHON" -m venv "$work/source" && "$work/source/bin/pip" install ./python &&
+        (cd "$work" && source/bin/python -c 'import microslip')
 }
 check 'pip install ./python' from_source
 # Kept, because they are many. pyHarm names Jupyter among its requirements, a hundred packages that it does not need.
 adapters=$PWD/target/tools/python-adapters
 examples() {
     { [ -e "$adapters/bin/ruff" ] || {
-        "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install --no-deps pyHarm-os && "$adapters/bin/python" -c '
+        "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install --no-deps pyHarm-os==1.2.2 && "$adapters/bin/python" -c '
 from importlib.metadata import requires
-print(*(r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))), sep="\n")' > "$work/required" &&
-            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib mypy pytest ruff
+kept = [r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))]
+print(*kept, sep="\n")' > "$work/required" &&
+            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib mypy==2.4.1 pytest ruff==0.17.6
     }; } && "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install cffi numpy
 }
 check 'packages of the examples' examples
@@ -96,5 +100,6 @@ types() {
 check 'types' types
 check 'format' "$adapters/bin/ruff" format --check python
 check 'lints' "$adapters/bin/ruff" check python
-tests 'adapters and examples' "$adapters" "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_documents.py
+tests 'adapters and examples' "$adapters" \
+    "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_documents.py
 counts
