@@ -310,7 +310,7 @@ typedef struct {
 #define HARMONIC(rule) \
     { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
     { FUNCTION(harmonic_sensitivity), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, \
-      { 0, COEFFICIENTS, MSLIP_PARAMETERS * COEFFICIENTS } }, \
+      { 0, COEFFICIENTS, MSLIP_PARAMETER_COUNT * COEFFICIENTS } }, \
     { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
       { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
 /* A variant of elements with m components. */
@@ -333,7 +333,7 @@ static const function functions[] = {
     { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
     { FUNCTION(monotonic_displacement), TAKES_COUNT, 0, NONE, FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
     { FUNCTION(monotonic_force), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(monotonic_sensitivity), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, MSLIP_PARAMETERS * ITEMS } },
+    { FUNCTION(monotonic_sensitivity), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, MSLIP_PARAMETER_COUNT * ITEMS } },
     { FUNCTION(masing_update), TAKES_STATE, 0, DISPLACEMENT, NONE, 0, { STATE, 1, 1, 1 } },
     { FUNCTION(masing_path), TAKES_STATE | TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { STATE, ITEMS, ITEMS, ITEMS } },
     { FUNCTION(masing_tractions), TAKES_STATE | TAKES_COUNT, 0, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },

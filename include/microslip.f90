@@ -154,7 +154,7 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BY_LENGTH = 5  !! Derivative with respect to the length L.
   integer(mslip_int), parameter, public :: MSLIP_BY_COMPOSITE_MODULUS = 6
     !! Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
-  integer(mslip_int), parameter, public :: MSLIP_PARAMETERS = 6  !! Number of parameters: rows of a sensitivity.
+  integer(mslip_int), parameter, public :: MSLIP_PARAMETER_COUNT = 6  !! Number of parameters: rows of a sensitivity.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
   ! </generated>
 
@@ -951,7 +951,7 @@ contains
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: sensitivity(:, :)
-      !! (`MSLIP_PARAMETERS`, n): derivatives of each force, in rows `MSLIP_BY_...` [N over the unit of the parameter].
+      !! (`MSLIP_PARAMETER_COUNT`, n): derivatives of each force, in rows `MSLIP_BY_...` [N over the unit of the parameter].
 
     integer(mslip_size) :: n
     type(c_ptr) :: ptr(2)
@@ -960,7 +960,7 @@ contains
     ptr = c_null_ptr
     status = MSLIP_OK
     if (present(force)) call check_array(force, n, ptr(1), status)
-    if (present(sensitivity)) call check_array(sensitivity, [int(MSLIP_PARAMETERS, mslip_size), n], ptr(2), status)
+    if (present(sensitivity)) call check_array(sensitivity, [int(MSLIP_PARAMETER_COUNT, mslip_size), n], ptr(2), status)
     if (status == MSLIP_OK) status = c_monotonic_sensitivity(contact, n, displacement, ptr(1), ptr(2))
   end subroutine mslip_monotonic_sensitivity
 
@@ -1349,7 +1349,7 @@ contains
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: sensitivity(:, :)
-      !! (2H+1, `MSLIP_PARAMETERS`): derivatives of the force coefficients, in columns `MSLIP_BY_...` [N over the unit of the
+      !! (2H+1, `MSLIP_PARAMETER_COUNT`): derivatives of the force coefficients, in columns `MSLIP_BY_...` [N over the unit of the
       !! parameter]; exact for uniform sampling; event-driven they converge more slowly than the force.
 
     integer(mslip_size) :: m
@@ -1360,7 +1360,7 @@ contains
     ptr = c_null_ptr
     if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
     if (present(force)) call check_array(force, m, ptr(1), status)
-    if (present(sensitivity)) call check_array(sensitivity, [m, int(MSLIP_PARAMETERS, mslip_size)], ptr(2), status)
+    if (present(sensitivity)) call check_array(sensitivity, [m, int(MSLIP_PARAMETER_COUNT, mslip_size)], ptr(2), status)
     if (status == MSLIP_OK) status = c_harmonic_sensitivity(contact, address_of(workspace), displacement, ptr(1), ptr(2))
   end subroutine mslip_harmonic_sensitivity
 

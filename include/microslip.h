@@ -182,7 +182,7 @@
 #define MSLIP_BY_COMPOSITE_MODULUS 5
 
 // Number of parameters: rows of a sensitivity.
-#define MSLIP_PARAMETERS 6
+#define MSLIP_PARAMETER_COUNT 6
 
 // Success.
 #define MSLIP_OK 0
@@ -378,7 +378,7 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *stick_half_width);
 
 // Derivatives of the force of the monotonic curve with respect to the parameters at displacement[n] [m], which stays fixed:
-// force[n] [N] and sensitivity, MSLIP_PARAMETERS x n, column-major: the derivatives of force i are sensitivity[6 i +
+// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major: the derivatives of force i are sensitivity[6 i +
 // MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
 // contact with mu = 0 or N = 0 at any displacement but 0.
 //
@@ -674,7 +674,7 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *dissipated);
 
 // Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement [m] and
-// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETERS, column-major: the derivative of force
+// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major: the derivative of force
 // coefficient i is sensitivity[i + (2H+1) MSLIP_BY_...], in [N] over the unit of the parameter. The parameters are those of
 // mslip_monotonic_sensitivity.
 //

@@ -63,7 +63,7 @@ pub const MSLIP_BY_LENGTH: i32 = 4;
 /// Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
 pub const MSLIP_BY_COMPOSITE_MODULUS: i32 = 5;
 /// Number of parameters: rows of a sensitivity.
-pub const MSLIP_PARAMETERS: i32 = 6;
+pub const MSLIP_PARAMETER_COUNT: i32 = 6;
 
 /// Success.
 pub const MSLIP_OK: i32 = 0;

@@ -451,7 +451,7 @@ contains
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7)
     real(wp) :: dissipated, power
     real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
-    real(wp) :: by_parameter(7, MSLIP_PARAMETERS), by_row(MSLIP_PARAMETERS, 2), curve(2), normal_force
+    real(wp) :: by_parameter(7, MSLIP_PARAMETER_COUNT), by_row(MSLIP_PARAMETER_COUNT, 2), curve(2), normal_force
     integer(mslip_int) :: status
     integer :: i, k
 

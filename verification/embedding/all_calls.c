@@ -246,7 +246,7 @@ static void monotonic_force(struct sequence *s)
 static void monotonic_sensitivity(struct sequence *s)
 {
     double *x = multiples(s, s->contact->slip_displacement, 3.0), *force = *arrays(s, 1, POINTS);
-    accept(mslip_monotonic_sensitivity(s->contact, POINTS, x, force, *arrays(s, 1, MSLIP_PARAMETERS * POINTS)));
+    accept(mslip_monotonic_sensitivity(s->contact, POINTS, x, force, *arrays(s, 1, MSLIP_PARAMETER_COUNT * POINTS)));
 }
 
 static void masing_update(struct sequence *s)
@@ -322,7 +322,7 @@ static void harmonic_sensitivity(struct sequence *s)
 {
     for (int rule = 0; rule < RULES; ++rule) {
         double *u = coefficients(s, 1), *force = *arrays(s, 1, COEFFICIENTS);
-        double *sensitivity = *arrays(s, 1, MSLIP_PARAMETERS * COEFFICIENTS);
+        double *sensitivity = *arrays(s, 1, MSLIP_PARAMETER_COUNT * COEFFICIENTS);
         accept(mslip_harmonic_sensitivity(s->contact, s->workspace[rule], u, force, sensitivity));
     }
 }
