@@ -33,7 +33,7 @@ const ROUNDING: f64 = 1e-3;
 /// A next turn below that is a rounding error.
 const SMALL_TURN: f64 = 1e-12;
 /// Turns up to this one need no new factors of the Jacobian, and show which further points slip.
-const CLOSE: f64 = 1e-2;
+const CLOSE: f64 = 1e-1;
 /// The largest change of an angle.
 const LARGEST_TURN: f64 = 0.8;
 /// Overshoot from which on the springs lose more than three digits to cancellation.
@@ -163,13 +163,20 @@ impl Slip {
         self.first = self.first.min(i);
     }
 
+    /// Whether all points slip from the first one on.
+    #[inline(always)]
+    fn all_slip(&self, last: usize) -> bool {
+        (self.first..last + 1).all(|i| self.slips[i.min(SPRINGS - 1)])
+    }
+
     /// Solves the problem: springs and tractions at the end.
     #[inline(always)]
     pub fn solve(&mut self, problem: &Problem, factored: bool, [end, tractions]: [&mut Both<Row>; 2]) {
         let Problem { map, start, overshoot, .. } = *problem;
         let last = map.last.min(SPRINGS - 1);
         let per_along = per_along(start, overshoot);
-        let mut constant = self.invert(problem);
+        let mut constant = [[0.0; SPRINGS]; 2];
+        self.invert(problem, SPRINGS, &mut constant);
         let (mut turn, mut before) = (PI, PI);
         let (mut changes, mut tried, mut reviewed) = (0, 0, false);
         for _ in 0..STEPS {
@@ -182,11 +189,12 @@ impl Slip {
             let mut q = self.e;
             q.iter_mut().for_each(|q| q.iter_mut().zip(&limit).for_each(|(q, limit)| *q *= limit));
             let directions = Directions::new(&self.e, start, &per_along);
-            let (mut residual, largest) = self.multipliers(&constant, &q, &directions.vector, last);
+            let (residual, largest) = self.multipliers(&constant, &q, &directions.vector, last);
             self.converged = largest <= CONVERGED * CONVERGED || turn * turn <= SMALL_TURN * before;
             let ends = self.converged || tried == STALLED;
             if ends || (turn <= CLOSE && !reviewed) {
                 reviewed = true;
+                let known = self.all_slip(last).then_some(self.first);
                 (*end, *tractions) = self.relaxed(problem, &q);
                 if self.review(problem, tractions, ends) {
                     changes += 1;
@@ -194,7 +202,12 @@ impl Slip {
                         self.converged = false;
                         return;
                     }
-                    constant = self.invert(problem);
+                    // Further points within add to the sums; otherwise these begin anew.
+                    let grows = known.is_some_and(|known| known > self.first) && self.all_slip(last);
+                    if !grows {
+                        (self.inverse, constant) = ([[[0.0; SPRINGS]; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
+                    }
+                    self.invert(problem, known.filter(|_| grows).unwrap_or(SPRINGS), &mut constant);
                     (turn, before, tried, reviewed) = (PI, PI, 0, false);
                     continue;
                 }
@@ -206,12 +219,12 @@ impl Slip {
             if self.converged {
                 return;
             }
-            solve(&self.factors, self.first, last, &mut residual);
+            let turns = solve(&self.factors, self.first, last, &residual);
             before = turn;
-            turn = residual.iter().fold(0.0, |largest: f64, turn| largest.max(turn.abs()));
+            turn = turns.iter().fold(0.0, |largest: f64, turn| largest.max(turn.abs()));
             let damping = if turn > LARGEST_TURN { LARGEST_TURN / turn } else { 1.0 };
             for i in 0..SPRINGS {
-                let (x, y, turn) = (self.e[0][i], self.e[1][i], damping * residual[i]);
+                let (x, y, turn) = (self.e[0][i], self.e[1][i], damping * turns[i]);
                 let (x, y) = (x - turn * y, y + turn * x);
                 let scale = 1.0 / (x * x + y * y).max(TINY).sqrt();
                 (self.e[0][i], self.e[1][i]) = (x * scale, y * scale);
@@ -220,17 +233,15 @@ impl Slip {
     }
 
     /// S and `S B z*` of the slipping points: with U the inverse of the block of B from the first one on, `S = U'U` without the points
-    /// that stick.
+    /// that stick. The sums over the points from `known` on are there already.
     #[inline(always)]
-    fn invert(&mut self, problem: &Problem) -> Both<Row> {
+    fn invert(&mut self, problem: &Problem, known: usize, constant: &mut Both<Row>) {
         let Problem { map, trial, .. } = *problem;
         let (first, last) = (self.first.min(SPRINGS - 1), map.last.min(SPRINGS - 1));
-        let mut constant = [[0.0; SPRINGS]; 2];
         for k in 0..2 {
             let square = &mut self.inverse[k];
-            *square = [[0.0; SPRINGS]; SPRINGS];
             let column = map.inverse_column(k, first);
-            for m in first..last + 1 {
+            for m in first..known.min(last + 1) {
                 let row = map.inverse_row(k, m, column[m]);
                 add(&mut constant[k], trial[k][m], &row);
                 for i in m..last + 1 {
@@ -251,7 +262,6 @@ impl Slip {
                 }
             }
         }
-        constant
     }
 
     /// Finds σ for the tractions q; the residuals of its directions n, and the square of the largest angle between both.
@@ -349,50 +359,35 @@ impl Slip {
 /// changes.
 #[inline(always)]
 fn factorise(matrix: &mut Matrix, first: usize, last: usize) {
-    for p in 0..SPRINGS {
-        if p < first || p > last {
-            continue;
-        }
+    let end = last.min(SPRINGS - 1) + 1;
+    for p in first..end {
         let pivot = matrix[p][p];
         let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
         let mut row = matrix[p];
-        row.iter_mut().take(p + 1).for_each(|entry| *entry = 0.0);
+        for j in 0..SPRINGS {
+            row[j] = if j > p { row[j] } else { 0.0 };
+        }
         matrix[p][p] = reciprocal;
-        for i in p + 1..SPRINGS {
-            if i <= last {
-                let factor = matrix[i][p] * reciprocal;
-                if factor != 0.0 {
-                    add(&mut matrix[i], -factor, &row);
-                    matrix[i][p] = factor;
-                }
-            }
+        for i in p + 1..end {
+            let factor = matrix[i][p] * reciprocal;
+            add(&mut matrix[i], -factor, &row);
+            matrix[i][p] = factor;
         }
     }
 }
 
 /// Solves with the factors.
 #[inline(always)]
-fn solve(factors: &Matrix, first: usize, last: usize, right: &mut Row) {
-    for i in 0..SPRINGS {
-        if i >= first && i <= last {
-            let mut sum = right[i];
-            for j in first..i {
-                sum -= factors[i][j] * right[j];
-            }
-            right[i] = sum;
-        }
+fn solve(factors: &Matrix, first: usize, last: usize, right: &Row) -> Row {
+    let end = last.min(SPRINGS - 1) + 1;
+    let (mut forward, mut solution) = ([0.0; SPRINGS], [0.0; SPRINGS]);
+    for i in first..end {
+        forward[i] = right[i] - dot(&factors[i], &forward);
     }
-    for i in (0..SPRINGS).rev() {
-        if i >= first && i <= last {
-            let mut sum = right[i];
-            for j in i + 1..SPRINGS {
-                if j <= last {
-                    sum -= factors[i][j] * right[j];
-                }
-            }
-            right[i] = sum * factors[i][i];
-        }
+    for i in (first..end).rev() {
+        solution[i] = (forward[i] - dot(&factors[i], &solution)) * factors[i][i];
     }
+    solution
 }
 
 /// Solves with the factors for rows of n columns.
