@@ -121,6 +121,7 @@ figures:
 	verification/paper/draw.sh
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package validation
 	verification/validation/draw.sh
+	tools/identification.sh
 
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all

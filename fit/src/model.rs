@@ -337,9 +337,9 @@ mod tests {
                     });
                     (high - low) / (2.0 * step)
                 };
-                for i in 0..PARAMETERS {
+                for (i, slope) in at.slopes.into_iter().enumerate() {
                     let scale = at.force.abs() / parameters[i];
-                    assert!((at.slopes[i] - differences(i)).abs() < 1e-6 * scale, "{parameter:?} {part} {i}");
+                    assert!((slope - differences(i)).abs() < 1e-6 * scale, "{parameter:?} {part} {i}");
                 }
                 let step = 1e-6 * end;
                 let [low, high] =

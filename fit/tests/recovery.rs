@@ -212,6 +212,8 @@ fn one_amplitude_is_a_warning() {
     assert!(report.warnings.iter().any(|warning| warning.contains("one amplitude only")));
 }
 
+type Change<'a> = &'a dyn Fn(&mut Measurement);
+
 /// The message about a loop that was changed.
 fn message(change: impl Fn(&mut Measurement)) -> String {
     let (contact, mut random) = (flat(), Random::new(11));
@@ -223,7 +225,7 @@ fn message(change: impl Fn(&mut Measurement)) -> String {
 #[test]
 fn bad_data_are_reported() {
     let times = |factor: f64| move |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value *= factor);
-    let cases: [(&str, &dyn Fn(&mut Measurement)); 13] = [
+    let cases: [(&str, Change); 13] = [
         ("force of sample 8 is not a number", &|one| one.force[7] = f64::NAN),
         ("force has 499 values", &|one| one.force.truncate(499)),
         ("jumps by more than a quarter", &|one| {
