@@ -143,6 +143,7 @@ def test_status_codes_and_constants_are_those_of_the_header():
     assert defined.pop("OK") == 0
     for name in ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "APPROACH", "NORMAL_FORCE"]:
         assert getattr(microslip, name) == defined.pop(name)
+    assert len(microslip.Parameter) == defined.pop("PARAMETER_COUNT")
     for parameter in microslip.Parameter:
         assert parameter.value == defined.pop(f"BY_{parameter.name}")
     assert {status.name: status.value for status in microslip.Status} == defined
