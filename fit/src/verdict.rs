@@ -94,9 +94,10 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     // Variance of the residuals, and how much their correlation enlarges that of the parameters.
     let fit = candidates[best].fit.clone();
     let residuals = fit.weighted_residuals();
-    let count: usize = residuals.iter().map(Vec::len).sum();
-    let degrees = count.saturating_sub(PARAMETERS + 2 * residuals.len()).max(1) as f64;
-    let unit = candidates[best].chi_squared / degrees * correlation(&residuals);
+    // As many independent residuals as correlation times; each parameter takes one.
+    let correlation = correlation(&residuals);
+    let independent = residuals.iter().map(Vec::len).sum::<usize>() as f64 / correlation;
+    let unit = candidates[best].chi_squared / (independent - fit.count() as f64).max(1.0);
     let excess = |candidate: &Candidate| (candidate.chi_squared - candidates[best].chi_squared).max(0.0) / unit;
     let admitted: Vec<_> = candidates.iter().map(|candidate| excess(candidate) <= QUANTILE.powi(2)).collect();
     let profile = candidates.iter().zip(&admitted).map(|(candidate, &admitted)| ProfilePoint {
@@ -191,23 +192,16 @@ fn fixed(value: f64) -> Estimate {
     Estimate { value, lower: value, upper: Some(value), status: Status::Fixed }
 }
 
-/// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation, up to five times that sum (Sokal).
-/// The residuals of a wrong model are correlated over long parts of a cycle.
+/// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation up to its first zero; beyond it, the fit
+/// makes residuals of a cycle anticorrelated. The residuals of a wrong model are correlated over long parts of a cycle.
 fn correlation(residuals: &[Vec<f64>]) -> f64 {
     let sum = |lag: usize| -> f64 {
         let of_loop =
             |one: &Vec<f64>| one.iter().zip(one.iter().skip(lag)).map(|(one, other)| one * other).sum::<f64>();
         residuals.iter().map(of_loop).sum()
     };
-    let (variance, longest) = (sum(0), residuals.iter().map(Vec::len).max().unwrap_or(0));
-    let mut factor = 1.0;
-    for lag in 1..longest {
-        factor += 2.0 * sum(lag) / variance.max(f64::MIN_POSITIVE);
-        if lag as f64 >= 5.0 * factor {
-            break;
-        }
-    }
-    factor.max(1.0)
+    let (variance, longest) = (sum(0).max(f64::MIN_POSITIVE), residuals.iter().map(Vec::len).max().unwrap_or(0));
+    1.0 + 2.0 * (1..longest).map(|lag| sum(lag) / variance).take_while(|part| *part > 0.0).sum::<f64>()
 }
 
 /// The verdict in sentences.
@@ -256,4 +250,30 @@ pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<
         });
     }
     sentences
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of which neighbours have the correlation ρ: the sum of ρ^|lag| over all lags is (1 + ρ)/(1 - ρ). The estimate from 1e5
+    /// samples has a standard error of some percent.
+    #[test]
+    fn correlation_is_that_of_an_autoregressive_process() {
+        let mut state = 1_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        for rho in [0.0, 0.5, 0.9] {
+            let mut last = 0.0;
+            let mut next = || {
+                last = rho * last + uniform();
+                last
+            };
+            let residuals: [Vec<f64>; 2] = std::array::from_fn(|_| (0..50_000).map(|_| next()).collect());
+            let expected = (1.0 + rho) / (1.0 - rho);
+            assert!((correlation(&residuals) / expected - 1.0).abs() < 0.1, "{rho}: {}", correlation(&residuals));
+        }
+    }
 }
