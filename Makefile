@@ -17,7 +17,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header docs dist clean help
+	figures host stress fuzz check parallel header docs dist recipes clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -151,12 +151,16 @@ docs:
 dist:
 	tools/tarball.sh target/microslip-$(version).tar.gz
 
+## recipes: recipes of conda-forge and Spack for the tarball, published at URL=; BUILD=1 builds and tests the conda package
+recipes:
+	tools/recipes.sh $(URL)
+
 ## clean: remove everything that was built
 clean:
 	rm -rf dist target verification/fuzz/target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C benches clean
-	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build
+	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build examples/nlvib/build
 
 ## help: list the targets
 help:

@@ -271,6 +271,7 @@ CALL(tractions, call.contacts, call.scalar, call.n, call.input, OUT2)
 CALL(slip, call.contacts, call.scalar, call.n, call.input, OUT2)
 CALL(monotonic_displacement, call.contacts, call.n, call.input, OUT3)
 CALL(monotonic_force, call.contacts, call.n, call.input, OUT3)
+CALL(monotonic_sensitivity, call.contacts, call.n, call.input, OUT2)
 CALL(masing_update, call.contacts, call.state_length, call.state, call.scalar, call.out[0], OUT3)
 CALL(masing_path, call.contacts, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
 CALL(masing_tractions, call.contacts, call.state_length, call.state, call.n, call.input, OUT2)
@@ -279,6 +280,7 @@ CALL(dissipated_energy, call.contacts, call.n, call.input, OUT1)
 CALL(complex_stiffness, call.contacts, call.n, call.input, OUT4)
 CALL(complex_stiffness_tabulated, call.contacts, call.table, call.n, call.input, OUT4)
 CALL(harmonic_force, call.contacts, call.workspace, call.input, OUT3)
+CALL(harmonic_sensitivity, call.contacts, call.workspace, call.input, OUT2)
 CALL(jenkins_equivalent, call.contacts, call.scalar, OUT2)
 CALL(iwan_equivalent, call.contacts, call.n, OUT3)
 CALL(batch_complex_stiffness, BATCH, call.input, OUT4)
@@ -307,6 +309,8 @@ typedef struct {
 #define FUNCTION(name) "mslip_" #name, call_##name
 #define HARMONIC(rule) \
     { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
+    { FUNCTION(harmonic_sensitivity), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, \
+      { 0, COEFFICIENTS, MSLIP_PARAMETER_COUNT * COEFFICIENTS } }, \
     { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
       { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
 /* A variant of elements with m components. */
@@ -329,6 +333,7 @@ static const function functions[] = {
     { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
     { FUNCTION(monotonic_displacement), TAKES_COUNT, 0, NONE, FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
     { FUNCTION(monotonic_force), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
+    { FUNCTION(monotonic_sensitivity), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, MSLIP_PARAMETER_COUNT * ITEMS } },
     { FUNCTION(masing_update), TAKES_STATE, 0, DISPLACEMENT, NONE, 0, { STATE, 1, 1, 1 } },
     { FUNCTION(masing_path), TAKES_STATE | TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { STATE, ITEMS, ITEMS, ITEMS } },
     { FUNCTION(masing_tractions), TAKES_STATE | TAKES_COUNT, 0, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },

@@ -48,14 +48,14 @@ module microslip
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
   public :: mslip_contact_init, mslip_contact_init_elliptic, mslip_contact_check
   public :: mslip_tractions, mslip_slip
-  public :: mslip_monotonic_displacement, mslip_monotonic_force
+  public :: mslip_monotonic_displacement, mslip_monotonic_force, mslip_monotonic_sensitivity
   public :: mslip_state_length, mslip_state_init, mslip_state_check, mslip_state_error
   public :: mslip_masing_update, mslip_masing_advance, mslip_masing_path, mslip_masing_path_advance
   public :: mslip_masing_tractions
   public :: mslip_hysteresis_loop, mslip_dissipated_energy, mslip_complex_stiffness
   public :: mslip_stiffness_table_length, mslip_stiffness_table_init, mslip_complex_stiffness_tabulated
   public :: mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_workspace_size
-  public :: mslip_harmonic_force
+  public :: mslip_harmonic_force, mslip_harmonic_sensitivity
   public :: mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance
   public :: mslip_batch_harmonic_force
   public :: mslip_jenkins_equivalent, mslip_iwan_equivalent
@@ -144,6 +144,17 @@ module microslip
     !! The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
   integer(mslip_int), parameter, public :: MSLIP_NORMAL_FORCE = 1
     !! The normal component of a displacement is the normal force [N] itself.
+  integer(mslip_int), parameter, public :: MSLIP_BY_NORMAL_FORCE = 1
+    !! Row of a sensitivity: derivative with respect to the normal force N.
+  integer(mslip_int), parameter, public :: MSLIP_BY_FRICTION_COEFFICIENT = 2
+    !! Derivative with respect to the friction coefficient mu.
+  integer(mslip_int), parameter, public :: MSLIP_BY_FLAT_HALF_WIDTH = 3
+    !! Derivative with respect to the half-width a of the flat; from above if a = 0.
+  integer(mslip_int), parameter, public :: MSLIP_BY_EDGE_RADIUS = 4  !! Derivative with respect to the edge radius R.
+  integer(mslip_int), parameter, public :: MSLIP_BY_LENGTH = 5  !! Derivative with respect to the length L.
+  integer(mslip_int), parameter, public :: MSLIP_BY_COMPOSITE_MODULUS = 6
+    !! Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
+  integer(mslip_int), parameter, public :: MSLIP_PARAMETER_COUNT = 6  !! Number of parameters: rows of a sensitivity.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
   ! </generated>
 
@@ -211,7 +222,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(4073) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(5225) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -360,6 +371,16 @@ module microslip
       type(c_ptr), value :: force, stiffness, stick_half_width
       integer(c_int32_t) :: c_monotonic_force
     end function c_monotonic_force
+
+    function c_monotonic_sensitivity(contact, n, displacement, force, sensitivity) &
+      bind(c, name='mslip_monotonic_sensitivity')
+      import
+      type(mslip_contact), intent(in) :: contact
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: displacement(*)
+      type(c_ptr), value :: force, sensitivity
+      integer(c_int32_t) :: c_monotonic_sensitivity
+    end function c_monotonic_sensitivity
 
     pure function c_state_length(reversals) bind(c, name='mslip_state_length')
       import
@@ -554,6 +575,15 @@ module microslip
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_harmonic_force
     end function c_harmonic_force
+
+    function c_harmonic_sensitivity(contact, workspace, displacement, force, sensitivity) &
+      bind(c, name='mslip_harmonic_sensitivity')
+      import
+      type(mslip_contact), intent(in) :: contact
+      type(c_ptr), value :: workspace, force, sensitivity
+      real(c_double), intent(in) :: displacement(*)
+      integer(c_int32_t) :: c_harmonic_sensitivity
+    end function c_harmonic_sensitivity
 
     function c_element_init(p, directions, normal_input, element) bind(c, name='mslip_element_init')
       import
@@ -909,6 +939,30 @@ contains
     status = c_monotonic_force(contact, 1_mslip_size, [displacement], &
       address_of(force), address_of(stiffness), address_of(stick_half_width))
   end subroutine monotonic_force_scalar
+
+  subroutine mslip_monotonic_sensitivity(contact, displacement, status, force, sensitivity)
+    !! Derivatives of the force of the monotonic curve with respect to the parameters at fixed displacements. Beyond
+    !! `slip_displacement` they are those of `slip_force`; so are, one-sided, those of a contact without friction or normal
+    !! force at any displacement but 0. Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N
+    !! and E*; the derivative with respect to the edge radius is that for bodies whose radii of curvature change in proportion,
+    !! with R = 4 E* semi_axis_x**3/(3 N), of a sphere its radius; those with respect to a and L are 0.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(in) :: displacement(:)  !! n displacements [m]; magnitudes are at most 1e150.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! n forces [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: sensitivity(:, :)
+      !! (`MSLIP_PARAMETER_COUNT`, n): derivatives of each force, in rows `MSLIP_BY_...` [N over the unit of the parameter].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(2)
+
+    n = size(displacement, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(force)) call check_array(force, n, ptr(1), status)
+    if (present(sensitivity)) call check_array(sensitivity, [int(MSLIP_PARAMETER_COUNT, mslip_size), n], ptr(2), status)
+    if (status == MSLIP_OK) status = c_monotonic_sensitivity(contact, n, displacement, ptr(1), ptr(2))
+  end subroutine mslip_monotonic_sensitivity
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Any load history: Masing's rule (Eq. 11, 12) with return-point memory
@@ -1285,6 +1339,30 @@ contains
     if (status == MSLIP_OK) status = c_harmonic_force(contact, address_of(workspace), displacement, ptr(1), ptr(2), &
       address_of(dissipated))
   end subroutine mslip_harmonic_force
+
+  subroutine mslip_harmonic_sensitivity(contact, workspace, displacement, status, force, sensitivity)
+    !! Derivatives of the force coefficients of `mslip_harmonic_force` with respect to the parameters at fixed coefficients of the
+    !! displacement; the parameters are those of `mslip_monotonic_sensitivity`.
+    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
+    real(mslip_real), intent(inout), target, contiguous :: workspace(:)  !! An initialised workspace; it decides H.
+    real(mslip_real), intent(in) :: displacement(:)  !! 2H+1 coefficients of the displacement [m].
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK` or an error.
+    real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force [N].
+    real(mslip_real), intent(inout), optional, target, contiguous :: sensitivity(:, :)
+      !! (2H+1, `MSLIP_PARAMETER_COUNT`): derivatives of the force coefficients, in columns `MSLIP_BY_...` [N over the unit of the
+      !! parameter]; exact for uniform sampling; event-driven they converge more slowly than the force.
+
+    integer(mslip_size) :: m
+    type(c_ptr) :: ptr(2)
+
+    call count_coefficients(workspace, m, status)
+    if (status /= MSLIP_OK) return
+    ptr = c_null_ptr
+    if (size(displacement, kind=mslip_size) /= m) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(force)) call check_array(force, m, ptr(1), status)
+    if (present(sensitivity)) call check_array(sensitivity, [m, int(MSLIP_PARAMETER_COUNT, mslip_size)], ptr(2), status)
+    if (status == MSLIP_OK) status = c_harmonic_sensitivity(contact, address_of(workspace), displacement, ptr(1), ptr(2))
+  end subroutine mslip_harmonic_sensitivity
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Batches: n items at once. Item i uses contacts(index(i)), or contacts(i) without an index

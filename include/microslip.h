@@ -163,6 +163,27 @@
 // The normal component of a displacement is the normal force [N] itself.
 #define MSLIP_NORMAL_FORCE 1
 
+// Row of a sensitivity: derivative with respect to the normal force N.
+#define MSLIP_BY_NORMAL_FORCE 0
+
+// Derivative with respect to the friction coefficient mu.
+#define MSLIP_BY_FRICTION_COEFFICIENT 1
+
+// Derivative with respect to the half-width a of the flat; from above if a = 0.
+#define MSLIP_BY_FLAT_HALF_WIDTH 2
+
+// Derivative with respect to the edge radius R.
+#define MSLIP_BY_EDGE_RADIUS 3
+
+// Derivative with respect to the length L.
+#define MSLIP_BY_LENGTH 4
+
+// Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
+#define MSLIP_BY_COMPOSITE_MODULUS 5
+
+// Number of parameters: rows of a sensitivity.
+#define MSLIP_PARAMETER_COUNT 6
+
 // Success.
 #define MSLIP_OK 0
 
@@ -249,7 +270,7 @@ typedef struct mslip_element {
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[4073];
+    double reserved[5225];
 } mslip_element;
 
 #ifdef __cplusplus
@@ -355,6 +376,24 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *force,
                               double *stiffness,
                               double *stick_half_width);
+
+// Derivatives of the force of the monotonic curve with respect to the parameters at displacement[n] [m], which stays fixed:
+// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major: the derivatives of force i are sensitivity[6 i +
+// MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
+// contact with mu = 0 or N = 0 at any displacement but 0.
+//
+// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
+// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
+// radius. Those with respect to a and L are 0.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
+//
+// Memory: Each pointer is NULL or valid for n doubles, sensitivity for 6 n; outputs must not alias any other argument.
+int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,
+                                    size_t n,
+                                    const double *displacement,
+                                    double *force,
+                                    double *sensitivity);
 
 // Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
 // is exceeded, the pair of adjacent reversals whose removal changes later forces least is removed.
@@ -633,6 +672,25 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *force,
                              double *jacobian,
                              double *dissipated);
+
+// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement [m] and
+// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major: the derivative of force
+// coefficient i is sensitivity[i + (2H+1) MSLIP_BY_...], in [N] over the unit of the parameter. The parameters are those of
+// mslip_monotonic_sensitivity.
+//
+// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of gross
+// slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more slowly than the
+// force.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
+//
+// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
+// argument.
+int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
+                                   double *workspace,
+                                   const double *displacement,
+                                   double *force,
+                                   double *sensitivity);
 
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
 // force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions

@@ -50,6 +50,21 @@ pub const MSLIP_APPROACH: i32 = 0;
 /// The normal component of a displacement is the normal force \[N\] itself.
 pub const MSLIP_NORMAL_FORCE: i32 = 1;
 
+/// Row of a sensitivity: derivative with respect to the normal force N.
+pub const MSLIP_BY_NORMAL_FORCE: i32 = 0;
+/// Derivative with respect to the friction coefficient mu.
+pub const MSLIP_BY_FRICTION_COEFFICIENT: i32 = 1;
+/// Derivative with respect to the half-width a of the flat; from above if a = 0.
+pub const MSLIP_BY_FLAT_HALF_WIDTH: i32 = 2;
+/// Derivative with respect to the edge radius R.
+pub const MSLIP_BY_EDGE_RADIUS: i32 = 3;
+/// Derivative with respect to the length L.
+pub const MSLIP_BY_LENGTH: i32 = 4;
+/// Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
+pub const MSLIP_BY_COMPOSITE_MODULUS: i32 = 5;
+/// Number of parameters: rows of a sensitivity.
+pub const MSLIP_PARAMETER_COUNT: i32 = 6;
+
 /// Success.
 pub const MSLIP_OK: i32 = 0;
 
@@ -96,7 +111,7 @@ pub struct mslip_element {
     /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 4073],
+    pub reserved: [f64; 5225],
 }
 
 const _: () = {

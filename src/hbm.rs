@@ -251,7 +251,7 @@ pub fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::constant_load::contact::tests::contact;
     use std::vec;

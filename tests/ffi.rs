@@ -352,6 +352,11 @@ fn monotonic_curve() {
         let invalid = [(MSLIP_BAD_DISPLACEMENT, f64::INFINITY)];
         let x = parts.map(|x| x * displacement);
         check_array(&contact, &[4; 3], &x, &invalid, |c, x, out| by_displacement(c, 4, x, out));
+        let derivatives = |contact, n, x: *const f64, out: Outputs| unsafe {
+            mslip_monotonic_sensitivity(contact, n, x, out[0], out[1])
+        };
+        check_array(&contact, &[4, 24], &x, &invalid, |c, x, out| derivatives(c, 4, x, out));
+        check_length(2, |n, x, out| derivatives(contact.start, n, x, out));
         check_length(3, |n, x, out| by_force(contact.start, n, x, out));
         check_length(3, |n, x, out| by_displacement(contact.start, n, x, out));
     }
@@ -607,10 +612,16 @@ fn harmonic_force() {
             for motion in [[0.0; 5], [0.1, 0.5, 0.2, 0.3, -0.2], [0.0, 0.6, 0.3, 0.0, 0.0], [0.2, 9.0, 1.0, 3.0, 1.0]] {
                 let u = Memory::of(motion[..n].iter().map(|part| part * unit));
                 accepted(&lengths, |out| force(contact.start, workspace.start, u.start, out));
+                accepted(&[n, 6 * n], |out| unsafe {
+                    mslip_harmonic_sensitivity(contact.start, workspace.start, u.start, out[0], out[1])
+                });
             }
             let invalid = [(MSLIP_BAD_DISPLACEMENT, f64::NAN)];
             check_array(contact, &lengths, &vec![0.0; n], &invalid, |contact, u, out| {
                 force(contact, workspace.start, u, out)
+            });
+            check_array(contact, &[n, 6 * n], &vec![0.0; n], &invalid, |contact, u, out| unsafe {
+                mslip_harmonic_sensitivity(contact, workspace.start, u, out[0], out[1])
             });
         }
         let u = Memory::of(vec![0.0; n]);

@@ -39,10 +39,12 @@ installed() {
     step 'archive in calling applications' verification/embedding/embedding.sh "$prefix"
     step 'fuzzing, bounded' tools/fuzz.sh --check
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
+    step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'CalculiX: its results are those of the library' calculix_results
     step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
+    step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
     step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1

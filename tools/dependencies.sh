@@ -26,6 +26,8 @@ meson           check                                                 : command 
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
 python3-venv    check docs                                            : command python3 -c "import ensurepip"
+octave          check octave                                          : command octave-cli
+octave-dev      check octave                                          : command mkoctfile
 openmpi-bin     check parallel                                        : command mpirun
 libopenmpi-dev  check parallel                                        : command mpifort
 dpkg-dev        host                                                  : command dpkg-source
@@ -44,7 +46,7 @@ found() {
     esac > /dev/null 2>&1
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|parallel..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|octave|parallel..." >&2; exit 2; }
 missing=$(
     echo "$table" | while IFS=: read -r head probe; do
         package=${head%% *}

@@ -202,8 +202,8 @@ fn fixed(value: f64) -> Estimate {
     Estimate { value, lower: value, upper: Some(value), status: Status::Fixed }
 }
 
-/// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation up to its first zero; beyond it, the fit
-/// makes residuals of a cycle anticorrelated. The residuals of a wrong model are correlated over long parts of a cycle.
+/// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation up to its first zero; beyond it, the
+/// fit makes residuals of a cycle anticorrelated. The residuals of a wrong model are correlated over long parts of a cycle.
 fn correlation(residuals: &[Vec<f64>]) -> f64 {
     let sum = |lag: usize| -> f64 {
         let of_loop =

@@ -7,7 +7,7 @@ use crate::constant_load::sensitivity::Sensitivity;
 use crate::error::Error;
 use crate::numerics::fp_class::abs_le;
 use crate::parameters::{EllipticParameters, Material, Pair, Parameters};
-use crate::range::in_range;
+use crate::range::{exponent_of, in_range};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
@@ -154,7 +154,10 @@ impl Contact {
         in_range(&[self.friction_coefficient, self.pressure_scale], &[])?;
         let slip_force = self.friction_coefficient * normal_force;
         in_range(&[slip_force], &[self.stiffness_scale])?;
-        parameters.iter().try_for_each(|&parameter| in_range(&[slip_force], &[parameter]))?;
+        // Derivatives with respect to the parameters remain representable.
+        if parameters.iter().any(|&parameter| exponent_of(&[slip_force], &[parameter]).abs() > 900) {
+            return Err(Error::OutOfRange);
+        }
         let [by_size, by_radius, by_length, by_modulus] = parameters.map(|parameter| slip_force / parameter);
         let displacement_scale = slip_force / self.stiffness_scale;
         let zones = self.stick_zones();

@@ -1,9 +1,10 @@
 //! One contact: initialisation, tractions, slip, monotonic curve.
 
 use super::mslip_contact;
-use super::pointers::{self, check_alignment, input, item, outputs, set, status};
+use super::pointers::{self, check_alignment, input, item, output, outputs, set, status};
 use super::simd_dispatch::dispatch_simd;
-use crate::constant_load::contact::Contact;
+use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::sensitivity::PARAMETERS;
 use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -230,14 +231,50 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             let outputs = outputs([force, stiffness, stick_half_width], n);
             (pointers::contact(contact)?, input(displacement, n)?, outputs?)
         };
-        displacement
-            .iter()
-            .try_for_each(|&displacement| crate::constant_load::contact::check_displacement(displacement))?;
+        displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         responses(contact, displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
             for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
                 *c = contact.curve_at_displacement(displacement)?.stick_half_width();
             }
+        }
+        Ok(())
+    };
+    status(compute())
+}
+
+/// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
+/// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major: the derivatives of force i are sensitivity\[6 i +
+/// MSLIP_BY_...\], in \[N\] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
+/// contact with mu = 0 or N = 0 at any displacement but 0.
+///
+/// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
+/// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
+/// radius. Those with respect to a and L are 0.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// Each pointer is NULL or valid for n doubles, sensitivity for 6 n; outputs must not alias any other argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_monotonic_sensitivity(
+    contact: *const mslip_contact,
+    n: size_t,
+    displacement: *const f64,
+    force: *mut f64,
+    sensitivity: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, displacement, force, sensitivity) = unsafe {
+            let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
+            (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?, sensitivity)
+        };
+        displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
+        responses(contact, displacement, force, None);
+        let columns = sensitivity.map(|sensitivity| sensitivity.as_chunks_mut().0).into_iter().flatten();
+        for (column, &displacement) in columns.zip(displacement) {
+            *column = contact.monotonic_sensitivity(displacement)?;
         }
         Ok(())
     };

@@ -6,6 +6,7 @@ use super::pointers::{self, check_alignment, input, memory, output, status};
 use super::simd_dispatch::dispatch_simd;
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
+use crate::constant_load::sensitivity::PARAMETERS;
 use crate::error::Error;
 use crate::hbm::{self, HarmonicOutput, Rule, Workspace};
 use crate::varying_load::element::{Directions, Element};
@@ -276,6 +277,45 @@ pub unsafe extern "C" fn mslip_harmonic_force(
             unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
         let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
         harmonic_force_dispatched(contact, &mut workspace, displacement, output)
+    };
+    status(compute())
+}
+
+/// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and
+/// force \[N\] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major: the derivative of force
+/// coefficient i is sensitivity\[i + (2H+1) MSLIP_BY_...\], in \[N\] over the unit of the parameter. The parameters are those of
+/// mslip_monotonic_sensitivity.
+///
+/// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of gross
+/// slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more slowly than the
+/// force.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
+///
+/// # Safety
+/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
+/// argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_harmonic_sensitivity(
+    contact: *const mslip_contact,
+    workspace: *mut f64,
+    displacement: *const f64,
+    force: *mut f64,
+    sensitivity: *mut f64,
+) -> i32 {
+    let compute = || {
+        // SAFETY: by the function's contract.
+        let (contact, mut workspace) = unsafe { (pointers::contact(contact)?, pointers::workspace(workspace)?) };
+        let n = workspace.coefficients();
+        // SAFETY: by the function's contract.
+        let (displacement, force, sensitivity) =
+            unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
+        let output = HarmonicOutput { force, jacobian: None, dissipated: None };
+        harmonic_force_dispatched(contact, &mut workspace, displacement, output)?;
+        match sensitivity {
+            Some(sensitivity) => hbm::harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
+            None => Ok(()),
+        }
     };
     status(compute())
 }

@@ -664,4 +664,4 @@ const EMPTY: Element = Element {
     springs: Springs::EMPTY,
 };
 
-const _: () = assert!(size_of::<Element>() <= 34_000);
+const _: () = assert!(size_of::<Element>() <= 42_000);

@@ -323,7 +323,9 @@ fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory 
     for j in 0..SPRINGS {
         scaled[0][j] *= map.root[0][j];
     }
-    let [tractions, _] = map.tractions(&scaled, 0);
+    let mut tractions = [[0.0; SPRINGS]; 2];
+    map.tractions(&scaled, &[false; SPRINGS], &mut tractions);
+    let [tractions, _] = tractions;
     for i in 0..SPRINGS {
         if i <= edge.last {
             memory.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
@@ -428,7 +430,7 @@ fn advance_springs(
 ) -> (Step, Header) {
     let passage = Passage::new(element, from, displacement);
     let old = requested.tangent.then_some(*memory);
-    let mut course = Course::NONE;
+    let mut course = Course::new();
     let mut step = passage.advance(element, memory, requested, &mut course);
     if let Some(old) = old
         && passage.closed

@@ -24,7 +24,7 @@ program bad_input
     logical :: batch = .false., element = .false.
   end type procedure_info
 
-  type(procedure_info), parameter :: procedures(38) = [ &
+  type(procedure_info), parameter :: procedures(40) = [ &
     procedure_info('tractions', force, position, 'vv'), &
     procedure_info('slip', force, position, 'vv'), &
     procedure_info('monotonic_displacement', none, force, 'vvv'), &
@@ -61,6 +61,8 @@ program bad_input
     procedure_info('batch_element_update', none, shift, 'abv B', 's', .true., .true.), &
     procedure_info('batch_element_advance', none, shift, 'abv', 's', .true., .true.), &
     procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.), &
+    procedure_info('monotonic_sensitivity', none, shift, 'vq'), &
+    procedure_info('harmonic_sensitivity', none, shift, 'cr', 'w'), &
     procedure_info('complex_stiffness_tabulated', none, amplitude, 'vvvv', 't'), &
     procedure_info('complex_stiffness_tabulated, one', amplitude, none, 'ssss', 't')]
 
@@ -179,6 +181,8 @@ contains
       case ('c'); out(i)%v = spread(untouched, 1, m)
       case ('N'); out(i)%v = spread(untouched, 1, size(state))
       case ('f'); out(i)%m = reshape([real(wp) ::], [m, n], pad=[untouched])
+      case ('q'); out(i)%m = reshape([real(wp) ::], [int(MSLIP_PARAMETER_COUNT), n], pad=[untouched])
+      case ('r'); out(i)%m = reshape([real(wp) ::], [m, int(MSLIP_PARAMETER_COUNT)], pad=[untouched])
       case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
       case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
       case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
@@ -237,9 +241,11 @@ contains
     case (35); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, out(2)%t, out(3)%v)
     case (36)
       call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (37)
+    case (37); call mslip_monotonic_sensitivity(contacts(1), x, status, out(1)%v, out(2)%m)
+    case (38); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
+    case (39)
       call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
-    case (38)
+    case (40)
       call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
     end select
   end subroutine perform
@@ -280,7 +286,7 @@ contains
   logical function is_optional(i)
     integer, intent(in) :: i
 
-    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdegh') > 0
+    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdeghqr') > 0
   end function is_optional
 
   subroutine test_subsets()

@@ -451,6 +451,7 @@ contains
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7)
     real(wp) :: dissipated, power
     real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+    real(wp) :: by_parameter(7, MSLIP_PARAMETER_COUNT), by_row(MSLIP_PARAMETER_COUNT, 2), curve(2), normal_force
     integer(mslip_int) :: status
     integer :: i, k
 
@@ -475,6 +476,20 @@ contains
     call check_close('first cosine', force(2), again(1)*6.0e-7_wp, 1.0e-3_wp)
     call check_close('first sine', -force(3), again(2)*6.0e-7_wp, 5.0e-3_wp)
     call check_close('energy of a cycle', dissipated, pi*again(2)*6.0e-7_wp**2, tight)
+
+    ! All forces in proportion: N dT/dN + E* dT/dE* = T. Beyond gross slip T = mu N.
+    call mslip_harmonic_sensitivity(flat, workspace, displacement, status, again, by_parameter)
+    call check_status('harmonic sensitivity', status, MSLIP_OK)
+    call mslip_monotonic_sensitivity(flat, [2.0e-7_wp, 1.0e-3_wp], status, curve, by_row)
+    call check_status('monotonic sensitivity', status, MSLIP_OK)
+    normal_force = by_row(MSLIP_BY_FRICTION_COEFFICIENT, 2)
+    call check_close('slip force', normal_force*by_row(MSLIP_BY_NORMAL_FORCE, 2), flat%slip_force, tight)
+    call check_close('force in proportion', normal_force*by_row(MSLIP_BY_NORMAL_FORCE, 1) + &
+      flat%composite_modulus*by_row(MSLIP_BY_COMPOSITE_MODULUS, 1), curve(1), tight)
+    do i = 1, 7
+      call check_close('coefficient in proportion', normal_force*by_parameter(i, MSLIP_BY_NORMAL_FORCE) + &
+        flat%composite_modulus*by_parameter(i, MSLIP_BY_COMPOSITE_MODULUS), again(i), tight)
+    end do
     call check('no even harmonics', maxval(abs([force(1), force(4), force(5)])) <= tight*flat%slip_force)
   end subroutine test_harmonic_force
 

@@ -243,6 +243,12 @@ static void monotonic_force(struct sequence *s)
     accept(mslip_monotonic_force(s->contact, POINTS, x, o[0], o[1], o[2]));
 }
 
+static void monotonic_sensitivity(struct sequence *s)
+{
+    double *x = multiples(s, s->contact->slip_displacement, 3.0), *force = *arrays(s, 1, POINTS);
+    accept(mslip_monotonic_sensitivity(s->contact, POINTS, x, force, *arrays(s, 1, MSLIP_PARAMETER_COUNT * POINTS)));
+}
+
 static void masing_update(struct sequence *s)
 {
     const size_t n = mslip_state_length(REVERSALS);
@@ -309,6 +315,15 @@ static void harmonic_force(struct sequence *s)
         double *u = coefficients(s, 1), *force = *arrays(s, 1, COEFFICIENTS);
         double *jacobian = *arrays(s, 1, COEFFICIENTS * COEFFICIENTS), *dissipated = *arrays(s, 1, 1);
         accept(mslip_harmonic_force(s->contact, s->workspace[rule], u, force, jacobian, dissipated));
+    }
+}
+
+static void harmonic_sensitivity(struct sequence *s)
+{
+    for (int rule = 0; rule < RULES; ++rule) {
+        double *u = coefficients(s, 1), *force = *arrays(s, 1, COEFFICIENTS);
+        double *sensitivity = *arrays(s, 1, MSLIP_PARAMETER_COUNT * COEFFICIENTS);
+        accept(mslip_harmonic_sensitivity(s->contact, s->workspace[rule], u, force, sensitivity));
     }
 }
 
@@ -438,7 +453,8 @@ static void version(struct sequence *s)
 const struct call calls[] = {
     CALL(version), CALL(initialisation), CALL(workspaces), CALL(tractions), CALL(slip), CALL(monotonic_displacement),
     CALL(monotonic_force), CALL(masing_update), CALL(masing_path), CALL(masing_tractions), CALL(hysteresis_loop),
-    CALL(dissipated_energy), CALL(complex_stiffness), CALL(stiffness_table), CALL(harmonic_force), CALL(equivalents), CALL(batch_complex_stiffness),
+    CALL(dissipated_energy), CALL(complex_stiffness), CALL(stiffness_table), CALL(harmonic_force), CALL(harmonic_sensitivity),
+    CALL(monotonic_sensitivity), CALL(equivalents), CALL(batch_complex_stiffness),
     CALL(batch_masing_update), CALL(batch_harmonic_force), CALL(normal_law), CALL(element_update),
     { "element_path", element_whole_path }, CALL(element_tractions), CALL(element_workspaces), CALL(element_harmonic_force),
     CALL(batch_element_update), CALL(batch_element_harmonic_force),

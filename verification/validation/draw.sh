@@ -2,7 +2,7 @@
 # draw.sh [GNUPLOT]: draws the pictures of docs/validation.md from their data. The version of gnuplot is not written into them.
 set -eu
 cd "$(dirname "$0")"
-for name in contact_code two_directions; do
+for name in contact_code fretting two_directions; do
     picture=../../docs/figures/$name.svg
     "${1:-gnuplot}" -e "docs = '../../docs/figures'" "plots/$name.gp" | sed '/^<desc>/d' > "$picture.new"
     mv "$picture.new" "$picture"

@@ -1,6 +1,6 @@
 //! The shell at the edge of the contact, which ends at the present size, and the map from springs to tractions with it.
 
-use super::springs::{Both, LEAST_STIFFNESS, Row, SPRINGS, Springs, dot, root_difference};
+use super::springs::{Both, LEAST_STIFFNESS, Row, SPRINGS, Springs, add, dot, root_difference};
 use crate::shape::TINY;
 
 /// Normal state in the units of the springs: N, S of both directions, w².
@@ -151,30 +151,71 @@ impl Map<'_> {
         row
     }
 
+    /// Row i of the inverse for direction k, from its entry in the last column.
+    #[inline(always)]
+    pub fn inverse_row(&self, k: usize, i: usize, entry: f64) -> Row {
+        let mut row = [0.0; SPRINGS];
+        let fixed = &self.springs.inverse[i][k];
+        for j in 0..SPRINGS {
+            row[j] = fixed[j] * self.inside[j];
+        }
+        row[self.last.min(SPRINGS - 1)] = entry;
+        row
+    }
+
+    /// The last column of the inverse from row `first` on.
+    #[inline(always)]
+    pub fn inverse_column(&self, k: usize, first: usize) -> Row {
+        let last = self.last.min(SPRINGS - 1);
+        let mut inner = self.column[k];
+        for j in 0..SPRINGS {
+            inner[j] *= self.inside[j];
+        }
+        let reciprocal = 1.0 / self.column[k][last];
+        let mut column = [0.0; SPRINGS];
+        for i in first..last {
+            column[i] = -reciprocal * dot(&self.springs.inverse[i][k], &inner);
+        }
+        column[last] = reciprocal;
+        column
+    }
+
     /// Entry (i, i).
     #[inline(always)]
     pub fn diagonal(&self, k: usize, i: usize) -> f64 {
         if i < self.last { self.springs.traction[i][k][i] } else { self.column[k][i] }
     }
 
-    /// The tractions at the points from `first` on.
+    /// B'σ, of the points from `first` on.
     #[inline(always)]
-    pub fn tractions(&self, z: &Both<Row>, first: usize) -> Both<Row> {
-        let mut tractions = [[0.0; SPRINGS]; 2];
+    pub fn transposed(&self, k: usize, first: usize, sigma: &Row) -> Row {
+        let last = self.last.min(SPRINGS - 1);
+        let mut sum = [0.0; SPRINGS];
+        for i in first..last {
+            add(&mut sum, sigma[i], &self.springs.traction[i][k]);
+        }
+        for j in 0..SPRINGS {
+            sum[j] *= self.inside[j];
+        }
+        sum[last] = dot(&self.column[k], sigma);
+        sum
+    }
+
+    /// The tractions at the points that are not to be skipped.
+    #[inline(always)]
+    pub fn tractions(&self, z: &Both<Row>, skipped: &[bool; SPRINGS], tractions: &mut Both<Row>) {
+        let last = self.last.min(SPRINGS - 1);
         for k in 0..2 {
             let mut inner = z[k];
             for j in 0..SPRINGS {
                 inner[j] *= self.inside[j];
             }
-            let last = self.last.min(SPRINGS - 1);
-            let outer = z[k][last];
-            for i in first..SPRINGS {
-                if i < self.last {
-                    tractions[k][i] = dot(&self.springs.traction[i][k], &inner) + self.column[k][i] * outer;
+            for i in 0..last + 1 {
+                if !skipped[i] {
+                    let fixed = if i < last { dot(&self.springs.traction[i][k], &inner) } else { 0.0 };
+                    tractions[k][i] = fixed + self.column[k][i] * z[k][last];
                 }
             }
-            tractions[k][last] = self.column[k][last] * outer;
         }
-        tractions
     }
 }

@@ -265,7 +265,7 @@ pub(crate) fn harmonic_force(
     let top = workspace.sample(largest);
     let mut from = Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0 };
     let mut memory = Memory::RELAXED;
-    let mut course = Course::NONE;
+    let mut course = Course::new();
     let frictionless = element.friction_coefficient == 0.0;
     if !frictionless {
         let press = Passage::new(element, &from, [0.0, 0.0, top[2]]);

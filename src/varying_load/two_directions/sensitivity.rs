@@ -5,7 +5,7 @@
 
 use super::edge::Map;
 use super::fine::Share;
-use super::slip::{Direction, product, solve_columns};
+use super::slip::{DirectionSlopes, at as point, product, solve_columns};
 use super::springs::{Both, FINE, Row, SPRINGS, Springs};
 use super::step::{Course, Memory, Motion};
 use crate::shape::TINY;
@@ -179,7 +179,7 @@ pub(crate) fn step(
                     *value += column_change(k, i, column) * end[k][last];
                 }
                 if i < last {
-                    add(place, -slip.e[i][k] * reach[i], columns.size);
+                    add(place, -slip.e[k][i] * reach[i], columns.size);
                 }
             }
         }
@@ -189,7 +189,7 @@ pub(crate) fn step(
                 continue;
             }
             let start = [slipped.start[0][i], slipped.start[1][i]];
-            let direction = Direction::new(&slip.e[i], &start, slipped.overshoot[i]);
+            let direction = DirectionSlopes::new(&point(&slip.e, i), &start, slipped.overshoot[i]);
             let (n_x, n_y) = (direction.vector[0], direction.vector[1]);
             for j in 0..SPRINGS {
                 if slip.slips[j] {
@@ -238,8 +238,8 @@ pub(crate) fn step(
         for i in 0..SPRINGS {
             if slip.slips[i] {
                 let p = edge.pressure[i];
-                add_row(scratch, n, h + i, p * slip.e[i][1], angles + i);
-                add_row(scratch, n, h + SPRINGS + i, -p * slip.e[i][0], angles + i);
+                add_row(scratch, n, h + i, p * slip.e[1][i], angles + i);
+                add_row(scratch, n, h + SPRINGS + i, -p * slip.e[0][i], angles + i);
             }
         }
         for k in 0..2 {
@@ -279,7 +279,7 @@ pub(crate) fn step(
                 continue;
             }
             if let Some(slipped) = slides {
-                let e = slipped.slip.e[i];
+                let e = point(&slipped.slip.e, i);
                 add(place, if k == 0 { -e[1] } else { e[0] }, row(scratch, n, angles + i));
                 continue;
             }

@@ -66,6 +66,8 @@ pub(crate) struct Springs {
     pub per_root: Both<Row>,
     /// (g_ij - g_i,j-1)/sqrt(w_j): maps sqrt(w_j) v_j to the traction at x_i.
     pub traction: [Both<Row>; SPRINGS],
+    /// The inverse of that map.
+    pub inverse: [Both<Row>; SPRINGS],
     /// The bank of finer springs: S_j and N_j, W_j, and the difference of its stiffness from that of the bank of the law.
     pub fine_load: [f64; FINE],
     pub fine_shift: Both<[f64; FINE]>,
@@ -87,6 +89,7 @@ impl Springs {
         root: [[0.0; SPRINGS]; 2],
         per_root: [[0.0; SPRINGS]; 2],
         traction: [[[0.0; SPRINGS]; 2]; SPRINGS],
+        inverse: [[[0.0; SPRINGS]; 2]; SPRINGS],
         fine_load: [0.0; FINE],
         fine_shift: [[0.0; FINE]; 2],
         fine_secant: [[0.0; FINE]; 2],
@@ -177,6 +180,7 @@ impl Springs {
         }
         self.secants();
         self.tractions(&width, 0.25 * punch);
+        self.invert();
     }
 
     /// W_j and w_j of the law and of the fine bank.
@@ -250,6 +254,27 @@ impl Springs {
             }
         }
     }
+
+    /// The inverse of the triangular map, from its last row on. Its leading blocks are the inverses of those of the map.
+    fn invert(&mut self) {
+        for i in (0..SPRINGS).rev() {
+            for k in 0..2 {
+                let row = self.traction[i][k];
+                // Shells that no load reaches have none.
+                if row[i] <= TINY {
+                    continue;
+                }
+                let mut inverse = [0.0; SPRINGS];
+                inverse[i] = 1.0;
+                for j in i + 1..SPRINGS {
+                    for c in j..SPRINGS {
+                        inverse[c] -= row[j] * self.inverse[j][k][c];
+                    }
+                }
+                self.inverse[i][k] = inverse.map(|value| value / row[i]);
+            }
+        }
+    }
 }
 
 /// Σ a_j b_j.
@@ -264,44 +289,14 @@ pub(crate) fn dot(one: &Row, two: &Row) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// The vectors of a row that hold the springs from `first` to `last`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Span {
-    from: usize,
-    to: usize,
-}
-
-impl Span {
-    #[inline(always)]
-    pub fn new(first: usize, last: usize) -> Span {
-        Span { from: first / 4, to: last / 4 + 1 }
+/// y += a x.
+#[inline(always)]
+pub(crate) fn add(y: &mut Row, a: f64, x: &Row) {
+    let (mut sum, x) = (*y, *x);
+    for j in 0..SPRINGS {
+        sum[j] += a * x[j];
     }
-
-    /// Σ a_j b_j.
-    #[inline(always)]
-    pub fn dot(self, one: &Row, two: &Row) -> f64 {
-        let mut sums = [0.0; 4];
-        let one = one.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
-        let two = two.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
-        for (one, two) in one.iter().zip(two) {
-            for lane in 0..4 {
-                sums[lane] += one[lane] * two[lane];
-            }
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
-    }
-
-    /// y += a x.
-    #[inline(always)]
-    pub fn add(self, y: &mut Row, a: f64, x: &Row) {
-        let y = y.as_chunks_mut::<4>().0.get_mut(self.from..self.to).unwrap_or(&mut []);
-        let x = x.as_chunks::<4>().0.get(self.from..self.to).unwrap_or(&[]);
-        for (y, x) in y.iter_mut().zip(x) {
-            for lane in 0..4 {
-                y[lane] += a * x[lane];
-            }
-        }
-    }
+    *y = sum;
 }
 
 /// `sqrt(upper - point) - sqrt(lower - point)`, the second one 0 if negative, free of cancellation.

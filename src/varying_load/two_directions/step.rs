@@ -5,7 +5,7 @@
 
 use super::edge::{Edge, Map, Pressed};
 use super::fine::{self, FineEdge, FineRow, Share};
-use super::slip::{Problem, Slip, product};
+use super::slip::{Problem, Slip, at, product};
 use super::springs::{Both, Row, SPRINGS, Springs, dot};
 use crate::shape::TINY;
 
@@ -52,7 +52,10 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    pub const NONE: Course = Course { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] };
+    #[inline(always)]
+    pub fn new() -> Course {
+        Course { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] }
+    }
 }
 
 /// A step with slip: the springs at its end in units of the roots, tractions there and over the pressure at the start.
@@ -65,13 +68,16 @@ pub(crate) struct Slipped {
 }
 
 impl Slipped {
-    const NONE: Slipped = Slipped {
-        slip: Slip::NONE,
-        end: [[0.0; SPRINGS]; 2],
-        tractions: [[0.0; SPRINGS]; 2],
-        start: [[0.0; SPRINGS]; 2],
-        overshoot: [0.0; SPRINGS],
-    };
+    #[inline(always)]
+    fn new() -> Slipped {
+        Slipped {
+            slip: Slip::new(),
+            end: [[0.0; SPRINGS]; 2],
+            tractions: [[0.0; SPRINGS]; 2],
+            start: [[0.0; SPRINGS]; 2],
+            overshoot: [0.0; SPRINGS],
+        }
+    }
 }
 
 /// Force and dissipated energy.
@@ -121,7 +127,7 @@ pub(crate) fn step(
     } else {
         let map = Map::new(springs, &edge);
         let z = scaled(&trial, &map.root);
-        tractions = map.tractions(&z, 0);
+        map.tractions(&z, &[false; SPRINGS], &mut tractions);
         Some(map)
     };
     for i in 0..SPRINGS {
@@ -133,7 +139,7 @@ pub(crate) fn step(
     course.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = course.slip.insert(Slipped::NONE);
+        let slipped = course.slip.insert(Slipped::new());
         slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {
             let mut per_root = springs.per_root[k];
@@ -235,7 +241,8 @@ fn slide(
                 end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
             }
         }
-        *end_tractions = map.tractions(end, 0);
+        *end_tractions = [[0.0; SPRINGS]; 2];
+        map.tractions(end, &[false; SPRINGS], end_tractions);
     }
 }
 
@@ -248,9 +255,9 @@ fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
         if i > edge.last || !slip.slips[i] {
             continue;
         }
-        let sigma = [slip.sigma[0][i], slip.sigma[1][i]];
+        let sigma = at(&slip.sigma, i);
         let p = edge.pressure[i];
-        let (end, r) = ([p * slip.e[i][0], p * slip.e[i][1]], [p * start[0][i], p * start[1][i]]);
+        let (end, r) = (at(&slip.e, i).map(|e| p * e), at(start, i).map(|r| p * r));
         let mut path = [0.0; 2];
         for k in 0..2 {
             let row = map.row(k, i);

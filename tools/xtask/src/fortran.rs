@@ -45,6 +45,9 @@ fn constants(header: &str) -> Vec<String> {
         if name.starts_with("MSLIP_VERSION_") || value.parse::<i32>().is_err() {
             continue;
         }
+        // Indices of arrays are counted from 1.
+        let from_1 = value.parse::<i32>().map(|index| (index + 1).to_string());
+        let value = if name.starts_with("MSLIP_BY_") { from_1.as_deref().unwrap_or(value) } else { value };
         // Fortran ignores case: `mslip_abi_version` is a function.
         let name = if name == "MSLIP_ABI_VERSION" { "MSLIP_MODULE_ABI_VERSION" } else { name };
         lines.extend(commented("  ", format!("integer(mslip_int), parameter, public :: {name} = {value}"), &comment));
@@ -241,6 +244,7 @@ mod tests {
     const HEADER: &str = "
 // First.
 #define MSLIP_FIRST 1
+#define MSLIP_BY_FIRST 0
 
 #define MICROSLIP_H
 
@@ -277,6 +281,7 @@ void mslip_clear(struct mslip_result *result);
     const FILLED: &str = "
   ! <generated: constants>
   integer(mslip_int), parameter, public :: MSLIP_FIRST = 1  !! First.
+  integer(mslip_int), parameter, public :: MSLIP_BY_FIRST = 1
   ! </generated>
   ! <generated: types>
   type, bind(c), public :: mslip_result

@@ -43,6 +43,14 @@ pub fn force(contact: &mslip_contact, displacement: f64) -> [f64; 3] {
     values("monotonic_force", |[t, k, s]| unsafe { mslip_monotonic_force(contact, 1, &displacement, t, k, s) })
 }
 
+/// Force and its derivatives with respect to the parameters.
+pub fn sensitivity(contact: &mslip_contact, displacement: f64) -> (f64, [f64; 6]) {
+    let (mut force, mut sensitivity) = (f64::NAN, [f64::NAN; 6]);
+    let place = sensitivity.as_mut_ptr();
+    ok(unsafe { mslip_monotonic_sensitivity(contact, 1, &displacement, &mut force, place) }, "monotonic_sensitivity");
+    (force, sensitivity)
+}
+
 pub fn energy(contact: &mslip_contact, force: f64) -> f64 {
     let [energy] = values("dissipated_energy", |[e]| unsafe { mslip_dissipated_energy(contact, 1, &force, e) });
     energy

@@ -129,6 +129,48 @@ fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &
     });
 }
 
+/// At given displacements: derivatives of the force with respect to the parameters, against differences.
+pub fn sensitivities(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
+    let half = half_share(case);
+    for _ in 0..10 {
+        let (share, range) = share_of_slip(sampler, half);
+        sensitivity(case, share * case.contact.slip_displacement, range, tally);
+    }
+}
+
+const NAMES: [&str; 6] = [
+    "sensitivity_by_normal_force",
+    "sensitivity_by_friction",
+    "sensitivity_by_flat",
+    "sensitivity_by_radius",
+    "sensitivity_by_length",
+    "sensitivity_by_modulus",
+];
+
+fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
+    let (law, point) = reference.at_displacement(displacement);
+    // The displacement of gross slip, at which they jump, is rounded.
+    let x = law.x(displacement) / &law.x_slip;
+    if (x - 1.0).abs().f64() < 16.0 * f64::EPSILON * (1.0 + 1.0 / law.x_slip.f64()) {
+        return;
+    }
+    let place = || format!("{} u {displacement:e}", text(&reference.input));
+    let (_, got) = call::sensitivity(contact, displacement);
+    let exact = reference.differences(displacement);
+    let stiff = point.compliance.f64();
+    let rate = if point.slips() { 0.0 } else { ((&point.x + &point.tau) * &point.curvature).f64() / stiff };
+    // The sum of the sizes of the terms: shares of the force, and of the compliances of it.
+    let force = &law.slip_force * &point.tau;
+    let scale = &force * law.real(1.0 + 1.0 / stiff);
+    let values = reference.values();
+    for (parameter, exact) in exact.iter().enumerate() {
+        let name = NAMES[parameter];
+        let got = law.real(got[parameter]) * &values[parameter];
+        tally.check_scaled((name, kind, range), got.f64(), exact, &scale, (1.0 + rate) / stiff + rate, place);
+    }
+}
+
 /// Neighbouring doubles around every switch of formula: by how much a monotonic quantity steps back.
 pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;

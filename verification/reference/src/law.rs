@@ -49,6 +49,61 @@ impl Reference {
         Reference { input, levels: RefCell::default(), lost }
     }
 
+    /// Differences of the force \[N\] at a displacement \[m\] by the parameters N, mu, a, R, L and E*, each times its parameter (a: times b),
+    /// with steps of 2⁻¹⁰⁰: central, with the relative error of their square; from above if a is about 0, where the second derivative is finite.
+    pub fn differences(&self, displacement: f64) -> [Real; 6] {
+        let first = self.law(0);
+        let share = Real::new(first.bits, displacement.abs()) / &first.displacement_unit / &first.x_slip;
+        let bits = self.law(bits_for(&share) + bits_for(&(1.0 - &share)) + 420).bits;
+        let step = (-100.0 * Real::new(bits, 2.0).ln()).exp();
+        let force = |change: &Change| {
+            let law = Law::changed(&self.input, bits, change);
+            let x = Real::new(bits, displacement.abs()) / &law.displacement_unit;
+            let point = law.at_x(&x);
+            if point.slips() || matches!(law.shape, Shape::Ellipse) {
+                return &law.slip_force * point.tau;
+            }
+            // The root is converged to the bits of a result only; a Newton step doubles them.
+            let found = law.at_w(&point.w);
+            &law.slip_force * (&found.tau + (x - &found.x) / &found.compliance)
+        };
+        // Wide enough for a step to both sides.
+        let has_flat =
+            matches!(&self.input, Input::Flat(p) if (&step * &first.half_width).f64() < 1e-3 * p.flat_half_width);
+        core::array::from_fn(|parameter| {
+            let at = |step: &Real| {
+                let mut change = Change::none(bits);
+                match [0, 1, 5, 2, 3, 4][parameter] {
+                    5 => change.added_flat = step * &first.half_width,
+                    factor => change.factors[factor] = 1.0 + step,
+                }
+                force(&change)
+            };
+            if parameter == 2 && !has_flat {
+                (at(&step) - at(&Real::new(bits, 0.0))) / &step
+            } else {
+                (at(&step) - at(&-&step)) / &step / 2.0
+            }
+        })
+    }
+
+    /// The parameters N, mu, b (instead of a), R, L and E*.
+    pub fn values(&self) -> [Real; 6] {
+        let law = self.law(0);
+        let [load, friction, radius, length] = match &self.input {
+            Input::Flat(p) => {
+                [p.normal_force, p.friction_coefficient, p.edge_radius, p.length].map(|value| law.real(value))
+            }
+            Input::Ellipse(p) => {
+                let load = law.real(p.normal_force);
+                let size = &law.half_width;
+                let radius = 4.0 * &law.composite_modulus * size.square() * size / (3.0 * &load);
+                [load, law.real(p.friction_coefficient), radius, law.real(1.0)]
+            }
+        };
+        [load, friction, law.half_width.clone(), radius, length, law.composite_modulus.clone()]
+    }
+
     /// The law with at least this many bits beyond those that every formula of the contact may lose.
     pub fn law(&self, extra: i32) -> Rc<Law> {
         let need = (RESULT_BITS + self.lost + extra.max(0)) as u32;
@@ -171,11 +226,29 @@ pub(crate) fn mean(bits: u32, material: &[Material; 2], function: impl Fn(&Real)
     (&one * f + &two * g) / (one + two)
 }
 
+/// Changes of the parameters: factors of N, mu, R, L and E*, and a length added to a.
+#[derive(Debug, Clone)]
+pub struct Change {
+    pub factors: [Real; 5],
+    pub added_flat: Real,
+}
+
+impl Change {
+    pub fn none(bits: u32) -> Change {
+        Change { factors: [(); 5].map(|()| Real::new(bits, 1.0)), added_flat: Real::new(bits, 0.0) }
+    }
+}
+
 impl Law {
     pub fn new(input: &Input, bits: u32) -> Law {
+        Law::changed(input, bits, &Change::none(bits))
+    }
+
+    /// The law of changed parameters. The bodies of an ellipse keep their shapes, but for a common factor R of their radii.
+    pub fn changed(input: &Input, bits: u32, change: &Change) -> Law {
         match input {
-            Input::Flat(p) => Law::flat(p, bits),
-            Input::Ellipse(p) => Law::ellipse(p, bits),
+            Input::Flat(p) => Law::flat(p, bits, change),
+            Input::Ellipse(p) => Law::ellipse(p, bits, change),
         }
     }
 
@@ -185,12 +258,15 @@ impl Law {
         4.0 * Real::new(bits, p.edge_radius) * p.normal_force / p.length * compliance
     }
 
-    fn flat(p: &Parameters, bits: u32) -> Law {
+    fn flat(p: &Parameters, bits: u32, change: &Change) -> Law {
+        let [by_load, by_friction, by_radius, by_length, by_modulus] = &change.factors;
         let real = |value: f64| Real::new(bits, value);
         let pi = Real::pi(bits);
-        let modulus = 1.0 / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1]));
-        let (length, load) = (real(p.length), real(p.normal_force) / p.length);
-        let (flat, half_width) = Flat::new(&real(p.flat_half_width), &Law::load(p, bits));
+        let modulus = by_modulus / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1]));
+        let length = by_length * p.length;
+        let load = by_load * p.normal_force / &length;
+        let size = Law::load(p, bits) * by_radius * by_load / by_length / by_modulus;
+        let (flat, half_width) = Flat::new(&(&change.added_flat + p.flat_half_width), &size);
         let ratio = mean(bits, &p.material, |nu| nu / (1.0 - nu));
         let mut full_stick = (2.0 * &length / &half_width).ln() + ratio;
         if p.displacement_reference != CENTRE_POINT {
@@ -198,7 +274,7 @@ impl Law {
             let along = 1.0 - real(2.0).ln() + Real::parse(bits, "0.093");
             full_stick = full_stick - along + 8.0 / pi.square() * across * &half_width / &length;
         }
-        let slip_force = real(p.friction_coefficient) * p.normal_force;
+        let slip_force = by_friction * by_load * p.friction_coefficient * p.normal_force;
         let stiffness_unit = &pi * &modulus * &length / 2.0;
         Law {
             bits,
@@ -215,8 +291,10 @@ impl Law {
         }
     }
 
-    fn ellipse(p: &EllipticParameters, bits: u32) -> Law {
-        let (b, l) = (Real::new(bits, p.semi_axis_x), Real::new(bits, p.semi_axis_y));
+    fn ellipse(p: &EllipticParameters, bits: u32, change: &Change) -> Law {
+        let [by_load, by_friction, by_radius, _, by_modulus] = &change.factors;
+        let by_size = (by_load * by_radius / by_modulus).cbrt();
+        let (b, l) = (&by_size * p.semi_axis_x, &by_size * p.semi_axis_y);
         // Differences of both elliptic integrals lose twice as many bits as k² is below 1.
         let k2 = (1.0 - (b.clone().min(&l) / b.clone().max(&l)).square()).abs();
         let more = bits + if k2.is_zero() { 0 } else { (-2 * k2.exponent()).max(0) as u32 };
@@ -225,12 +303,12 @@ impl Law {
         for body in &p.material {
             let nu = Real::new(bits, body.poisson_ratio);
             let sum = (1.0 - &nu) * all.at(bits) + &nu * cosine.at(bits);
-            compliance = compliance + (1.0 + &nu) / (Real::pi(bits) * body.young_modulus) * sum;
+            compliance = compliance + (1.0 + &nu) / (Real::pi(bits) * body.young_modulus * by_modulus) * sum;
         }
-        let slip_force = Real::new(bits, p.friction_coefficient) * p.normal_force;
+        let slip_force = by_friction * by_load * p.friction_coefficient * p.normal_force;
         Law {
             bits,
-            composite_modulus: 1.0 / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1])),
+            composite_modulus: by_modulus / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1])),
             pressure_unit: Real::new(bits, p.normal_force) / &b / &l,
             half_width: b,
             displacement_unit: &slip_force * &compliance,

@@ -20,7 +20,7 @@ pub struct Point {
 
 /// The displacement between `low` and `high` at which a force that does not fall has a value: Newton's method from `start`, bisection
 /// where it leaves the bracket.
-fn displacement_at(target: f64, start: f64, mut low: f64, mut high: f64, law: impl Fn(f64) -> (f64, f64)) -> f64 {
+pub fn displacement_at(target: f64, start: f64, mut low: f64, mut high: f64, law: impl Fn(f64) -> (f64, f64)) -> f64 {
     let mut u = start;
     for _ in 0..200 {
         let (force, stiffness) = law(u);

@@ -1,11 +1,13 @@
-//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row, and in two directions against boundary elements
-//! of our own.
+//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements of
+//! our own; strips of finite length against boundary elements; a sliding cylinder against published measurements.
 //!
-//! - `validation` writes `docs/figures/data/contact_code_*.csv`, `two_directions.csv` and the tables of `docs/validation.md`;
+//! - `validation` writes the data of the figures to `docs/figures/data`, and the tables of `docs/validation.md`;
 //! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
 
 mod drive;
+mod fretting;
 mod histories;
+mod strips;
 #[path = "../../paper/src/table.rs"]
 mod table;
 mod two_directions;
@@ -167,17 +169,13 @@ fn with_table(page: &str, name: &str, table: &str) -> Result<String, String> {
 }
 
 /// The page with new tables.
-fn with_tables(
-    page: &str,
-    comparisons: &[Comparison],
-    directions: &two_directions::Comparison,
-) -> Result<String, String> {
+fn with_tables(page: &str, comparisons: &[Comparison], others: &[(&str, String)]) -> Result<String, String> {
     let mut table = String::from(
         "| contact | path | rows | displacement | without the change of the load | dissipation |\n|---|---|---:|---:|---:|---:|\n",
     );
     comparisons.iter().for_each(|comparison| table.write_str(&comparison.row()).expect("a string"));
     let page = with_table(page, "comparison", &table)?;
-    directions.tables().iter().try_fold(page, |page, (name, table)| with_table(&page, name, table))
+    others.iter().try_fold(page, |page, (name, table)| with_table(&page, name, table))
 }
 
 fn main() -> ExitCode {
@@ -194,12 +192,19 @@ fn main() -> ExitCode {
     let docs = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs"));
     let directions = two_directions::Comparison::new();
     results.extend(directions.results());
-    for table in drawings(&comparisons).into_iter().chain([directions.drawings()]) {
+    let (strips, strip_results) = strips::compare();
+    results.extend(strip_results);
+    let fretting = fretting::Comparison::new();
+    results.extend(fretting.results());
+    let drawings = drawings(&comparisons).into_iter().chain([directions.drawings()]).chain(fretting.drawings());
+    for table in drawings {
         let path = docs.join("figures/data").join(table.name).with_extension("csv");
         results.push(if check { read(&path).and_then(|file| table.check(&file)) } else { write(&path, &table.csv()) });
     }
+    let mut tables = Vec::from(directions.tables());
+    tables.extend([("strips", strips), ("fretting", fretting.table())]);
     let page = docs.join("validation.md");
-    results.push(read(&page).and_then(|old| match with_tables(&old, &comparisons, &directions)? {
+    results.push(read(&page).and_then(|old| match with_tables(&old, &comparisons, &tables)? {
         new if !check => write(&page, &new),
         new if new == old => Ok(()),
         _ => Err("docs/validation.md is stale: run `make figures`".to_owned()),

@@ -1,0 +1,277 @@
+/* The library in Octave and MATLAB:
+ *
+ *   contact = microslip('contact', p)                             a contact under a constant normal force
+ *   contact = microslip('contact_elliptic', p)
+ *   element = microslip('element', p, directions, normal_input)   a friction contact element: varying normal force, separation
+ *   element = microslip('element_elliptic', p, directions, normal_input)
+ *   fields = microslip('fields', object)                          the named fields of a contact or an element
+ *   approach = microslip('approach', element, force)              normal approach under normal forces
+ *   [force, jacobian, dissipated] = microslip('harmonic_force', object, samples, displacement, rule)
+ *
+ * p is a struct with the fields of mslip_parameters or mslip_elliptic_parameters; in place of material it has young_modulus and
+ * poisson_ratio, one value or one for each body. A contact and an element are uint8 arrays, which may be saved. directions, 1, and
+ * normal_input, MSLIP_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING.
+ *
+ * displacement has a column for each component, with 2H+1 rows [c0; cos1; sin1; cos2; ...], and so has the force; jacobian is
+ * d force(:) / d displacement(:). What the library rejects is an error with its message and the identifier microslip:status. */
+#include <mex.h>
+#include <microslip.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void check(int32_t status)
+{
+    if (status != MSLIP_OK) mexErrMsgIdAndTxt("microslip:status", "%s", mslip_status_text(status));
+}
+
+static void require(int holds, const char *message)
+{
+    if (!holds) mexErrMsgIdAndTxt("microslip:argument", "%s", message);
+}
+
+static double scalar(const mxArray *array, const char *message)
+{
+    require(mxIsDouble(array) && !mxIsComplex(array) && mxGetNumberOfElements(array) == 1, message);
+    return mxGetScalar(array);
+}
+
+/* A count or a constant; a value out of range becomes 0 or -1, which the library rejects. */
+static size_t count(const mxArray *array, const char *message)
+{
+    double value = scalar(array, message);
+    return value >= 0 && value < 1e9 ? (size_t)value : 0;
+}
+
+static int32_t constant(const mxArray *array, const char *message)
+{
+    double value = scalar(array, message);
+    return value >= 0 && value < 1e9 ? (int32_t)value : -1;
+}
+
+/* ---- Parameters ---- */
+
+typedef struct field {
+    const char *name;
+    size_t offset;
+} field;
+
+#define FIELD(type, name) { #name, offsetof(type, name) }
+
+static const field line_fields[] = {
+    FIELD(mslip_parameters, flat_half_width), FIELD(mslip_parameters, edge_radius), FIELD(mslip_parameters, length),
+    FIELD(mslip_parameters, normal_force), FIELD(mslip_parameters, friction_coefficient), { NULL, 0 }
+};
+static const field elliptic_fields[] = {
+    FIELD(mslip_elliptic_parameters, semi_axis_x), FIELD(mslip_elliptic_parameters, semi_axis_y),
+    FIELD(mslip_elliptic_parameters, normal_force), FIELD(mslip_elliptic_parameters, friction_coefficient), { NULL, 0 }
+};
+
+static void read_material(const mxArray *values, double *first, double *second)
+{
+    size_t n = mxGetNumberOfElements(values);
+    require(mxIsDouble(values) && !mxIsComplex(values) && (n == 1 || n == 2), "a property of the material is one value, or two");
+    *first = mxGetPr(values)[0];
+    *second = mxGetPr(values)[n - 1];
+}
+
+/* Fields that the struct does not have stay NaN; the library rejects them by name. */
+static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference)
+{
+    require(mxIsStruct(p) && mxGetNumberOfElements(p) == 1, "the parameters are a struct");
+    for (int i = 0; i < mxGetNumberOfFields(p); i++) {
+        const char *name = mxGetFieldNameByNumber(p, i);
+        const mxArray *value = mxGetFieldByNumber(p, 0, i);
+        const field *known = fields;
+        while (known->name && strcmp(known->name, name) != 0) known++;
+        if (known->name) {
+            double number = scalar(value, name);
+            memcpy((char *)parameters + known->offset, &number, sizeof number);
+        } else if (strcmp(name, "young_modulus") == 0) {
+            read_material(value, &material[0].young_modulus, &material[1].young_modulus);
+        } else if (strcmp(name, "poisson_ratio") == 0) {
+            read_material(value, &material[0].poisson_ratio, &material[1].poisson_ratio);
+        } else if (reference && strcmp(name, "displacement_reference") == 0) {
+            *reference = constant(value, name);
+        } else {
+            mexErrMsgIdAndTxt("microslip:argument", "unknown parameter %s", name);
+        }
+    }
+}
+
+static mslip_parameters line_parameters(const mxArray *p)
+{
+    mslip_parameters parameters;
+    mslip_parameters_default(&parameters);
+    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference);
+    return parameters;
+}
+
+static mslip_elliptic_parameters elliptic_parameters(const mxArray *p)
+{
+    mslip_elliptic_parameters parameters;
+    mslip_elliptic_parameters_default(&parameters);
+    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL);
+    return parameters;
+}
+
+/* ---- Contacts and elements, as bytes ---- */
+
+static void *bytes(mxArray **array, size_t size)
+{
+    *array = mxCreateNumericMatrix(size, 1, mxUINT8_CLASS, mxREAL);
+    return mxGetData(*array);
+}
+
+static const void *object(const mxArray *array, size_t size)
+{
+    return mxIsUint8(array) && mxGetNumberOfElements(array) == size ? mxGetData(array) : NULL;
+}
+
+static void init(int elliptic, int is_element, mxArray **result, int n, const mxArray *const *arguments)
+{
+    int32_t directions = n > 1 ? constant(arguments[1], "directions is a number") : 1;
+    int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_APPROACH;
+    void *memory = bytes(result, is_element ? sizeof(mslip_element) : sizeof(mslip_contact));
+    if (elliptic) {
+        mslip_elliptic_parameters p = elliptic_parameters(arguments[0]);
+        check(is_element ? mslip_element_init_elliptic(&p, directions, normal_input, memory)
+                         : mslip_contact_init_elliptic(&p, memory));
+    } else {
+        mslip_parameters p = line_parameters(arguments[0]);
+        check(is_element ? mslip_element_init(&p, directions, normal_input, memory)
+                         : mslip_contact_init(&p, memory));
+    }
+}
+
+static void set(mxArray *structure, const char *name, double value)
+{
+    mxAddField(structure, name);
+    mxSetField(structure, 0, name, mxCreateDoubleScalar(value));
+}
+
+static mxArray *fields(const mxArray *array)
+{
+    mxArray *result = mxCreateStructMatrix(1, 1, 0, NULL);
+    const mslip_contact *contact = object(array, sizeof *contact);
+    const mslip_element *element = object(array, sizeof *element);
+    if (contact) {
+        check(mslip_contact_check(contact));
+        set(result, "composite_modulus", contact->composite_modulus);
+        set(result, "half_width", contact->half_width);
+        set(result, "slip_force", contact->slip_force);
+        set(result, "slip_displacement", contact->slip_displacement);
+        set(result, "initial_stiffness", contact->initial_stiffness);
+        set(result, "slip_energy", contact->slip_energy);
+    } else {
+        check(mslip_element_check(element));
+        set(result, "composite_modulus", element->composite_modulus);
+        set(result, "friction_coefficient", element->friction_coefficient);
+        set(result, "normal_force", element->normal_force);
+        set(result, "half_width", element->half_width);
+        set(result, "approach", element->approach);
+        set(result, "normal_stiffness", element->normal_stiffness);
+        set(result, "tangential_stiffness", element->tangential_stiffness);
+        set(result, "directions", element->directions);
+        set(result, "normal_input", element->normal_input);
+    }
+    return result;
+}
+
+static mxArray *approach(const mxArray *element, const mxArray *force)
+{
+    mxArray *result = mxCreateDoubleMatrix(mxGetM(force), mxGetN(force), mxREAL);
+    require(mxIsDouble(force) && !mxIsComplex(force), "the normal forces are real");
+    check(mslip_normal_approach(object(element, sizeof(mslip_element)), mxGetNumberOfElements(force), mxGetPr(force),
+                                mxGetPr(result), NULL, NULL));
+    return result;
+}
+
+/* ---- Harmonic force ---- */
+
+/* The workspace of the last call serves the next one if that has the same size. directions is 0 for a contact. */
+static struct {
+    int32_t directions, rule;
+    size_t harmonics, samples;
+    double *memory;
+} workspace;
+
+static void free_workspace(void)
+{
+    free(workspace.memory);
+    workspace.memory = NULL;
+}
+
+static double *workspace_for(int32_t directions, size_t harmonics, size_t samples, int32_t rule)
+{
+    size_t length;
+    int32_t status;
+    if (workspace.memory && workspace.directions == directions && workspace.harmonics == harmonics &&
+        workspace.samples == samples && workspace.rule == rule)
+        return workspace.memory;
+    free_workspace();
+    length = directions ? mslip_element_workspace_length(directions, harmonics, samples, rule)
+                        : mslip_harmonic_workspace_length(harmonics, samples, rule);
+    /* One double for a size that is rejected. */
+    workspace.memory = malloc((length ? length : 1) * sizeof(double));
+    require(workspace.memory != NULL, "out of memory");
+    workspace.directions = directions, workspace.rule = rule;
+    workspace.harmonics = harmonics, workspace.samples = samples;
+    status = directions ? mslip_element_workspace_init(directions, harmonics, samples, rule, length, workspace.memory)
+                        : mslip_harmonic_workspace_init(harmonics, samples, rule, length, workspace.memory);
+    if (status != MSLIP_OK) free_workspace();
+    check(status);
+    return workspace.memory;
+}
+
+static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *const *arguments)
+{
+    const mslip_contact *contact = object(arguments[0], sizeof *contact);
+    const mslip_element *element = object(arguments[0], sizeof *element);
+    size_t samples = count(arguments[1], "the number of samples is a number"), rows = mxGetM(arguments[2]);
+    int32_t rule = n > 3 ? constant(arguments[3], "the rule is a number") : MSLIP_UNIFORM_SAMPLING;
+    size_t components = element ? (size_t)element->directions + 1 : 1;
+    double *memory, *jacobian = NULL, *dissipated = NULL;
+
+    require(contact || element, "the object is neither a contact nor an element");
+    require(mxIsDouble(arguments[2]) && !mxIsComplex(arguments[2]) && rows % 2 == 1 && mxGetN(arguments[2]) == components,
+            "the displacement has 2H+1 rows, and a column for each component");
+    memory = workspace_for(element ? element->directions : 0, rows / 2, samples, rule);
+    result[0] = mxCreateDoubleMatrix(rows, components, mxREAL);
+    if (outputs > 1) {
+        result[1] = mxCreateDoubleMatrix(rows * components, rows * components, mxREAL);
+        jacobian = mxGetPr(result[1]);
+    }
+    if (outputs > 2) {
+        result[2] = mxCreateDoubleMatrix(1, 1, mxREAL);
+        dissipated = mxGetPr(result[2]);
+    }
+    check(element ? mslip_element_harmonic_force(element, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated)
+                  : mslip_harmonic_force(contact, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated));
+}
+
+void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments[])
+{
+    char command[32];
+    require(n >= 1 && mxIsChar(arguments[0]) && mxGetString(arguments[0], command, sizeof command) == 0,
+            "the first argument is a command");
+    mexAtExit(free_workspace);
+    n--, arguments++;
+    if (strcmp(command, "contact") == 0 && n == 1) {
+        init(0, 0, result, n, arguments);
+    } else if (strcmp(command, "contact_elliptic") == 0 && n == 1) {
+        init(1, 0, result, n, arguments);
+    } else if (strcmp(command, "element") == 0 && n >= 1 && n <= 3) {
+        init(0, 1, result, n, arguments);
+    } else if (strcmp(command, "element_elliptic") == 0 && n >= 1 && n <= 3) {
+        init(1, 1, result, n, arguments);
+    } else if (strcmp(command, "fields") == 0 && n == 1) {
+        result[0] = fields(arguments[0]);
+    } else if (strcmp(command, "approach") == 0 && n == 2) {
+        result[0] = approach(arguments[0], arguments[1]);
+    } else if (strcmp(command, "harmonic_force") == 0 && (n == 3 || n == 4)) {
+        harmonic_force(outputs, result, n, arguments);
+    } else {
+        mexErrMsgIdAndTxt("microslip:argument", "no command %s with %d more arguments", command, n);
+    }
+}

@@ -1,0 +1,266 @@
+% Checks of microslip.mex and microslip_residual; the last line is "N passed, N failed".
+function run
+    addpath(fileparts(fileparts(mfilename('fullpath'))));
+    forces();
+    response();
+    gradients();
+    elements_of_nlvib();
+    errors();
+    times();
+    check();
+end
+
+% check(name, value, largest): counts; without arguments prints the counts and ends the program.
+function check(name, value, largest)
+    persistent passed failed
+    if isempty(passed)
+        passed = 0;
+        failed = 0;
+    end
+    if nargin == 0
+        printf('%d passed, %d failed\n', passed, failed);
+        exit(double(failed > 0));
+    elseif all(value <= largest)
+        passed = passed + 1;
+        printf('passed: %s: %.1e\n', name, max(value));
+    else
+        failed = failed + 1;
+        printf('FAILED: %s: %.1e, allowed are %.1e\n', name, max(value), largest);
+    end
+end
+
+function path = root()
+    path = fullfile(fileparts(mfilename('fullpath')), '..', '..', '..');
+end
+
+% The contact of fortran_examples/cases/two_dof.nml.
+function p = parameters()
+    p = struct('flat_half_width', 0.2e-3, 'edge_radius', 5e-3, 'length', 10e-3, 'normal_force', 150, ...
+               'friction_coefficient', 0.4, 'young_modulus', 114e9, 'poisson_ratio', 0.32);
+end
+
+% The harmonic forces of tests/golden, computed in multi-precision; the tolerance is that of the interface for C.
+function forces()
+    folder = fullfile(root(), 'tests', 'golden');
+    [names, contacts] = table(fullfile(folder, 'contacts.csv'));
+    [~, cases] = table(fullfile(folder, 'harmonic_force.csv'));
+    column = @(name) find(strcmp(names, name));
+    worst = 0;
+    for row = cases.'
+        values = contacts(contacts(:,1) == row(2), :);
+        p = struct('flat_half_width', values(column('a')), 'edge_radius', values(column('R')), 'length', values(column('L')), ...
+                   'normal_force', values(column('N')), 'friction_coefficient', values(column('mu')), ...
+                   'young_modulus', values([column('E1'), column('E2')]), 'poisson_ratio', values([column('nu1'), column('nu2')]));
+        contact = microslip('contact', p);
+        force = microslip('harmonic_force', contact, row(3), row(4:10));
+        worst = max(worst, max(abs(force - row(11:17)))/microslip('fields', contact).slip_force);
+    end
+    check('harmonic forces against multi-precision', worst, 2e-13);
+end
+
+function [names, values] = table(path)
+    file = fopen(path);
+    names = strsplit(strtrim(fgetl(file)), ',');
+    values = [];
+    while ischar(line = fgetl(file))
+        values(end+1,:) = str2double(strsplit(line, ','));
+    end
+    fclose(file);
+end
+
+% The system of two_dof.nml, with the given contacts between the second mass and the ground.
+function system = two_dof(elements)
+    system = struct('M', diag([1, 0.5]), 'D', [30, -10; -10, 10], 'K', [2.5e7, -2e7; -2e7, 2.1e7], 'Fex1', [15; 0]);
+    system.nonlinear_elements = elements;
+end
+
+% The forced response that fortran_examples computes, at its frequencies: 1e-12 of the displacement of the contact is the tolerance of
+% its residual, which the response amplifies by up to 10.
+function response()
+    [~, expected] = table(fullfile(root(), 'fortran_examples', 'expected', 'two_dof.csv'));
+    contact = struct('type', 'microslip', 'object', microslip('contact', parameters()), 'force_direction', [0; 1]);
+    % A normal force of 150 N that does not depend on the displacement: the same law, by the element.
+    element = struct('type', 'microslip', 'object', microslip('element', parameters(), 1, 1), ...
+                     'force_direction', [0, 0; 1, 0], 'offset', [0, 150]);
+    check('forced response of two_dof.nml', difference(two_dof({contact}), expected), 1e-11);
+    check('forced response, by an element under the same load', difference(two_dof({element}), expected), 1e-11);
+    contact.force_direction = [0; 0.9];
+    check('another direction has another response', 1e-3/difference(two_dof({contact}), expected), 1);
+end
+
+% Largest difference of coefficients, relative to the largest one of the frequency.
+function worst = difference(system, expected)
+    worst = 0;
+    for i = 1:2:rows(expected)
+        coefficients = expected(i:i+1, 3:13);
+        x = solve(system, 2*pi*expected(i,1));
+        found = reshape(x, 2, 11);
+        worst = max(worst, max(max(abs(found - coefficients)))/max(max(abs(coefficients))));
+    end
+end
+
+% Newton's method with the excitation in steps. A step is halved unless it makes the next one, with the same Jacobian, smaller.
+function x = solve(system, Omega)
+    H = 5;
+    x = zeros(2*(2*H + 1), 1);
+    full = system.Fex1;
+    for load = [0.25, 0.5, 0.75, 1]
+        system.Fex1 = load*full;
+        for iteration = 1:40
+            [R, dR] = microslip_residual([x; Omega], system, H, 128, 'frf');
+            jacobian = dR(:,1:end-1);
+            step = jacobian\R;
+            if norm(step) < 1e-14*norm(x)
+                break
+            end
+            fraction = 1;
+            while fraction > 1e-3 && norm(jacobian\microslip_residual([x - fraction*step; Omega], system, H, 128, 'frf')) ...
+                                     > (1 - fraction/4)*norm(step)
+                fraction = fraction/2;
+            end
+            x = x - fraction*step;
+        end
+    end
+end
+
+% Derivatives by central differences of the residual. Steps of 1e-6 of the displacement lose ten of sixteen digits; with longer
+% ones points of the contact in two directions change between stick and slip.
+function gradients()
+    H = 3;
+    rng = @(seed, m) sin(seed*(1:m).'.^2);
+    q = microslip('element', parameters(), 1, 0);
+    press = microslip('approach', q, 150);
+    varying = struct('type', 'microslip', 'object', q, 'force_direction', [1, 0.3; -0.2, 1], 'offset', [0, press]);
+    plane = struct('type', 'microslip', 'object', microslip('element', parameters(), 2, 0), ...
+                   'force_direction', [1, 0, 0.2; 0, 1, 0.3], 'offset', [0, 0, press]);
+    contact = struct('type', 'microslip', 'object', microslip('contact', parameters()), 'force_direction', [1; -1]);
+    x = 5e-7*rng(1.1, 2*(2*H + 1));
+    response = @(elements) @(X) microslip_residual(X, two_dof(elements), H, 64, 'frf');
+    derivative('two elements and a contact', response({varying, contact, varying}), [x; 4000]);
+    derivative('an element of two directions', response({plane}), [x; 4000]);
+    modal = @(X) microslip_residual(X, two_dof({varying, contact}), H, 64, 'nma', 1, 1e6);
+    derivative('modal analysis', modal, [x*1e6; 4000; 0.01; -6]);
+
+    % The energy per period is the work of the harmonics of force and displacement, but for the error of the samples, below 1e-2 of
+    % 128 samples and of order samples^-2.
+    displacement = [0, press; 6e-7, 0; 0, 2e-7; 1e-7, 0; 0, 1e-7];
+    [force, ~, dissipated] = microslip('harmonic_force', q, 4096, displacement);
+    work = 0;
+    for k = 1:2
+        work = work + pi*k*sum(force(2*k,:).*displacement(2*k+1,:) - force(2*k+1,:).*displacement(2*k,:));
+    end
+    check('energy against the work of the harmonics', abs(work/dissipated - 1), 1e-5);
+end
+
+function derivative(name, residual, X)
+    [R, dR] = residual(X);
+    worst = 0;
+    for i = 1:numel(X)
+        h = 1e-6*max(abs(X(i)), 0.1*max(abs(X(1:end-3))));
+        forward = X;
+        back = X;
+        forward(i) = X(i) + h;
+        back(i) = X(i) - h;
+        differences = (residual(forward) - residual(back))/(forward(i) - back(i));
+        worst = max(worst, max(abs(differences - dR(:,i)))/max(abs(dR(:,i))));
+    end
+    check(['derivatives by differences: ', name], worst, 1e-6);
+end
+
+% Elements of NLvib in the same system, if NLvib is there.
+function elements_of_nlvib()
+    if isempty(which('solve_and_continue')) % the stand-in
+        return
+    end
+    slider = struct('type', 'elasticDryFriction', 'stiffness', 1e8, 'friction_limit_force', 60, 'ishysteretic', true, ...
+                    'islocal', true, 'force_direction', [1; 0]);
+    contact = struct('type', 'microslip', 'object', microslip('contact', parameters()), 'force_direction', [0; 1]);
+    X = [1e-6*sin((1:14).'.^2); 4000];
+    residual = @(elements) microslip_residual(X, two_dof(elements), 3, 64);
+    none = HB_residual(X, two_dof({}), 3, 64, 'frf');
+    both = residual({slider, contact});
+    apart = residual({contact}) + HB_residual(X, two_dof({slider}), 3, 64) - none;
+    check('elements of NLvib beside a contact', norm(both - apart)/norm(both), 1e-14);
+end
+
+function errors()
+    p = parameters();
+    contact = microslip('contact', p);
+    element = microslip('element', p);
+    force = @(object, samples, displacement) @() microslip('harmonic_force', object, samples, displacement);
+    none = zeros(3, 1);
+    rejected('friction_coefficient must be', @() microslip('contact', setfield(p, 'friction_coefficient', -1)));
+    rejected('length must be', @() microslip('contact', rmfield(p, 'length')));
+    rejected('unknown parameter radius', @() microslip('contact', setfield(p, 'radius', 1)));
+    rejected('directions must be', @() microslip('element', p, 3));
+    rejected('invalid contact', force(zeros(size(contact), 'uint8'), 64, none));
+    rejected('neither a contact nor an element', force(1, 64, none));
+    rejected('samples', force(contact, 6, zeros(7, 1)));
+    rejected('2H+1 rows', force(contact, 64, zeros(4, 1)));
+    rejected('a column for each component', force(element, 64, none));
+    rejected('displacement', force(contact, 64, [0; NaN; 0]));
+    rejected('no command contacts', @() microslip('contacts', p));
+    check('an error leaves the workspace usable', norm(microslip('harmonic_force', contact, 64, zeros(3, 1))), 0);
+end
+
+function rejected(message, call)
+    found = 'no error';
+    try
+        call();
+    catch failure
+        found = failure.message;
+    end
+    check(['"', message, '" in the message: ', found], double(isempty(strfind(found, message))), 0);
+end
+
+% Microseconds of a call with its Jacobian, five harmonics and 128 samples, beside a spring-slider in the language of Octave.
+function times()
+    displacement = [0; 4e-7*ones(10, 1)];
+    contact = microslip('contact', parameters());
+    element = microslip('element', parameters());
+    both = [displacement, [microslip('approach', element, 150); zeros(10, 1)]];
+    printf('contact %.0f us, element %.0f us, spring-slider in Octave %.0f us\n', ...
+           microseconds(2000, @() two(@() microslip('harmonic_force', contact, 128, displacement))), ...
+           microseconds(2000, @() two(@() microslip('harmonic_force', element, 128, both))), ...
+           microseconds(20, @() spring_slider(displacement, 5, 128, 1e8, 60)));
+end
+
+function two(call)
+    [~, ~] = call();
+end
+
+function time = microseconds(repetitions, call)
+    call();
+    start = tic;
+    for i = 1:repetitions
+        call();
+    end
+    time = 1e6*toc(start)/repetitions;
+end
+
+% Two periods of samples from the unloaded state; the second one counts.
+function [force, jacobian] = spring_slider(displacement, H, N, stiffness, limit)
+    phase = 2*pi*(0:2*N-1).'/N;
+    basis = ones(2*N, 2*H + 1);
+    for k = 1:H
+        basis(:, 2*k) = cos(k*phase);
+        basis(:, 2*k+1) = sin(k*phase);
+    end
+    u = basis*displacement;
+    f = zeros(2*N, 1);
+    df = zeros(2*N, 2*H + 1);
+    df(1,:) = stiffness*basis(1,:);
+    f(1) = stiffness*u(1);
+    for i = 2:2*N
+        f(i) = f(i-1) + stiffness*(u(i) - u(i-1));
+        if abs(f(i)) >= limit
+            f(i) = limit*sign(f(i));
+        else
+            df(i,:) = df(i-1,:) + stiffness*(basis(i,:) - basis(i-1,:));
+        end
+    end
+    weights = basis(N+1:end,:).'*2/N;
+    weights(1,:) = weights(1,:)/2;
+    force = weights*f(N+1:end);
+    jacobian = weights*df(N+1:end,:);
+end

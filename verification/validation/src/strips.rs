@@ -1,0 +1,122 @@
+//! Strips of finite length: the centre point of the paper and `MSLIP_RIGID_STRIP` against boundary elements in three dimensions
+//! (`tests/golden/strip_3d.csv`), which agree with CONTACT to 0.14 % (`strip_3d_contact.csv`).
+
+use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
+use microslip::{Contact, Material, Parameters};
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+const POISSON_RATIO: f64 = 0.3;
+/// T/(mu N) in the names of the columns; the energies begin with the second one.
+const LEVELS: [(&str, f64); 4] = [("0.3", 0.3), ("0.6", 0.6), ("0.9", 0.9), ("0.98", 0.98)];
+
+/// Errors of the law in per cent.
+#[derive(Clone, Copy)]
+struct Range(f64, f64);
+
+impl Range {
+    fn of(errors: impl Iterator<Item = f64>) -> Range {
+        errors.fold(Range(f64::INFINITY, f64::NEG_INFINITY), |range, x| Range(range.0.min(x), range.1.max(x)))
+    }
+
+    fn within(self, low: f64, high: f64) -> bool {
+        low <= self.0 && self.1 <= high
+    }
+}
+
+/// Errors over all shapes of one length, up to 0.98 mu N unless it is the onset of gross slip.
+struct Errors {
+    aspect_ratio: f64,
+    centre_point: Range,
+    rigid_strip: Range,
+    onset: Range,
+    energy: Range,
+}
+
+/// A strip of half-width 1. The units are such that 2 mu P/(pi E*) and E* are 1, and energies are per mu N.
+fn contact(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Contact {
+    let w = ((1.0 - a) * (1.0 + a)).sqrt();
+    let g = 2.0 * w.atan2(a) - 2.0 * a * w;
+    let length = 2.0 * aspect_ratio;
+    let normal_force = PI * length;
+    let young_modulus = 2.0 * (1.0 - POISSON_RATIO * POISSON_RATIO);
+    let parameters = Parameters {
+        flat_half_width: a,
+        edge_radius: g * length / (4.0 * normal_force),
+        length,
+        normal_force,
+        friction_coefficient: 0.5,
+        material: [Material { young_modulus, poisson_ratio: POISSON_RATIO }; 2],
+        displacement_reference,
+        ..Parameters::default()
+    };
+    Contact::rounded_flat(&parameters).expect("a contact")
+}
+
+/// The rows of the true pressure, which are those that the law describes, one length after the other.
+fn errors() -> Vec<Errors> {
+    let text = include_str!("../../../tests/golden/strip_3d.csv");
+    let names: Vec<&str> = text.lines().next().expect("names").split(',').collect();
+    let cell = |line: &'static str, name: &str| -> &'static str {
+        line.split(',').nth(names.iter().position(|column| *column == name).expect("a column")).expect("a cell")
+    };
+    let value = |line: &'static str, name: &str| -> f64 { cell(line, name).parse().expect("a number") };
+    let rows: Vec<&'static str> = text
+        .lines()
+        .skip(1)
+        .filter(|line| cell(line, "variant") == "ii" && value(line, "nu") == POISSON_RATIO)
+        .collect();
+    let per_cent = |law: f64, elements: f64| 100.0 * (law / elements - 1.0);
+    let of_length = |aspect_ratio: f64| {
+        let rows: Vec<&'static str> = rows.iter().copied().filter(|line| value(line, "AR") == aspect_ratio).collect();
+        assert_eq!(rows.len(), 3, "a cylinder and two flats");
+        let displacement = |reference: i32| {
+            Range::of(rows.iter().flat_map(|line| {
+                let contact = contact(aspect_ratio, value(line, "a"), reference);
+                let initial = per_cent(contact.slip_force / contact.initial_stiffness, value(line, "C0_3D"));
+                let at = move |&(name, level): &(&str, f64)| {
+                    let point = contact.curve_at_force(level * contact.slip_force).expect("a point");
+                    per_cent(point.displacement(), value(line, &format!("d3D_{name}")))
+                };
+                LEVELS.iter().map(at).chain([initial])
+            }))
+        };
+        let strip = |line| contact(aspect_ratio, value(line, "a"), RIGID_STRIP);
+        let energy = |line| {
+            let contact = strip(line);
+            LEVELS[1..].iter().map(move |(name, level)| {
+                let energy = contact.dissipated_energy(level * contact.slip_force).expect("an energy");
+                per_cent(energy / contact.slip_force, value(line, &format!("W3D_{name}")))
+            })
+        };
+        Errors {
+            aspect_ratio,
+            centre_point: displacement(CENTRE_POINT),
+            rigid_strip: displacement(RIGID_STRIP),
+            onset: Range::of(rows.iter().map(|line| per_cent(strip(line).slip_displacement, value(line, "d3D_1")))),
+            energy: Range::of(rows.iter().copied().flat_map(energy)),
+        }
+    };
+    [2.5, 5.0, 10.0, 20.0].into_iter().map(of_length).collect()
+}
+
+/// The table, and the checks of what the documents state.
+pub fn compare() -> (String, Vec<Result<(), String>>) {
+    let mut table = String::from(
+        "| L/2b | displacement, centre point | displacement, rigid strip | onset of gross slip | energy |\n\
+         |---:|---:|---:|---:|---:|\n",
+    );
+    let mut results = Vec::new();
+    for errors in errors() {
+        let Errors { aspect_ratio, centre_point, rigid_strip, onset, energy } = errors;
+        let range = |Range(low, high): Range, digits: usize| format!("{low:+.digits$} to {high:+.digits$}");
+        let cells = [range(centre_point, 1), range(rigid_strip, 2), range(onset, 1), range(energy, 1)];
+        writeln!(table, "| {aspect_ratio} | {} |", cells.join(" | ")).expect("a string");
+        let slender = aspect_ratio >= 5.0;
+        let holds = centre_point.within(7.0, 13.0)
+            && rigid_strip.within(if slender { -0.5 } else { -1.8 }, 0.5)
+            && (!slender || energy.within(-7.0, 7.0) && onset.within(-6.0, -3.5));
+        results.push(if holds { Ok(()) } else { Err(format!("strips of L/2b = {aspect_ratio}: {cells:?}")) });
+    }
+    (table, results)
+}
