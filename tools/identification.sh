@@ -13,8 +13,8 @@ cd "$work"
 
 "$program" example > contact.toml
 contact='contact.toml --length 2e-3 --normal-force 80'
-# A rig of 5e-9 m/N in series; noise of 0.03 N and 0.3 nm (Lehmer's generator; Box and Muller); loops that are 0.7 and 2 times as wide
-# as the slip displacement of the contact.
+# A rig of 5e-9 m/N in series; noise of 0.03 N and 0.3 nm (Lehmer's generator; Box and Muller); amplitudes of 0.7 and 2 slip
+# displacements of the contact.
 for amplitude in 0.7 2; do
     # shellcheck disable=SC2086  # options
     "$program" loop $contact --relative --amplitude "$amplitude" --points 300 --out computed.csv

@@ -51,7 +51,7 @@ const CLOSED: f64 = 0.1;
 const LARGEST_SWING: f64 = 0.1;
 
 /// Samples of a branch; of more, successive ones are averaged.
-const SAMPLES: usize = 500;
+const SAMPLES: usize = 250;
 /// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.09.
 const REST: [f64; 2] = [5e-3, 0.2];
 

@@ -63,8 +63,9 @@ impl Record {
             if range(values) == 0.0 {
                 return fail(format!("{column} is constant"));
             }
-            let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-            if let Some(row) = steps.into_iter().position(|step| step > LARGEST_STEP * range(values)) {
+            let (mut steps, largest) =
+                (values.windows(2).map(|pair| (pair[1] - pair[0]).abs()), LARGEST_STEP * range(values));
+            if let Some(row) = steps.position(|step| step > largest) {
                 return fail(format!(
                     "{column} jumps by more than a quarter of its range after sample {}: samples are missing, or a cycle has \
                      fewer than 12",

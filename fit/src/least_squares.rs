@@ -1,8 +1,8 @@
 //! Weighted least squares over all loops, by the method of Levenberg and Marquardt.
 //!
-//! The residuals are differences of force over their standard deviation: noise of the force, and noise of the displacement times the
-//! slope of the loop. Each loop has parameters of its own: offset and drift of the force, and the errors of the displacement at its
-//! reversals, with one more residual each, over their standard error.
+//! The residuals are differences of force over their standard deviation: noise of the force, and noise of the displacement times
+//! the slope of the loop. Each loop has parameters of its own: offset and drift of the force, and the errors of the displacement at
+//! its reversals, with one more residual each, over their standard error.
 
 use crate::cycles::{Loop, Sample};
 use crate::error::Error;
@@ -76,8 +76,8 @@ impl<'a> Fit<'a> {
         })
     }
 
-    /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a loop
-    /// is an error of the model, of the same size everywhere.
+    /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a
+    /// loop is an error of the model, of the same size everywhere.
     pub fn update_targets(&mut self) {
         let target = |(one, model): (&Loop, LoopModel)| {
             let [of_displacement, of_force] = one.noise;
@@ -132,6 +132,11 @@ impl<'a> Fit<'a> {
     /// Which parameters are at a limit, and meet a condition.
     fn limits_at_which(&self, condition: impl Fn(usize) -> bool) -> [bool; PARAMETERS] {
         std::array::from_fn(|i| self.limits[i].contains(&self.parameters[i]) && condition(i))
+    }
+
+    /// Number of free parameters, without the corrections of the reversals, which have residuals of their own.
+    pub fn count(&self) -> usize {
+        self.params().len() - 2 * self.loops.len()
     }
 
     fn columns(&self) -> Vec<usize> {

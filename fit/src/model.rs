@@ -289,9 +289,10 @@ impl<'a> LoopModel<'a> {
 
     /// Effect of the swing of the normal force, to first order.
     ///
-    /// Between the stick zone and the present edge of the contact the shear has the sign of the present branch, further inside that of
-    /// the one before, whose slip zone started at the edge under the load of the reversal. With G(d) the derivative dT/dN of the
-    /// monotonic curve, and dN from the mean, the force changes by `G(half) dN - (G(end) - G(half)) dN(reversal)`; in gross slip by μ dN.
+    /// Between the stick zone and the present edge of the contact the shear has the sign of the present branch, further inside that
+    /// of the one before, whose slip zone started at the edge under the load of the reversal. With G(d) the derivative dT/dN of the
+    /// monotonic curve, and dN from the mean, the force changes by `G(half) dN - (G(end) - G(half)) dN(reversal)`; in gross slip by
+    /// μ dN.
     pub fn load_effect(&self, sample: &Sample) -> f64 {
         let [here, end] = [0.5 * (sample.distance + self.start(sample).0), self.amplitude]
             .map(|displacement| self.curve.load_slope(displacement, self.parameters));

@@ -35,7 +35,7 @@ fn a_tribometer_determines_friction_and_the_stiffness_of_the_rig_but_no_shape() 
         let (friction, stiffness) = (report.friction_coefficient, 1e-6 / report.total_compliance.value);
         println!("mu {friction:?}, stiffness {stiffness:.4} N/µm, {:?}, {:?}", report.law, report.spring_slider);
         println!("{}", report.verdict.join("\n"));
-        // From half the distance between the plateaus, 0.467, and the steepest part of the flanks, 0.040 N/µm: read to some percent.
+        // Half the distance between the plateaus is 0.467 of N, the slope of the flanks 0.040 N/µm, read to some percent.
         assert!((friction.lower..=friction.upper.unwrap()).contains(&0.467), "{friction:?}");
         assert!((stiffness / 0.040 - 1.0).abs() < 0.05, "{stiffness}");
         assert_eq!(report.shape.unwrap().status, Status::NotDetermined);
