@@ -17,7 +17,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header docs dist recipes clean help
+	figures host stress fuzz check parallel header python docs dist recipes clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default)
@@ -121,6 +121,7 @@ figures:
 	verification/paper/draw.sh
 	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package validation
 	verification/validation/draw.sh
+	tools/identification.sh
 
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all
@@ -136,6 +137,11 @@ stress:
 fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh
+
+## python: build the Python wheel into target/python and test it
+python:
+	@tools/dependencies.sh python
+	tools/python.sh
 
 ## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
 header:

@@ -33,6 +33,7 @@ rust() {
     step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --release --locked --test bounded_memory
     step 'references of the interfaces' tools/docs.sh
     step 'audit' tools/audit.sh
+    step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all
 }
 
 installed() {

@@ -5,7 +5,7 @@
 set -eu
 
 table='
-gcc             demo test check bench figures host fuzz docs accuracy : command gcc
+gcc             demo test check bench figures host fuzz docs accuracy python : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
 libblas-dev     demo test check host parallel                         : library blas
@@ -25,7 +25,7 @@ cmake           check                                                 : command 
 meson           check                                                 : command meson
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
-python3-venv    check docs                                            : command python3 -c "import ensurepip"
+python3-venv    test check docs python                                : command python3 -c "import ensurepip"
 octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile
 openmpi-bin     check parallel                                        : command mpirun
@@ -46,7 +46,7 @@ found() {
     esac > /dev/null 2>&1
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|octave|parallel..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|octave|parallel|python..." >&2; exit 2; }
 missing=$(
     echo "$table" | while IFS=: read -r head probe; do
         package=${head%% *}

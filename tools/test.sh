@@ -36,6 +36,8 @@ others() {
     step 'paper: figures and claims' "$CARGO" run $verification --package paper -- --check
     step 'validation: boundary elements, measurements' "$CARGO" run $verification --package validation -- --check
     step 'command line' env CARGO_PROFILE_DEV_DEBUG=0 "$CARGO" test --locked --package microslip-cli
+    step 'identification of measured loops' "$CARGO" test --release --locked --package microslip-fit
+    step 'Python: wheel, interface and reference tables' tools/python.sh
     step 'C header and Fortran module: generated from the source' "$CARGO" run --quiet --locked --package xtask -- header --check
 }
 

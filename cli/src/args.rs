@@ -2,7 +2,9 @@
 
 use crate::contact_spec::ContactArgs;
 use crate::number::{Amount, parse_amount, parse_number};
-use clap::{Args, Parser, Subcommand};
+use crate::units::DataUnits;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::fmt;
 use std::path::PathBuf;
 
 /// Friction law of a contact: properties, curves, hysteresis loops and complex stiffness as CSV and as pictures.
@@ -108,6 +110,14 @@ pub enum Command {
     /// Iwan model: parallel spring-sliders that approximate the monotonic curve
     #[command(after_help = help!("slider, stiffness, slip_force", "iwan contact.toml --count 10 --plot iwan.svg"))]
     Iwan(ContactCommand<Iwan>),
+    /// Fit friction coefficient, compliances and shape to measured loops of displacement and force
+    #[command(after_help = help!(
+        "quantity, value, lower, upper (95 % confidence), unit, status (fixed, determined, bounded, not_determined);
+  comments have the verdict: which parameters the data determine",
+        "fit contact.toml --measured loop1.csv,loop2.csv --data-units um,N --loads 100,200 --plot fit.svg
+  microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
+    ))]
+    Fit(ContactCommand<Fit>),
     /// Print a parameter file with comments
     #[command(after_help = "Example:\n  microslip example > contact.toml")]
     Example {
@@ -272,6 +282,82 @@ pub struct Iwan {
     /// Number of spring-sliders
     #[arg(long, value_name = "COUNT", default_value_t = 5)]
     pub count: u32,
+}
+
+#[derive(Debug, Args)]
+pub struct Fit {
+    /// Tables of displacement and tangential force, each with at least one cycle, at any amplitudes and loads
+    #[arg(long, value_name = "FILE.csv", value_delimiter = ',', required = true)]
+    pub measured: Vec<PathBuf>,
+    /// Column of displacements: its name in the header, or its number from 1 [default: displacement]
+    #[arg(long, value_name = "NAME")]
+    pub column: Option<String>,
+    /// Column of tangential forces [default: force]
+    #[arg(long, value_name = "NAME")]
+    pub force_column: Option<String>,
+    /// Column of normal forces [default: normal_force, if there is one]
+    #[arg(long, value_name = "NAME", conflicts_with = "loads")]
+    pub normal_force_column: Option<String>,
+    /// Constant normal force of each table, or of all [default: normal_force of the contact]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number)]
+    pub loads: Vec<f64>,
+    /// Units of displacement and forces in the tables: m, mm, um or nm; N, mN or kN [default: those of the contact]
+    #[arg(long, value_name = "LENGTH,FORCE", value_parser = DataUnits::parse)]
+    pub data_units: Option<DataUnits>,
+    /// What is not fitted: friction_coefficient, series_compliance, contact_compliance (a factor on the displacements of the law)
+    /// with a value [default: of the contact, 0, 1], shape; in the units of the contact
+    #[arg(long, value_name = "NAME[=VALUE]", value_delimiter = ',', value_parser = parse_fixed)]
+    pub fix: Vec<(Fixable, Option<f64>)>,
+    /// Parameter of shape that is fitted
+    #[arg(long, value_name = "NAME", default_value = "flat_half_width")]
+    pub shape: ShapeOption,
+    /// File of the fitted contact, a parameter file
+    #[arg(long, value_name = "FILE.toml", help_heading = "Output")]
+    pub fitted: Option<PathBuf>,
+    /// File of all results, with the loops
+    #[arg(long, value_name = "FILE.json", help_heading = "Output")]
+    pub json: Option<PathBuf>,
+}
+
+/// What a fit may leave as it is.
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Fixable {
+    FrictionCoefficient,
+    SeriesCompliance,
+    ContactCompliance,
+    Shape,
+}
+
+impl fmt::Display for Fixable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Fixable::FrictionCoefficient => "friction_coefficient",
+            Fixable::SeriesCompliance => "series_compliance",
+            Fixable::ContactCompliance => "contact_compliance",
+            Fixable::Shape => "shape",
+        })
+    }
+}
+
+/// The parameter of shape of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum ShapeOption {
+    /// Half-width of the flat, with the radius of the contact
+    FlatHalfWidth,
+    /// Radius of the edges, with the flat of the contact
+    EdgeRadius,
+}
+
+/// A name, or a name and a value: `contact_compliance=1`.
+fn parse_fixed(text: &str) -> Result<(Fixable, Option<f64>), String> {
+    let (name, value) = text.split_once('=').map_or((text, None), |(name, value)| (name, Some(value)));
+    let parameter = Fixable::from_str(name.trim(), false)?;
+    match value.map(parse_number).transpose()? {
+        Some(_) if parameter == Fixable::Shape => Err("shape has no value: it is that of the contact".to_owned()),
+        value => Ok((parameter, value)),
+    }
 }
 
 /// Number of points of a grid: both ends at least.

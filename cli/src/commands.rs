@@ -357,22 +357,18 @@ pub fn parts_of_step(rows: usize) -> u32 {
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let (path, selected) = (&options.displacements, options.column.as_deref());
     let [approach, normal_force] = [&options.approach_column, &options.normal_force_column].map(Option::as_deref);
+    let [length, force] = [Length, Force].map(|quantity| spec.units.unit(quantity));
     let names = &["displacement", "displacement_x"];
-    let column = ColumnSpec { option: "--column", selected, names, quantity: Length };
+    let column = ColumnSpec { option: "--column", selected, names, unit: length };
     let (selected, names) = (options.column_y.as_deref(), &["displacement_y"]);
-    let column_y = ColumnSpec { option: "--column-y", selected, names, quantity: Length };
+    let column_y = ColumnSpec { option: "--column-y", selected, names, unit: length };
     let normal = [
-        ColumnSpec { option: "--approach-column", selected: approach, names: &["approach"], quantity: Length },
-        ColumnSpec {
-            option: "--normal-force-column",
-            selected: normal_force,
-            names: &["normal_force"],
-            quantity: Force,
-        },
+        ColumnSpec { option: "--approach-column", selected: approach, names: &["approach"], unit: length },
+        ColumnSpec { option: "--normal-force-column", selected: normal_force, names: &["normal_force"], unit: force },
     ];
     // A selected column of normal forces leaves no choice.
     let first = usize::from(normal_force.is_some());
-    let table = read_columns(path, [&column, &column_y], &normal[first..], spec.units)?;
+    let table = read_columns(path, [&column, &column_y], &normal[first..])?;
     let columns = [&column, &column_y, &normal[0], &normal[1]].map(|column| {
         column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
     });
@@ -414,7 +410,7 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
 }
 
 /// A word of a shell command, on one line.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.to_owned();

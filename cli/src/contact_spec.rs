@@ -246,6 +246,41 @@ impl ContactArgs {
         })
     }
 
+    /// The contact as the start of a fit.
+    pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
+        let bodies = |material: [Material; 2]| {
+            material.map(|Material { young_modulus, poisson_ratio }| microslip_fit::Material {
+                young_modulus,
+                poisson_ratio,
+            })
+        };
+        Ok(match self.shape(1.0)? {
+            ShapeParameters::Flat(parameters) => microslip_fit::Contact {
+                geometry: microslip_fit::Geometry::Flat {
+                    flat_half_width: parameters.flat_half_width,
+                    edge_radius: parameters.edge_radius,
+                    length: parameters.length,
+                    displacement_reference: match self.displacement_reference {
+                        Some(Reference::RigidStrip) => microslip_fit::DisplacementReference::RigidStrip,
+                        Some(Reference::CentrePoint) | None => microslip_fit::DisplacementReference::CentrePoint,
+                    },
+                },
+                normal_force: parameters.normal_force,
+                friction_coefficient: parameters.friction_coefficient,
+                material: bodies(parameters.material),
+            },
+            ShapeParameters::Ellipse(parameters) => microslip_fit::Contact {
+                geometry: microslip_fit::Geometry::Ellipse {
+                    semi_axis_x: parameters.semi_axis_x,
+                    semi_axis_y: parameters.semi_axis_y,
+                },
+                normal_force: parameters.normal_force,
+                friction_coefficient: parameters.friction_coefficient,
+                material: bodies(parameters.material),
+            },
+        })
+    }
+
     /// The message of an error, with the values of the parameter that it names, and the name of that parameter.
     fn explain(&self, error: Error) -> (String, Option<&'static str>) {
         let message = error.to_string();

@@ -69,9 +69,7 @@ pub fn check_outputs(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
     let (inputs, outputs) = (files(inputs), files(outputs));
     match outputs.iter().find(|path| inputs.contains(path)) {
         Some(path) => usage(format!("{} is an input and is not overwritten", path.display())),
-        None if outputs.len() == 2 && outputs[0] == outputs[1] => {
-            usage("the table and the picture cannot be the same file")
-        }
+        None if outputs.len() == 2 && outputs[0] == outputs[1] => usage("two outputs cannot be the same file"),
         None => Ok(()),
     }
 }

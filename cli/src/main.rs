@@ -1,7 +1,7 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `table` read the input, `commands` and `varying_load` compute, `plot` draws,
-//! and `files` reads and writes.
+//! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load` and `fit` compute, `plot`
+//! draws, and `files` reads and writes.
 
 mod args;
 mod canvas;
@@ -9,6 +9,7 @@ mod commands;
 mod contact_spec;
 mod error;
 mod files;
+mod fit;
 mod number;
 mod plot;
 mod table;
@@ -23,7 +24,7 @@ use commands::Report;
 use contact_spec::ContactSpec;
 use error::{CliError, Result, usage};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -44,15 +45,19 @@ fn print_message(message: &str) {
 
 fn run(command: &Command) -> Result<()> {
     match command {
-        Command::Contact(command) => execute(command, None, |_, spec| Ok(commands::contact(spec))),
-        Command::Tractions(command) => execute(command, None, commands::tractions),
-        Command::Curve(command) => execute(command, None, commands::curve),
-        Command::Loop(command) => execute(command, None, commands::hysteresis_loop),
-        Command::Stiffness(command) => execute(command, None, commands::stiffness),
-        Command::History(command) => execute(command, Some(&command.options.displacements), commands::history),
-        Command::Normal(command) => execute(command, None, varying_load::normal),
-        Command::Jenkins(command) => execute(command, None, commands::jenkins_equivalent),
-        Command::Iwan(command) => execute(command, None, commands::iwan_equivalent),
+        Command::Contact(command) => execute(command, &[], |_, spec| Ok(commands::contact(spec))),
+        Command::Tractions(command) => execute(command, &[], commands::tractions),
+        Command::Curve(command) => execute(command, &[], commands::curve),
+        Command::Loop(command) => execute(command, &[], commands::hysteresis_loop),
+        Command::Stiffness(command) => execute(command, &[], commands::stiffness),
+        Command::History(command) => execute(command, &[&command.options.displacements], commands::history),
+        Command::Normal(command) => execute(command, &[], varying_load::normal),
+        Command::Jenkins(command) => execute(command, &[], commands::jenkins_equivalent),
+        Command::Iwan(command) => execute(command, &[], commands::iwan_equivalent),
+        Command::Fit(command) => {
+            let measured: Vec<_> = command.options.measured.iter().map(PathBuf::as_path).collect();
+            execute(command, &measured, fit::fit)
+        }
         Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")),
         Command::Example { elliptic: true } => files::write_stdout(include_bytes!("../example_elliptic.toml")),
     }
@@ -61,14 +66,14 @@ fn run(command: &Command) -> Result<()> {
 /// Computes the report of a command, then writes its table and picture.
 fn execute<Options: Args>(
     command: &ContactCommand<Options>,
-    data: Option<&Path>,
+    data: &[&Path],
     compute: impl FnOnce(&Options, &ContactSpec) -> Result<Report>,
 ) -> Result<()> {
     let ContactCommand { options, parameters, contact, output } = command;
     let (parameters, out, plot) = (parameters.as_deref(), output.out.as_deref(), output.plot.as_deref());
-    let inputs: Vec<_> = parameters.into_iter().chain(data).collect();
+    let inputs: Vec<_> = parameters.into_iter().chain(data.iter().copied()).collect();
     files::check_outputs(&inputs, &out.into_iter().chain(plot).collect::<Vec<_>>())?;
-    if inputs == [Path::new("-"); 2] {
+    if inputs.iter().filter(|path| **path == Path::new("-")).count() > 1 {
         return usage("standard input cannot be both the parameter file and the table");
     }
     let plot = plot.map(|path| Ok((path, format_of(path)?))).transpose()?;

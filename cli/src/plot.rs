@@ -225,7 +225,8 @@ const PREFIXES: [(i32, &str); 9] =
 
 /// The power of ten for which a number has one to three digits before the point, and the SI unit with that prefix.
 fn prefixed(size: f64, quantity: Quantity) -> (i32, String) {
-    let thousands = if size > 0.0 { (size.log10() / 3.0).floor() as i32 } else { 0 };
+    // A number has no unit that could have a prefix.
+    let thousands = if size > 0.0 && quantity != Quantity::Number { (size.log10() / 3.0).floor() as i32 } else { 0 };
     let power = 3 * thousands.max(-100); // smaller powers would underflow
     let unit = Units::Si.unit(quantity);
     match PREFIXES.iter().find(|(known, _)| *known == power) {

@@ -71,26 +71,21 @@ pub struct ColumnSpec<'a> {
     pub selected: Option<&'a str>,
     /// Names in the header if no other is selected.
     pub names: &'a [&'static str],
-    pub quantity: Quantity,
+    /// The unit that the header may name.
+    pub unit: &'a str,
 }
 
 /// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if
 /// it is selected or has its default name in the header; and the first of the alternatives of which that is true.
-pub fn read_columns(
-    path: &Path,
-    columns: [&ColumnSpec; 2],
-    alternatives: &[ColumnSpec],
-    units: Units,
-) -> Result<InputTable> {
+pub fn read_columns(path: &Path, columns: [&ColumnSpec; 2], alternatives: &[ColumnSpec]) -> Result<InputTable> {
     let text = read_text(path)?;
-    parse_columns(&text, columns, alternatives, units).map_err(|reason| CliError::in_file(path, reason))
+    parse_columns(&text, columns, alternatives).map_err(|reason| CliError::in_file(path, reason))
 }
 
 fn parse_columns(
     text: &str,
     [spec, second]: [&ColumnSpec; 2],
     alternatives: &[ColumnSpec],
-    units: Units,
 ) -> std::result::Result<InputTable, String> {
     let split = |line: &'_ str| line.split(',').map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).zip(1..);
@@ -101,10 +96,10 @@ fn parse_columns(
     let no_numbers = || format!("the table has no {}s", spec.default_name());
     let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
     let in_header = |reason| format!("line {number}: {reason}");
-    let mut indices = vec![spec.find(&first, units).map_err(in_header)?];
+    let mut indices = vec![spec.find(&first).map_err(in_header)?];
     let (mut options, mut has_second, mut alternative) = (vec![spec.option], false, None);
     for (i, other) in [second].into_iter().chain(alternatives).enumerate().filter(|(_, other)| other.is_in(&first)) {
-        let index = other.find(&first, units).map_err(in_header)?;
+        let index = other.find(&first).map_err(in_header)?;
         match indices.iter().position(|known| *known == index) {
             Some(known) if other.selected.is_some() => {
                 return Err(in_header(format!("{} and {} select the same column", options[known], other.option)));
@@ -167,7 +162,7 @@ impl ColumnSpec<'_> {
     }
 
     /// Index of the column, from the cells of the first row.
-    fn find(&self, first: &[String], units: Units) -> std::result::Result<usize, String> {
+    fn find(&self, first: &[String]) -> std::result::Result<usize, String> {
         if first.iter().any(|cell| cell.contains(';')) {
             return Err("columns are separated by commas, not by semicolons".to_owned());
         }
@@ -175,7 +170,7 @@ impl ColumnSpec<'_> {
         let default = || self.names.iter().find(|name| names.contains(name)).copied();
         let name = self.selected.or_else(default).unwrap_or(self.default_name());
         if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
-            let expected = units.unit(self.quantity);
+            let expected = self.unit;
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
                 Some(unit) if unit != expected => {
                     Err(format!("column {name} is in {unit}, not in {expected} (see --units)"))

@@ -502,6 +502,89 @@ fn a_swinging_load_changes_the_energy_of_a_loop() {
     assert!(opened.iter().any(|row| row[3] == 0.0) && opened.iter().all(|row| row[4].abs() <= 0.4 * row[3] + 1e-12));
 }
 
+/// Quantities of the table of a fit: value and status.
+fn quantity<'a>(table: &'a str, name: &str) -> (f64, &'a str) {
+    let rows = cells(table).1;
+    let row = rows.iter().find(|row| row[0] == name).unwrap();
+    (row[1].parse().unwrap(), row[5])
+}
+
+#[test]
+fn a_fit_recovers_the_contact_of_its_loops() {
+    let shell = Shell::new("fit");
+    for amplitude in ["0.7", "1.5"] {
+        shell.stdout(&format!("microslip loop flat.toml --relative --amplitude {amplitude} --out {amplitude}.csv"));
+    }
+    let measured = "--measured 0.7.csv,1.5.csv";
+    let options = "--friction-coefficient 0.6 --flat-half-width 3e-5";
+    let command =
+        format!("microslip fit flat.toml {measured} {options} --fitted new.toml --json new.json --plot new.svg");
+    let table = shell.stdout(&command);
+    assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+    check_picture(&shell.0.join("new.svg"));
+    let shape = 5e-5 / flat().half_width;
+    for (name, expected) in [
+        ("friction_coefficient", 0.4),
+        ("contact_compliance", 1.0),
+        ("total_compliance", 1.0 / flat().initial_stiffness),
+        ("flat_half_width_over_half_width", shape),
+    ] {
+        let (value, status) = quantity(&table, name);
+        // The loops have a reversal at a sample, and no noise.
+        assert!((value / expected - 1.0).abs() < 1e-3 && status == "determined", "{name}: {value} {expected} {status}");
+    }
+    assert!(table.contains("# The shape is determined"), "{table}");
+    // The fitted contact is a parameter file.
+    let fitted = cells(&shell.stdout("microslip contact new.toml"))
+        .1
+        .iter()
+        .map(|row| row[1].parse().unwrap())
+        .collect::<Vec<f64>>();
+    let expected = cells(&shell.stdout("microslip contact flat.toml"))
+        .1
+        .iter()
+        .map(|row| row[1].parse().unwrap())
+        .collect::<Vec<f64>>();
+    assert!(
+        fitted.iter().zip(&expected).all(|(one, other)| (one / other - 1.0).abs() < 1e-2),
+        "{fitted:?} {expected:?}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&shell.read("new.json")).unwrap();
+    assert_eq!(json["friction_coefficient"]["value"].as_f64(), Some(quantity(&table, "friction_coefficient").0));
+
+    // The same in other units, without header, with a normal force for each table, and parameters that are fixed.
+    for amplitude in ["0.7", "1.5"] {
+        shell.stdout(&format!(
+            "grep '^[0-9]' {amplitude}.csv | awk -F, '{{print $3 \",\" 1e6*$2}}' > um{amplitude}.csv"
+        ));
+    }
+    let fixed = "--fix contact_compliance,shape --fix series_compliance=0";
+    let columns = "--column 2 --force-column 1 --data-units um,N --loads 150,150";
+    let same = shell.stdout(&format!("microslip fit flat.toml --measured um0.7.csv,um1.5.csv {columns} {fixed}"));
+    assert!((quantity(&same, "friction_coefficient").0 / 0.4 - 1.0).abs() < 1e-4, "{same}");
+    for name in ["series_compliance", "contact_compliance", "flat_half_width_over_half_width"] {
+        assert_eq!(quantity(&same, name).1, "fixed", "{name}");
+    }
+    for (arguments, status, text) in [
+        ("--measured 0.7.csv --data-units um", 2, "two units are needed"),
+        ("--measured 0.7.csv --data-units um,kg", 2, "the force is in N, mN or kN"),
+        ("--measured 0.7.csv --data-units um,N", 1, "column displacement is in m, not in um"),
+        ("--measured 0.7.csv --fix shape=1", 2, "shape has no value"),
+        ("--measured 0.7.csv --fix stiffness", 2, "stiffness"),
+        ("--measured 0.7.csv --loads 1,2", 2, "--loads has 2 values for 1 tables"),
+        ("--measured um0.7.csv --column 2", 2, "--force-column must select a column"),
+        ("--measured 0.7.csv --fitted 0.7.csv", 2, "is an input and is not overwritten"),
+        ("--measured 0.7.csv --fitted same --json same", 2, "cannot be the same file"),
+        ("--measured 0.7.csv --column force --force-column displacement", 1, "column force is in N, not in m"),
+        ("--measured 1.5.csv --loads 1e-3", 1, "no friction coefficient"),
+        ("", 2, "--measured"),
+    ] {
+        shell.check_error(&format!("microslip fit flat.toml {arguments}"), status, text);
+    }
+    let warned = shell.run("microslip fit flat.toml --measured 1.5.csv --fix shape");
+    assert!(String::from_utf8(warned.stderr).unwrap().contains("warning: one amplitude only"));
+}
+
 #[test]
 fn the_command_in_a_result_repeats_it() {
     let shell = Shell::new("repeat");
@@ -795,11 +878,7 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
         (1, "tractions flat.toml --force 61 --out table.csv", "--force 61: "),
         (2, "curve flat.toml --out ./flat.toml", "flat.toml is an input and is not overwritten"),
         (2, "history flat.toml --displacements table.csv --out table.csv", "is an input and is not overwritten"),
-        (
-            2,
-            "curve flat.toml --out picture.svg --plot picture.svg",
-            "the table and the picture cannot be the same file",
-        ),
+        (2, "curve flat.toml --out picture.svg --plot picture.svg", "two outputs cannot be the same file"),
         (1, "curve flat.toml --out no/such/place.csv", "no/such/place.csv: No such file"),
         (1, "curve flat.toml --out .", ".: Is a directory"),
     ] {
@@ -834,11 +913,21 @@ fn help_has_units_columns_and_an_example_for_each_command() {
     let shell = Shell::new("help");
     shell.write("contact.toml", shell.stdout("microslip example"));
     shell.write("measured.csv", "t,u,v,N\n0,1e-6,2e-7,300\n1,-1e-6,4e-7,500\n");
+    for (i, force, amplitude) in [(1, 100, 0.7), (2, 200, 2.0)] {
+        let table = format!(
+            "microslip loop contact.toml --normal-force {force} --relative --amplitude {amplitude} | grep '^[0-9]'"
+        );
+        shell.stdout(&format!(
+            "(echo 'displacement [um],force [N]'; {table} | awk -F, '{{print 1e6*$2 \",\" $3}}') > loop{i}.csv"
+        ));
+        shell.stdout(&format!("(echo x,F,N; {table} | awk -F, '{{print $2 \",\" $3 \",{force}\"}}') > rig{i}.csv"));
+    }
     let general = shell.stdout("microslip --help");
     for text in ["m, N, Pa, N/m, J", "mm, N, MPa, N/mm, mJ", "Exit status:", "microslip example > contact.toml"] {
         assert!(general.contains(text), "{text}");
     }
-    for command in ["contact", "tractions", "curve", "loop", "stiffness", "history", "normal", "jenkins", "iwan"] {
+    for command in ["contact", "tractions", "curve", "loop", "stiffness", "history", "normal", "jenkins", "iwan", "fit"]
+    {
         assert!(general.contains(&format!("\n  {command} ")), "{command}");
         let help = shell.stdout(&format!("microslip {command} --help"));
         for text in [

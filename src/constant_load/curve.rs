@@ -146,6 +146,18 @@ impl CurvePoint<'_> {
         }
     }
 
+    /// [`force`](CurvePoint::force) and [`stiffness`](CurvePoint::stiffness).
+    #[must_use]
+    pub fn force_and_stiffness(&self) -> (f64, f64) {
+        match self.known_by {
+            KnownBy::Displacement(displacement) => {
+                let response = self.contact.response(displacement);
+                (self.sign * response.force, response.stiffness)
+            }
+            KnownBy::StickZone(_) | KnownBy::GrossSlip => (self.force(), self.stiffness()),
+        }
+    }
+
     /// d(displacement)/dT \[m/N\]; infinite in gross slip, without friction, and at mu N if the stick zone shrinks to a point.
     #[must_use]
     pub fn compliance(&self) -> f64 {

@@ -1,0 +1,214 @@
+//! The command `fit`: measured loops in, law out.
+
+use crate::args::{Fit, Fixable, ShapeOption};
+use crate::commands::{Report, quoted};
+use crate::contact_spec::ContactSpec;
+use crate::error::{CliError, Result, usage};
+use crate::files::{check_outputs, write_file};
+use crate::number::{format_list, format_number};
+use crate::plot::{Axis, Line, Panel, rounded};
+use crate::table::{ColumnSpec, Table, read_columns};
+use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
+use crate::units::Units;
+use microslip_fit::{Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter, Status};
+use std::path::{Path, PathBuf};
+
+/// Loops that a picture has at most.
+const LOOPS: usize = 4;
+
+pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
+    let extra: Vec<&Path> = [&options.fitted, &options.json].into_iter().flatten().map(PathBuf::as_path).collect();
+    check_outputs(&options.measured.iter().map(PathBuf::as_path).collect::<Vec<_>>(), &extra)?;
+    let measured = options.measured.iter().enumerate().map(|(index, path)| measurement(options, spec, index, path));
+    let measured = measured.collect::<Result<Vec<_>>>()?;
+    let contact = spec.given.fit_contact()?;
+    let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec))
+        .map_err(|error| CliError::Input(error.to_string()))?;
+    if let Some(path) = &options.fitted {
+        let units = if spec.units == Units::Mm { "units = \"mm\"\n" } else { "" };
+        let (comments, parameters): (Vec<_>, Vec<_>) =
+            found.contact_toml.lines().partition(|line| line.starts_with('#'));
+        write_file(path, format!("{}\n{units}{}\n", comments.join("\n"), parameters.join("\n")).as_bytes())?;
+    }
+    if let Some(path) = &options.json {
+        let json = serde_json::to_vec(&found).map_err(|error| CliError::in_file(path, error))?;
+        write_file(path, &json)?;
+    }
+
+    let mut report = Report::new("fit", spec, &repeat(options), table(&found, spec.units), panels(&found));
+    for sentence in &found.verdict {
+        report = report.with_remark(sentence);
+    }
+    let slider = &found.spring_slider;
+    let friction = format_number((slider.friction_coefficient * 1e4).round() / 1e4);
+    report.picture.caption = format!(
+        "μ = {:.4}, misfit {}; spring-slider: μ = {friction}, misfit {}",
+        found.friction_coefficient.value,
+        rounded(found.law.force_rms, Force, spec.units),
+        rounded(slider.misfit.force_rms, Force, spec.units)
+    );
+    report.warnings = found.warnings;
+    Ok(report)
+}
+
+/// The measurement of a file, in the units of the contact.
+fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> Result<Measurement> {
+    let [length, force] = options.data_units.unwrap_or(spec.units.of_data()).to(spec.units);
+    let column = ColumnSpec {
+        option: "--column",
+        selected: options.column.as_deref(),
+        names: &["displacement"],
+        unit: length.0,
+    };
+    let forces = ColumnSpec {
+        option: "--force-column",
+        selected: options.force_column.as_deref(),
+        names: &["force"],
+        unit: force.0,
+    };
+    let normal = [ColumnSpec {
+        option: "--normal-force-column",
+        selected: options.normal_force_column.as_deref(),
+        names: &["normal_force"],
+        unit: force.0,
+    }];
+    let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
+    let table = read_columns(path, [&column, &forces], normal)?;
+    if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
+        return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
+    }
+    if !table.has_second {
+        return usage(format!("{}: --force-column must select a column", path.display()));
+    }
+    let values =
+        |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
+    let load = match options.loads[..] {
+        [] if table.alternative.is_some() => Some(NormalForce::Samples(values(2, force.1))),
+        [] => None,
+        [one] => Some(NormalForce::Constant(force.1 * one)),
+        _ => Some(NormalForce::Constant(force.1 * options.loads.get(index).copied().unwrap_or(f64::NAN))),
+    };
+    Ok(Measurement {
+        name: path.to_string_lossy().into_owned(),
+        displacement: values(0, length.1),
+        force: values(1, force.1),
+        normal_force: load,
+        time: None,
+    })
+}
+
+fn fixed(options: &Fit, spec: &ContactSpec) -> Options {
+    let value = |parameter: Fixable, default: Option<f64>| {
+        let given = options.fix.iter().find(|(fixed, _)| *fixed == parameter);
+        given.and_then(|(_, value)| value.or(default))
+    };
+    Options {
+        friction_coefficient: value(Fixable::FrictionCoefficient, spec.given.friction_coefficient),
+        series_compliance: value(Fixable::SeriesCompliance, Some(0.0)),
+        contact_compliance: value(Fixable::ContactCompliance, Some(1.0)),
+        shape: match options.shape {
+            _ if options.fix.iter().any(|(fixed, _)| *fixed == Fixable::Shape) => ShapeParameter::Fixed,
+            ShapeOption::FlatHalfWidth => ShapeParameter::FlatHalfWidth,
+            ShapeOption::EdgeRadius => ShapeParameter::EdgeRadius,
+        },
+    }
+}
+
+/// The options that repeat the fit.
+fn repeat(options: &Fit) -> String {
+    let files: Vec<_> = options.measured.iter().map(|path| path.to_string_lossy()).collect();
+    let mut text = format!(" --measured {}", quoted(&files.join(",")));
+    let columns = [
+        ("--column", &options.column),
+        ("--force-column", &options.force_column),
+        ("--normal-force-column", &options.normal_force_column),
+    ];
+    for (option, selected) in columns {
+        text += &selected.as_ref().map_or(String::new(), |selected| format!(" {option} {}", quoted(selected)));
+    }
+    if !options.loads.is_empty() {
+        text += &format!(" --loads {}", format_list(&options.loads));
+    }
+    if let Some(units) = options.data_units {
+        text += &format!(" --data-units {units}");
+    }
+    for (parameter, value) in &options.fix {
+        let value = value.map_or(String::new(), |value| format!("={}", format_number(value)));
+        text += &format!(" --fix {parameter}{value}");
+    }
+    if options.shape == ShapeOption::EdgeRadius {
+        text += " --shape edge_radius";
+    }
+    text
+}
+
+fn table(found: &microslip_fit::Report, units: Units) -> Table {
+    let [force, stiffness] = [Force, Stiffness].map(|quantity| units.unit(quantity));
+    let compliance = format!("{}/N", units.unit(Length));
+    let status = |status| match status {
+        Status::Fixed => "fixed",
+        Status::Determined => "determined",
+        Status::Bounded => "bounded",
+        Status::NotDetermined => "not_determined",
+    };
+    let estimate = |(name, at, unit): (&str, &Estimate, &str)| {
+        let [value, lower] = [at.value, at.lower].map(format_number);
+        let upper = at.upper.map_or(String::new(), format_number);
+        format!("{name},{value},{lower},{upper},{unit},{}", status(at.status))
+    };
+    let shape = found.shape.iter().map(|shape| ("flat_half_width_over_half_width", shape, "-"));
+    let estimates = [
+        ("friction_coefficient", &found.friction_coefficient, "-"),
+        ("series_compliance", &found.series_compliance, compliance.as_str()),
+        ("contact_compliance", &found.contact_compliance, "-"),
+        ("total_compliance", &found.total_compliance, compliance.as_str()),
+    ];
+    let mut rows: Vec<_> = estimates.into_iter().chain(shape).map(estimate).collect();
+    let number = |name: &str, value: f64, unit: &str| format!("{name},{},,,{unit},", format_number(value));
+    let misfit = |prefix: &str, misfit: &Misfit| {
+        [
+            number(&format!("{prefix}force_rms"), misfit.force_rms, force),
+            number(&format!("{prefix}force_max"), misfit.force_max, force),
+            number(&format!("{prefix}energy_error"), misfit.energy, "-"),
+        ]
+    };
+    rows.extend(misfit("", &found.law));
+    let slider = &found.spring_slider;
+    rows.push(number("spring_slider_friction_coefficient", slider.friction_coefficient, "-"));
+    rows.push(number("spring_slider_stiffness", slider.stiffness, stiffness));
+    rows.extend(misfit("spring_slider_", &slider.misfit));
+    for (one, i) in found.loops.iter().zip(1..) {
+        rows.push(number(&format!("loop_{i}_energy_measured"), one.measured_energy, units.unit(Energy)));
+        rows.push(number(&format!("loop_{i}_energy"), one.energy, units.unit(Energy)));
+    }
+    Table::of_text("quantity,value,lower,upper,unit,status", rows)
+}
+
+/// Two panels of each loop, and the misfit over the shape.
+fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
+    let of_loop = |one: &FittedLoop| {
+        let line = |name: &str, forces: Vec<f64>| Line {
+            name: name.to_owned(),
+            points: one.displacement.iter().copied().zip(forces).collect(),
+        };
+        let less = |forces: &[f64]| one.measured_force.iter().zip(forces).map(|(one, other)| one - other).collect();
+        let panel =
+            |name, lines| Panel { x: Axis::linear("displacement", Length), y: Axis::linear(name, Force), lines };
+        let loops = [("measured", &one.measured_force), ("law", &one.force), ("spring-slider", &one.slider_force)];
+        let differences = [("measured - law", &one.force), ("measured - spring-slider", &one.slider_force)];
+        [
+            panel("force", loops.map(|(name, forces)| line(name, forces.clone())).into()),
+            panel("difference of force", differences.map(|(name, forces)| line(name, less(forces))).into()),
+        ]
+    };
+    let mut panels: Vec<_> = found.loops.iter().take(LOOPS).flat_map(of_loop).collect();
+    if !found.profile.is_empty() {
+        let points = found.profile.iter().map(|at| (at.shape, at.relative_rms)).collect();
+        panels.push(Panel {
+            x: Axis::linear("a/b", Number),
+            y: Axis::linear("misfit over the least", Number),
+            lines: vec![Line { name: String::new(), points }],
+        });
+    }
+    panels
+}

@@ -1,0 +1,247 @@
+//! Reversals and cycles of a record, and its loops: cycles of equal amplitude without offset and drift of the displacement.
+
+use crate::data::{Record, range, smoothed};
+use crate::error::{Error, error};
+
+/// Cycles of one record and one amplitude.
+#[derive(Debug, Clone)]
+pub(crate) struct Loop {
+    pub name: String,
+    /// Mean normal force.
+    pub normal_force: f64,
+    /// Half range of the displacement, from the reversals.
+    pub amplitude: f64,
+    /// Standard error of the displacement of a reversal.
+    pub reversal_error: f64,
+    /// Standard deviation of the noise of displacement and force.
+    pub noise: [f64; 2],
+    /// Whether there are cycles enough to distinguish a drift from the loop.
+    pub has_drift: bool,
+    /// Number of complete cycles, and of the samples that they have.
+    pub cycles: usize,
+    pub complete: usize,
+    pub samples: Vec<Sample>,
+}
+
+/// A sample on a branch from a reversal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sample {
+    /// As a fraction of the record, -1 to 1.
+    pub time: f64,
+    /// Displacement from the middle of the loop.
+    pub displacement: f64,
+    pub force: f64,
+    /// Normal force less its mean: of the sample, and of the reversal.
+    pub load_excess: f64,
+    pub load_excess_at_reversal: f64,
+    /// +1 if the displacement grows, otherwise -1.
+    pub direction: f64,
+    /// Distance from the reversal.
+    pub distance: f64,
+}
+
+/// Amplitudes that differ by less, as a fraction, belong to the same loop.
+const EQUAL_AMPLITUDE: f64 = 0.05;
+/// Smallest cycle, over the range of the displacement, that is not noise.
+const SMALLEST_CYCLE: f64 = 0.1;
+/// Displacement and force of a record that ends where it starts differ by less than this fraction of their ranges.
+const CLOSED: f64 = 0.1;
+/// The largest swing of the normal force about its mean that the law for a constant one admits: its effect is included to first
+/// order, so that an error of its square, a percent of the force, remains.
+const LARGEST_SWING: f64 = 0.1;
+
+/// Samples of a branch; of more, successive ones are averaged.
+const SAMPLES: usize = 250;
+/// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.09.
+const REST: [f64; 2] = [5e-3, 0.2];
+
+/// The loops of a record.
+pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
+    let mut record = original;
+    let (count, fail) = (record.time.len(), |reason: &str| error(format!("{}: {reason}", record.name)));
+    let least = |record: &Record| SMALLEST_CYCLE * range(&record.displacement) + 6.0 * record.noise[0];
+    let mut reversals = reversals(&smoothed(&record.displacement), least(record));
+    let rotated;
+    if reversals.len() < 3 {
+        let is_closed = |values: &[f64]| (values[count - 1] - values[0]).abs() <= CLOSED * range(values);
+        if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
+            return fail(
+                "less than one cycle of displacement: at least from one reversal to the next but one is needed",
+            );
+        }
+        let highest = (0..count).max_by(|i, j| record.displacement[*i].total_cmp(&record.displacement[*j]));
+        rotated = record.rotated(highest.unwrap_or_default());
+        record = &rotated;
+        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count]].concat();
+    }
+    let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
+    if branch >= 2 * SAMPLES {
+        return self::loops(&original.averaged(branch / SAMPLES));
+    }
+    let displacement = smoothed(&record.displacement);
+    let half_range = |i: usize| 0.5 * (displacement[reversals[i + 1]] - displacement[reversals[i]]).abs();
+    let (mut loops, mut first) = (Vec::new(), 0);
+    while first + 2 < reversals.len() {
+        let equal = |i: &usize| {
+            (half_range(*i) - half_range(first)).abs() <= EQUAL_AMPLITUDE * half_range(first) + 4.0 * record.noise[0]
+        };
+        let last = (first..reversals.len() - 1).take_while(equal).last().unwrap_or(first) + 1;
+        if last >= first + 2 {
+            // The rest of the record follows the same loop.
+            let end = if last + 1 == reversals.len() { record.time.len() } else { reversals[last] };
+            loops.push(Loop::new(record, &displacement, &reversals[first..=last], end));
+        }
+        first = last;
+    }
+    if loops.is_empty() {
+        return fail(
+            "the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops",
+        );
+    }
+    loops.iter().try_for_each(Loop::check)?;
+    Ok(loops)
+}
+
+/// Indices of the local extremes between which the displacement changes by more than `least`; without those at the ends.
+fn reversals(displacement: &[f64], least: f64) -> Vec<usize> {
+    let (mut found, mut low, mut high, mut direction) = (Vec::new(), 0, 0, 0.0);
+    for (i, &value) in displacement.iter().enumerate() {
+        low = if value < displacement[low] { i } else { low };
+        high = if value > displacement[high] { i } else { high };
+        let [fall, rise] = [displacement[high] - value, value - displacement[low]];
+        if direction <= 0.0 && rise > least {
+            // The start of the record is no reversal.
+            found.extend((direction < 0.0).then_some(low));
+            (direction, high) = (1.0, i);
+        } else if direction >= 0.0 && fall > least {
+            found.extend((direction > 0.0).then_some(high));
+            (direction, low) = (-1.0, i);
+        }
+    }
+    found
+}
+
+fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count();
+    values.sum::<f64>() / count.max(1) as f64
+}
+
+impl Loop {
+    fn new(record: &Record, smooth: &[f64], reversals: &[usize], end: usize) -> Loop {
+        let samples = reversals[0]..end;
+        let has_drift = reversals.len() > 4;
+        // Drift of the middle between two reversals.
+        let middle = |pair: &[usize]| {
+            let [time, displacement] = [&record.time[..], smooth].map(|of| 0.5 * (of[pair[0]] + of[pair[1]]));
+            (time, displacement)
+        };
+        let middles: Vec<_> = reversals.windows(2).map(middle).collect();
+        let (time, centre) = (mean(middles.iter().map(|at| at.0)), mean(middles.iter().map(|at| at.1)));
+        let moment = |f: &dyn Fn(f64, f64) -> f64| mean(middles.iter().map(|at| f(at.0 - time, at.1 - centre)));
+        let drift = if has_drift { moment(&|t, x| t * x) / moment(&|t, _| t * t) } else { 0.0 };
+        let steady = |values: &[f64], i: usize| values[i] - centre - drift * (record.time[i] - time);
+
+        // Ends of the loop; each reversal is drawn to their mean as far as it differs by noise only.
+        let is_high = |k: usize| smooth[reversals[k]] > smooth[reversals[if k == 0 { 1 } else { k - 1 }]];
+        let of_end = |high: bool| (0..reversals.len()).filter(move |k| is_high(*k) == high);
+        let ends = [false, true].map(|high| mean(of_end(high).map(|k| steady(smooth, reversals[k]))));
+        let scatter = |k: usize| (steady(smooth, reversals[k]) - ends[usize::from(is_high(k))]).powi(2);
+        let degrees = reversals.len().saturating_sub(2).max(1) as f64;
+        let variance = (0..reversals.len()).map(scatter).sum::<f64>() / degrees;
+        let true_part = 1.0 - (record.noise[0].powi(2) / variance.max(f64::MIN_POSITIVE)).min(1.0);
+        let start = |k: usize| {
+            let mean = ends[usize::from(is_high(k))];
+            mean + true_part * (steady(smooth, reversals[k]) - mean)
+        };
+        let step = |k: &usize| {
+            let neighbours = [k.saturating_sub(1), (k + 1).min(smooth.len() - 1)];
+            0.5 * neighbours.map(|i| (smooth[i] - smooth[*k]).abs()).iter().sum::<f64>()
+        };
+        let reversal_error = record.noise[0] + 0.5 * mean(reversals.iter().map(step));
+
+        // At rest the force may creep, which is no part of the law.
+        let mut rests = vec![false; smooth.len()];
+        for &reversal in reversals {
+            let at_rest = |i: &usize| (smooth[*i] - smooth[reversal]).abs() <= REST[0] * (ends[1] - ends[0]);
+            let from = (samples.start..=reversal).rev().take_while(at_rest).last().unwrap_or(reversal);
+            let to = (reversal..end).take_while(at_rest).last().unwrap_or(reversal);
+            let length = (reversals[reversals.len() - 1] - samples.start) as f64 / (reversals.len() - 1) as f64;
+            rests[from..=to].fill((to - from) as f64 > REST[1] * length);
+        }
+
+        let normal_force = mean(samples.clone().map(|i| record.normal_force[i]));
+        let mut branch = 0;
+        let sample = |i: usize| {
+            while branch + 1 < reversals.len() && i >= reversals[branch + 1] {
+                branch += 1;
+            }
+            let (displacement, direction) = (steady(&record.displacement, i), if is_high(branch) { -1.0 } else { 1.0 });
+            Sample {
+                time: record.time[i],
+                displacement,
+                force: record.force[i],
+                load_excess: record.normal_force[i] - normal_force,
+                load_excess_at_reversal: record.normal_force[reversals[branch]] - normal_force,
+                direction,
+                distance: direction * (displacement - start(branch)),
+            }
+        };
+        let last = reversals[2 * ((reversals.len() - 1) / 2)];
+        Loop {
+            name: record.name.clone(),
+            normal_force,
+            amplitude: 0.5 * (ends[1] - ends[0]),
+            reversal_error,
+            noise: record.noise,
+            has_drift,
+            cycles: (reversals.len() - 1) / 2,
+            complete: (samples.start..=last).filter(|i| !rests[*i]).count(),
+            samples: samples.filter(|i| !rests[*i]).map(sample).collect(),
+        }
+    }
+
+    /// Checks the direction of the loop and the swing of the normal force.
+    fn check(&self) -> Result<(), Error> {
+        let fail = |reason: String| error(format!("{}: {reason}", self.name));
+        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt() / self.normal_force;
+        if swing > LARGEST_SWING {
+            return fail(format!(
+                "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under \
+                 a steady load, or compare with `microslip history --normal-force-column`",
+                100.0 * swing
+            ));
+        }
+        let forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
+        let area = self.energy(&forces) / (range(&forces) * 2.0 * self.amplitude);
+        if area < -0.01 {
+            let moment = |f: &dyn Fn(&Sample) -> f64| mean(self.samples.iter().map(f));
+            let [x, force] = [moment(&|sample| sample.displacement), moment(&|sample| sample.force)];
+            let rises = moment(&|sample| (sample.displacement - x) * (sample.force - force)) > 0.0;
+            return fail(if rises {
+                "the loop has a negative energy: the columns of displacement and force are swapped".to_owned()
+            } else {
+                "the loop has a negative energy: the sign of displacement or force is reversed; the force must resist the \
+                 displacement that it is plotted against, and grow with it"
+                    .to_owned()
+            });
+        }
+        Ok(())
+    }
+
+    /// Half the range of the force, without outliers.
+    pub fn height(&self) -> f64 {
+        let mut forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
+        forces.sort_by(f64::total_cmp);
+        let [low, high] = [2, 98].map(|percent| forces[(forces.len() - 1) * percent / 100]);
+        0.5 * (high - low)
+    }
+
+    /// Energy per complete cycle of forces at the samples. A constant force does no work in a cycle.
+    pub fn energy(&self, forces: &[f64]) -> f64 {
+        let steps = self.samples[..self.complete].windows(2).zip(forces.windows(2));
+        let work = |(pair, force): (&[Sample], &[f64])| {
+            0.5 * (force[0] + force[1]) * (pair[1].displacement - pair[0].displacement)
+        };
+        steps.map(work).sum::<f64>() / self.cycles as f64
+    }
+}

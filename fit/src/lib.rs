@@ -1,0 +1,119 @@
+//! Identification of the friction law from measured friction loops.
+//!
+//! [`fit`] takes loops of displacement and force and a contact, and returns friction coefficient, series compliance, contact
+//! compliance and shape with intervals of confidence, and which of them the data determine.
+
+mod cycles;
+mod data;
+mod error;
+mod input;
+mod least_squares;
+mod model;
+mod plausibility;
+mod report;
+mod verdict;
+
+pub use error::Error;
+pub use input::{
+    Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter,
+};
+pub use report::{Estimate, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status};
+
+use data::Record;
+use error::error;
+use least_squares::{Fit, start_values};
+use model::Family;
+use serde::Deserialize;
+
+/// Fits the law to measured loops.
+///
+/// # Errors
+/// A message if the data are not loops of friction, or do not suit the contact.
+pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -> Result<Report, Error> {
+    if measurements.is_empty() {
+        return error("no measured loops");
+    }
+    options.check()?;
+    let family = Family::new(contact, options.shape)?;
+    let mut loops = Vec::new();
+    for (index, measurement) in measurements.iter().enumerate() {
+        loops.extend(cycles::loops(&Record::new(measurement, index, contact.normal_force)?)?);
+    }
+    let shape = family.shape();
+    let range = shape.filter(|_| options.shape != ShapeParameter::Fixed).map(|_| family.shape_range());
+
+    let compliances = loops.iter().map(|one| Ok(1.0 / family.curve(None, one.normal_force)?.initial_stiffness()));
+    let compliances = compliances.collect::<Result<Vec<_>, Error>>()?;
+    let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
+    let [friction, series, contact_factor] = start_values(&loops, &compliances, given);
+    let warnings = plausibility::check(&loops, &compliances, friction, series + contact_factor * mean(&compliances))?;
+
+    let limit = [1e-3 * friction, 1e3 * friction];
+    let least = 1e-6 * (series + contact_factor * mean(&compliances));
+    let limits = [limit, [least, f64::MAX], [0.0, f64::MAX], range.unwrap_or_default()];
+    let in_range = |shape: f64| range.map_or(shape, |[low, high]| shape.clamp(low, high));
+    let start = [friction, series, contact_factor, shape.map_or(0.0, in_range)];
+    let solution = verdict::solve(Fit::new(&family, &loops, start, limits, range.is_some())?, options, range)?;
+
+    // A spring and a slider: the law without the contact's compliance.
+    let [friction, series, contact_factor, _] = solution.fit.parameters;
+    let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0];
+    let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
+    slider.settle([options.friction_coefficient.is_none(), true, false, false]);
+    let ([friction_coefficient, compliance, ..], slider_forces) = (slider.parameters, slider.forces());
+    let spring_slider =
+        SpringSlider { friction_coefficient, stiffness: 1.0 / compliance, misfit: Misfit::new(&loops, &slider_forces) };
+
+    let (forces, [mut friction, series, contact_compliance, shape_estimate]) =
+        (solution.fit.forces(), solution.estimates);
+    if !solution.slips && friction.status != Status::Fixed {
+        // The largest force that the contact carried.
+        friction.lower = plausibility::carried(&loops);
+        friction.upper = None;
+    }
+    let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
+    let shape = shape.map(|given| match range {
+        Some(_) => shape_estimate,
+        None => Estimate { value: given, lower: given, upper: Some(given), status: Status::Fixed },
+    });
+    let forces_of_loops = forces.iter().zip(&slider_forces);
+    let fitted = |(one, (law, slider)): (&cycles::Loop, (&Vec<_>, &Vec<_>))| FittedLoop::new(one, law, slider);
+    Ok(Report {
+        friction_coefficient: friction,
+        series_compliance: series,
+        contact_compliance,
+        total_compliance: solution.total_compliance,
+        shape,
+        law: Misfit::new(&loops, &forces),
+        spring_slider,
+        verdict: verdict::sentences(&solution, &friction, range),
+        profile: solution.profile,
+        warnings,
+        contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),
+        loops: loops.iter().zip(forces_of_loops).map(fitted).collect(),
+    })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Input of [`fit_json`].
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Problem {
+    contact: Contact,
+    loops: Vec<Measurement>,
+    #[serde(default)]
+    options: Options,
+}
+
+/// [`fit`] of an object `{"contact": ..., "loops": [...], "options": {...}}`; returns the [`Report`], both as JSON.
+///
+/// # Errors
+/// As [`fit`], and a message if the text is not such an object.
+pub fn fit_json(problem: &str) -> Result<String, Error> {
+    let invalid = |reason: serde_json::Error| Error(reason.to_string());
+    let Problem { contact, loops, options } = serde_json::from_str(problem).map_err(invalid)?;
+    serde_json::to_string(&fit(&contact, &loops, &options)?).map_err(invalid)
+}

@@ -1,0 +1,289 @@
+//! Intervals of confidence, and which parameters the data determine.
+//!
+//! The shape is varied over its whole range, with all other parameters fitted at each value: the profile. Its interval is where the
+//! sum of squares exceeds the least one by no more than the quantile of chi squared. The intervals of the others follow from the
+//! covariance, if the shape is determined, and otherwise enclose those at all admitted shapes.
+
+use crate::error::Error;
+use crate::input::Options;
+use crate::least_squares::{Fit, Free};
+use crate::model::{CONTACT, FRICTION, PARAMETERS, SERIES, SHAPE};
+use crate::report::{Estimate, ProfilePoint, Status};
+
+/// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
+const QUANTILE: f64 = 1.96;
+/// Number of shapes of the profile.
+const SHAPES: usize = 10;
+/// Widest interval of a/b, and half-widths of the others as fractions (the last of the total compliance), of what is determined.
+const WIDEST_SHAPE: f64 = 0.3;
+const WIDEST: [f64; 4] = [0.1, 0.1, 0.5, 0.1];
+
+/// A best fit, and what it determines.
+#[derive(Debug)]
+pub(crate) struct Solution<'a> {
+    pub fit: Fit<'a>,
+    pub estimates: [Estimate; PARAMETERS],
+    /// Initial compliance of contact, rig and bodies.
+    pub total_compliance: Estimate,
+    pub profile: Vec<ProfilePoint>,
+    pub slips: bool,
+}
+
+/// A fit at one shape.
+#[derive(Clone)]
+struct Candidate<'a> {
+    fit: Fit<'a>,
+    chi_squared: f64,
+}
+
+impl<'a> Candidate<'a> {
+    fn new(mut fit: Fit<'a>, free: Free) -> Candidate<'a> {
+        fit.minimize(free);
+        let chi_squared = fit.chi_squared();
+        Candidate { fit, chi_squared }
+    }
+}
+
+/// Fits all free parameters, from start values of the others than the shape.
+pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f64; 2]>) -> Result<Solution<'a>, Error> {
+    let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
+    let others: Free = std::array::from_fn(|i| i != SHAPE && given[i].is_none());
+    let all: Free = std::array::from_fn(|i| i == SHAPE || others[i]);
+    start.settle(others);
+    let candidates = match range {
+        None => vec![Candidate::new(start, others)],
+        Some(range) => along_shapes(&start, range, others, all)?,
+    };
+    let best = best_of(&candidates);
+    let Candidate { fit, chi_squared } = candidates[best].clone();
+    // As many independent residuals as correlation times; each parameter takes one.
+    let residuals = fit.weighted_residuals();
+    let independent = residuals.iter().map(Vec::len).sum::<usize>() as f64 / correlation(&residuals);
+    let unit = chi_squared / (independent - fit.count() as f64).max(1.0);
+    let points = candidates.iter().map(|candidate| {
+        let excess = ((candidate.chi_squared - chi_squared).max(0.0) / unit).sqrt();
+        let relative_rms = (candidate.chi_squared / chi_squared).sqrt();
+        (ProfilePoint { shape: candidate.fit.parameters[SHAPE], relative_rms, admitted: excess <= QUANTILE }, excess)
+    });
+    let (profile, excesses): (Vec<_>, Vec<_>) = points.unzip();
+
+    let slips = fit.slip_ratios().iter().any(|ratio| *ratio > 1.0);
+    let mut estimates = fit.parameters.map(fixed);
+    let mut of_shapes = vec![(fit.clone(), others)];
+    if let Some(range) = range {
+        let mut refined = fit.clone();
+        refined.free = all;
+        let error = QUANTILE * (unit * refined.variances(&[[0.0, 0.0, 0.0, 1.0]])[0]).sqrt();
+        estimates[SHAPE] = shape_estimate(&profile, &excesses, best, error, range);
+        let Estimate { value, status, .. } = estimates[SHAPE];
+        of_shapes = if status == Status::Determined && value > range[0] && value < range[1] {
+            vec![(fit.clone(), all)]
+        } else {
+            let admitted = candidates.into_iter().zip(&profile).filter(|(_, point)| point.admitted);
+            admitted.map(|(candidate, _)| (candidate.fit, others)).collect()
+        };
+    }
+    let (values, lower, upper) = intervals(&fit, of_shapes, unit);
+    let scales = [values[FRICTION], values[TOTAL], values[CONTACT], values[TOTAL]];
+    let estimate = |i: usize| {
+        let half_width = 0.5 * (upper[i] - lower[i]);
+        let status = match i {
+            FRICTION if !slips => Status::Bounded,
+            _ if half_width <= WIDEST[i] * scales[i] => Status::Determined,
+            SERIES if upper[i] < scales[i] => Status::Bounded,
+            _ if lower[i] > 0.0 => Status::Bounded,
+            _ => Status::NotDetermined,
+        };
+        Estimate { value: values[i], lower: lower[i].max(0.0), upper: Some(upper[i]), status }
+    };
+    for i in (0..SHAPE).filter(|i| others[*i]) {
+        estimates[i] = estimate(i);
+    }
+    let is_fixed = !others[SERIES] && !others[CONTACT] && range.is_none();
+    let total_compliance = if is_fixed { fixed(values[TOTAL]) } else { estimate(TOTAL) };
+    let profile = if range.is_some() { profile } else { Vec::new() };
+    Ok(Solution { fit, estimates, total_compliance, profile, slips })
+}
+
+/// Fits at shapes over the whole range, each from the one beside it, and at the best shape, in the order of the shapes.
+fn along_shapes<'a>(
+    start: &Fit<'a>,
+    [low, high]: [f64; 2],
+    others: Free,
+    all: Free,
+) -> Result<Vec<Candidate<'a>>, Error> {
+    let shape = |k: usize| low + (high - low) * k as f64 / (SHAPES - 1) as f64;
+    let first = (0..SHAPES).find(|k| shape(*k) >= start.parameters[SHAPE]).unwrap_or(SHAPES - 1);
+    let mut candidates = Vec::new();
+    let (upwards, downwards) = ((first..SHAPES).collect::<Vec<_>>(), (0..first).rev().collect());
+    for shapes in [upwards, downwards] {
+        let mut from = start.clone();
+        for k in shapes {
+            from.set_shape(shape(k))?;
+            let found = Candidate::new(from, others);
+            from = found.fit.clone();
+            candidates.push(found);
+        }
+    }
+    let best = &candidates[best_of(&candidates)];
+    let refined = Candidate::new(best.fit.clone(), all);
+    if refined.chi_squared < best.chi_squared {
+        candidates.push(refined);
+    }
+    candidates.sort_by(|one, other| one.fit.parameters[SHAPE].total_cmp(&other.fit.parameters[SHAPE]));
+    Ok(candidates)
+}
+
+fn best_of(candidates: &[Candidate]) -> usize {
+    let better = |i: &usize, j: &usize| candidates[*i].chi_squared.total_cmp(&candidates[*j].chi_squared);
+    (0..candidates.len()).min_by(better).unwrap_or(0)
+}
+
+/// The interval of the shape: from the best one, with its error by the covariance, to where the root of the excess of the sum of
+/// squares is the quantile. That root is nearly linear; next to the best shape the covariance is more accurate.
+fn shape_estimate(
+    profile: &[ProfilePoint],
+    excesses: &[f64],
+    best: usize,
+    error: f64,
+    [low, high]: [f64; 2],
+) -> Estimate {
+    let value = profile[best].shape;
+    let end = |points: &mut dyn Iterator<Item = usize>, limit: f64| {
+        let mut last = best;
+        for k in points {
+            let step = profile[k].shape - profile[last].shape;
+            if profile[k].admitted {
+                last = k;
+            } else if last == best {
+                return value + step.signum() * error.min(step.abs());
+            } else {
+                return profile[last].shape + step * (QUANTILE - excesses[last]) / (excesses[k] - excesses[last]);
+            }
+        }
+        limit
+    };
+    let (lower, upper) = (end(&mut (0..best).rev(), low), end(&mut (best + 1..profile.len()), high));
+    let status = if upper - lower <= WIDEST_SHAPE {
+        Status::Determined
+    } else if profile.iter().all(|point| point.admitted) {
+        Status::NotDetermined
+    } else {
+        Status::Bounded
+    };
+    Estimate { value, lower, upper: Some(upper), status }
+}
+
+/// Place of the total compliance C + κ/k beside the three parameters.
+const TOTAL: usize = 3;
+
+/// Values of the best fit, and intervals that enclose those of fits at several shapes.
+fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> ([f64; 4], [f64; 4], [f64; 4]) {
+    let values = |fit: &Fit| {
+        let ([friction, series, contact, _], [law, slope]) = (fit.parameters, fit.law_compliance());
+        let combinations =
+            [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 1.0, law, contact * slope]];
+        ([friction, series, contact, series + contact * law], combinations)
+    };
+    let best = values(best).0;
+    let (mut lower, mut upper) = (best, best);
+    for (mut fit, free) in of_shapes {
+        fit.free = free;
+        let (values, combinations) = values(&fit);
+        for (i, variance) in fit.variances(&combinations).into_iter().enumerate() {
+            let error = QUANTILE * (unit * variance).sqrt();
+            (lower[i], upper[i]) = (lower[i].min(values[i] - error), upper[i].max(values[i] + error));
+        }
+    }
+    (best, lower, upper)
+}
+
+fn fixed(value: f64) -> Estimate {
+    Estimate { value, lower: value, upper: Some(value), status: Status::Fixed }
+}
+
+/// Factor by which correlated residuals enlarge variances: the sum of their autocorrelation up to its first zero; beyond it, the
+/// fit makes residuals of a cycle anticorrelated. The residuals of a wrong model are correlated over long parts of a cycle.
+fn correlation(residuals: &[Vec<f64>]) -> f64 {
+    let sum = |lag: usize| -> f64 {
+        let of_loop =
+            |one: &Vec<f64>| one.iter().zip(one.iter().skip(lag)).map(|(one, other)| one * other).sum::<f64>();
+        residuals.iter().map(of_loop).sum()
+    };
+    let (variance, longest) = (sum(0).max(f64::MIN_POSITIVE), residuals.iter().map(Vec::len).max().unwrap_or(0));
+    1.0 + 2.0 * (1..longest).map(|lag| sum(lag) / variance).take_while(|part| *part > 0.0).sum::<f64>()
+}
+
+/// The verdict in sentences.
+pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<[f64; 2]>) -> Vec<String> {
+    let [_, series, contact, shape] = &solution.estimates;
+    let interval =
+        |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
+    let mut sentences = Vec::new();
+    if friction.status != Status::Fixed {
+        sentences.push(match friction.status {
+            _ if !solution.slips => {
+                let bound = friction.lower;
+                format!("No loop reaches gross slip: the friction coefficient has only a lower bound, {bound:.4}.")
+            }
+            Status::Determined => format!("The friction coefficient is determined: {}.", interval(friction)),
+            _ => format!("The friction coefficient is only bounded: {}.", interval(friction)),
+        });
+    }
+    let total = &solution.total_compliance;
+    let part = (1.0 - series.value / total.value).max(0.0);
+    let percent = 100.0 * part;
+    sentences.push(match total.status {
+        Status::Determined | Status::Fixed => {
+            let stiffness = 1.0 / total.value;
+            format!("The initial stiffness of contact, rig and bodies together is determined: {stiffness:.4e}.")
+        }
+        _ => "The initial stiffness of contact, rig and bodies together is not determined.".to_owned(),
+    });
+    sentences.push(format!("In the best fit the contact has {percent:.1} % of the compliance."));
+    for (name, estimate) in [("series compliance", series), ("compliance of the contact", contact)] {
+        match estimate.status {
+            Status::Fixed => {}
+            Status::Determined => sentences.push(format!("The {name} is determined.")),
+            Status::Bounded => sentences.push(format!("The {name} is known only roughly.")),
+            Status::NotDetermined => sentences.push(format!("The {name} is not determined.")),
+        }
+    }
+    if let Some([low, high]) = range {
+        sentences.push(match shape.status {
+            Status::Determined => format!("The shape is determined: a/b is {}.", interval(shape)),
+            Status::NotDetermined if contact.status == Status::NotDetermined || part < 0.1 => format!(
+                "The series compliance hides the microslip: every shape, a/b from {low} to {high}, fits equally."
+            ),
+            Status::NotDetermined => format!("The shape is not determined: a/b from {low} to {high} fit equally."),
+            _ => format!("The shape is only bounded: a/b is {}.", interval(shape)),
+        });
+    }
+    sentences
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of which neighbours have the correlation ρ: the sum of ρ^|lag| over all lags is (1 + ρ)/(1 - ρ). The estimate from 1e5
+    /// samples has a standard error of some percent.
+    #[test]
+    fn correlation_is_that_of_an_autoregressive_process() {
+        let mut state = 1_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        for rho in [0.0, 0.5, 0.9] {
+            let mut last = 0.0;
+            let mut next = || {
+                last = rho * last + uniform();
+                last
+            };
+            let residuals: [Vec<f64>; 2] = std::array::from_fn(|_| (0..50_000).map(|_| next()).collect());
+            let expected = (1.0 + rho) / (1.0 - rho);
+            assert!((correlation(&residuals) / expected - 1.0).abs() < 0.1, "{rho}: {}", correlation(&residuals));
+        }
+    }
+}

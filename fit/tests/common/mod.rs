@@ -1,0 +1,134 @@
+//! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
+
+use microslip::Parameters;
+use microslip::constant_load::masing::step;
+use microslip::constant_load::state::{state_init, state_length};
+use microslip_fit::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce};
+use std::f64::consts::TAU;
+
+pub const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+
+/// The contact of `microslip example`: a/b = 0.33.
+pub fn flat() -> Contact {
+    let geometry = Geometry::Flat {
+        flat_half_width: 0.1e-3,
+        edge_radius: 50e-3,
+        length: 20e-3,
+        displacement_reference: DisplacementReference::CentrePoint,
+    };
+    Contact { geometry, normal_force: 800.0, friction_coefficient: 0.5, material: [STEEL; 2] }
+}
+
+/// The same contact as the library takes it.
+pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
+    let Geometry::Flat { flat_half_width, edge_radius, length, .. } = contact.geometry else { panic!("a flat") };
+    let material = contact
+        .material
+        .map(|Material { young_modulus, poisson_ratio }| microslip::Material { young_modulus, poisson_ratio });
+    let friction_coefficient = contact.friction_coefficient;
+    Parameters {
+        flat_half_width,
+        edge_radius,
+        length,
+        normal_force,
+        friction_coefficient,
+        material,
+        ..Parameters::default()
+    }
+}
+
+pub fn library_contact(contact: &Contact, normal_force: f64) -> microslip::Contact {
+    microslip::Contact::rounded_flat(&library_parameters(contact, normal_force)).unwrap()
+}
+
+/// Random numbers: a linear congruential generator of 64 bits.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Random {
+        let mut random = Random(seed);
+        (0..8).for_each(|_| {
+            random.uniform();
+        });
+        random
+    }
+
+    pub fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    /// Normally distributed, of variance 1 (Box and Muller).
+    pub fn normal(&mut self) -> f64 {
+        let (one, other) = (self.uniform(), self.uniform());
+        (-2.0 * one.ln()).sqrt() * (TAU * other).cos()
+    }
+}
+
+/// How a loop is measured. Noise, offset and drift of the force are fractions of the slip force, of the displacement of its range.
+#[derive(Clone, Copy)]
+pub struct Rig {
+    pub series_compliance: f64,
+    pub contact_compliance: f64,
+    pub normal_force: f64,
+    /// Amplitude of the contact's displacement over that of gross slip.
+    pub amplitude: f64,
+    pub samples: usize,
+    pub cycles: usize,
+    /// Noise of force and displacement.
+    pub noise: [f64; 2],
+    /// Correlation of the noise of successive samples.
+    pub correlation: f64,
+    pub offset: f64,
+    pub drift: f64,
+}
+
+pub const RIG: Rig = Rig {
+    series_compliance: 0.0,
+    contact_compliance: 1.0,
+    normal_force: 800.0,
+    amplitude: 1.5,
+    samples: 200,
+    cycles: 2,
+    noise: [0.0; 2],
+    correlation: 0.0,
+    offset: 0.1,
+    drift: 0.05,
+};
+
+pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measurement {
+    let law = &library_contact(contact, rig.normal_force);
+    let mut state = vec![0.0; state_length(16)];
+    state_init(&mut state).unwrap();
+    let amplitude = rig.amplitude * law.slip_displacement;
+    let mut noise = [0.0; 2];
+    let (mut displacement, mut force) = (Vec::new(), Vec::new());
+    let total = rig.samples * rig.cycles + rig.samples / 2;
+    // From rest to the first reversal and beyond, then complete cycles.
+    for i in 0..total {
+        // The reversals are between samples.
+        let phase = TAU * (i as f64 + 0.3) / rig.samples as f64;
+        let at = amplitude * phase.sin();
+        let point = step(law, &state, at);
+        let tangential = point.force();
+        point.write(&mut state);
+        let scatter = (1.0 - rig.correlation * rig.correlation).sqrt();
+        noise = noise.map(|last| rig.correlation * last + scatter * random.normal());
+        let part = i as f64 / total as f64;
+        let end = rig.contact_compliance * amplitude + rig.series_compliance * law.slip_force;
+        let disturbance = rig.offset + rig.drift * part;
+        force.push(tangential + law.slip_force * (disturbance + rig.noise[0] * noise[0]));
+        displacement.push(
+            rig.contact_compliance * at
+                + rig.series_compliance * tangential
+                + end * (disturbance + rig.noise[1] * noise[1]),
+        );
+    }
+    Measurement {
+        name: format!("{} N", rig.normal_force),
+        displacement,
+        force,
+        normal_force: Some(NormalForce::Constant(rig.normal_force)),
+        time: None,
+    }
+}

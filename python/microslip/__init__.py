@@ -1,0 +1,81 @@
+"""microslip: a friction contact law for blade dynamics, the microslip model of Allara (2009).
+
+`Contact` is the law under a constant normal force, `Element` that under a varying one, with separation. Forces are totals in any
+one consistent set of units; the text names SI. A positive displacement gives a positive force. Harmonics are coefficients
+[c0, cos1, sin1, ..., cosH, sinH]; Jacobians are jacobian[i, j] = d force_i / d displacement_j.
+
+Arrays of float64 that are contiguous are read where they are; other real numbers are converted, anything else is a TypeError. A
+call that the library rejects raises `Error` with its status code, and has changed nothing. Any thread may call any function; only
+a `State` that is advanced in place must not be used by two threads at once.
+"""
+
+from ._contact import (
+    ComplexStiffness,
+    Contact,
+    ContactArray,
+    HarmonicForce,
+    HysteresisLoop,
+    Iwan,
+    Jenkins,
+    MonotonicDisplacement,
+    MonotonicForce,
+    Sensitivity,
+    Slip,
+    Step,
+    StiffnessTable,
+    Tractions,
+)
+from ._core import Error, Parameter, Status, ffi, lib, status_text
+from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce
+from ._fit import FitError, fit
+from ._memory import ElementState, ElementWorkspace, State, Workspace
+
+__version__: str = ffi.string(lib.mslip_version()).decode()
+ABI_VERSION: int = lib.mslip_abi_version()
+
+CENTRE_POINT = 0
+RIGID_STRIP = 1
+UNIFORM_SAMPLING = 0
+EVENT_DRIVEN = 1
+APPROACH = 0
+NORMAL_FORCE = 1
+
+__all__ = [
+    "ABI_VERSION",
+    "APPROACH",
+    "CENTRE_POINT",
+    "EVENT_DRIVEN",
+    "NORMAL_FORCE",
+    "RIGID_STRIP",
+    "UNIFORM_SAMPLING",
+    "ComplexStiffness",
+    "Contact",
+    "ContactArray",
+    "Element",
+    "ElementArray",
+    "ElementState",
+    "ElementStep",
+    "ElementWorkspace",
+    "Error",
+    "FitError",
+    "HarmonicForce",
+    "HysteresisLoop",
+    "Iwan",
+    "Jenkins",
+    "MonotonicDisplacement",
+    "MonotonicForce",
+    "NormalApproach",
+    "NormalForce",
+    "Parameter",
+    "Sensitivity",
+    "Slip",
+    "State",
+    "Status",
+    "Step",
+    "StiffnessTable",
+    "Tractions",
+    "Workspace",
+    "__version__",
+    "fit",
+    "status_text",
+]

@@ -1,0 +1,50 @@
+"""Reader of the reference tables, tests/golden of the repository: inputs are exact doubles, outputs have 25 digits."""
+
+from __future__ import annotations
+
+import csv
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def rows_of(path: Path) -> list[dict[str, Any]]:
+    """The rows of a file by the names of its columns; cells that are numbers as such."""
+
+    def cell(text: str) -> Any:
+        try:
+            return float(text)
+        except ValueError:
+            return text.strip()
+
+    with open(path, newline="") as file:
+        return [{key.strip(): cell(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def rows(name: str) -> list[dict[str, Any]]:
+    """The rows of a reference table."""
+    return rows_of(REPOSITORY / "tests" / "golden" / f"{name}.csv")
+
+
+def groups(name: str, *columns: str) -> list[list[dict[str, Any]]]:
+    """Successive rows that are equal in some columns."""
+    return [list(group) for _, group in groupby(rows(name), key=lambda row: [row[column] for column in columns])]
+
+
+def column(group: list[dict[str, Any]], name: str) -> np.ndarray:
+    """A column as numbers: NaN for a cell of text."""
+    return np.array([row[name] if isinstance(row[name], float) else np.nan for row in group])
+
+
+def flat(row: dict[str, Any], **others: float) -> dict[str, Any]:
+    """Parameters of the flat with rounded edges in a row."""
+    parameters = {"flat_half_width": row["a"], "edge_radius": row["R"], "length": row["L"]}
+    if "E1" in row:
+        parameters |= {"young_modulus": (row["E1"], row["E2"]), "poisson_ratio": (row["nu1"], row["nu2"])}
+    else:
+        parameters |= {"young_modulus": row["E"], "poisson_ratio": row["nu"]}
+    return parameters | others

@@ -1,0 +1,47 @@
+"""The Python programs of the documents and the examples run."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from tables import REPOSITORY
+
+EXAMPLES = REPOSITORY / "python" / "examples"
+PROGRAMS = [
+    pytest.param(program, id=f"{document}-{i}")
+    for document in ["README.md", "python/README.md"]
+    for i, program in enumerate(re.findall(r"^```python\n(.*?)^```", (REPOSITORY / document).read_text(), re.MULTILINE | re.DOTALL))
+]
+
+
+def run(*command, directory):
+    environment = os.environ | {"PYTHONPATH": str(EXAMPLES), "MPLBACKEND": "agg"}
+    result = subprocess.run([sys.executable, *command], cwd=directory, env=environment, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_programs_of_the_documents(program, tmp_path):
+    assert run("-c", program, directory=tmp_path)
+
+
+def test_pictures(tmp_path):
+    run(str(EXAMPLES / "pictures.py"), directory=tmp_path)
+    pictures = {path.name: path.stat().st_size for path in tmp_path.iterdir()}
+    assert set(pictures) == {"loops.png", "stiffness.png", "response.png", "varying.png"}
+    assert min(pictures.values()) > 10_000
+
+
+@pytest.mark.parametrize("name", ["times", "pyharm_microslip", "tmdsimpy_microslip"])
+def test_programs_that_measure_times(name, tmp_path):
+    output = run(str(EXAMPLES / f"{name}.py"), directory=tmp_path)
+    times = dict(re.findall(r"^(.*): ([\d.]+) µs", output, re.MULTILINE))
+    assert len(times) >= 2
+    slider = next(float(time) for name, time in times.items() if name.startswith("spring-slider in NumPy"))
+    # A factor of ten to eighty, on whatever machine.
+    assert all(float(time) < slider for name, time in times.items() if "slider" not in name and "Jenkins" not in name)

@@ -1,0 +1,416 @@
+"""The C interface through Python: all functions, errors as exceptions, arrays without copies, matrices not transposed."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import re
+import threading
+
+import microslip
+import numpy as np
+import pytest
+from microslip import _contact, _core, _element, _memory
+from numpy.testing import assert_allclose
+from tables import REPOSITORY
+
+FLAT = {
+    "flat_half_width": 0.5e-3,
+    "edge_radius": 3e-3,
+    "length": 20e-3,
+    "normal_force": 800.0,
+    "friction_coefficient": 0.5,
+    "young_modulus": (2e11, 1.1e11),
+    "poisson_ratio": 0.3,
+}
+ELLIPSE = {
+    "semi_axis_x": 1e-3,
+    "semi_axis_y": 2e-3,
+    "normal_force": 800,
+    "friction_coefficient": 0.5,
+    "young_modulus": 2e11,
+    "poisson_ratio": 0.3,
+}
+HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
+
+contact = microslip.Contact(**FLAT)
+elliptic = microslip.Contact.elliptic(**ELLIPSE)
+element = microslip.Element(**FLAT)
+both = microslip.Element(**FLAT, directions=2)
+contacts = microslip.ContactArray([contact, elliptic])
+elements = microslip.ElementArray([element, microslip.Element.elliptic(**ELLIPSE)])
+workspace = microslip.Workspace(2, 64)
+element_workspace = microslip.ElementWorkspace(1, 2, 64)
+table = microslip.StiffnessTable(contact)
+SLIP = contact.slip_displacement
+HARMONICS = SLIP * np.array([0.1, 1.3, 0.2, -0.3, 0.4])
+ELEMENT_HARMONICS = np.array([HARMONICS, element.approach * np.array([0.7, 0.2, 0.1, -0.05, 0.1])])
+
+
+def pressed(directions=1):
+    one = both if directions == 2 else element
+    return one.update(microslip.ElementState(directions), [SLIP] * directions + [one.approach]).state
+
+
+def reloaded(value):
+    return pickle.loads(pickle.dumps(value))
+
+
+# A call that runs each function. The first two are constants of the package, read when it is imported.
+CALLS = {
+    "version": lambda: _core.lib.mslip_version(),
+    "abi_version": lambda: _core.lib.mslip_abi_version(),
+    "status_text": lambda: microslip.status_text(1),
+    "parameters_default": lambda: microslip.Contact(**FLAT),
+    "elliptic_parameters_default": lambda: microslip.Contact.elliptic(**ELLIPSE),
+    "contact_init": lambda: microslip.Contact(**FLAT),
+    "contact_init_elliptic": lambda: microslip.Contact.elliptic(**ELLIPSE),
+    "contact_check": lambda: reloaded(contact),
+    "tractions": lambda: contact.tractions(100, 0.0),
+    "slip": lambda: contact.slip(100, 0.0),
+    "monotonic_displacement": lambda: contact.monotonic_displacement(100),
+    "monotonic_force": lambda: contact.monotonic_force(1e-7),
+    "monotonic_sensitivity": lambda: contact.monotonic_sensitivity(1e-7),
+    "harmonic_sensitivity": lambda: contact.harmonic_sensitivity(workspace, HARMONICS),
+    "state_length": lambda: microslip.State(),
+    "state_init": lambda: microslip.State(),
+    "state_check": lambda: reloaded(microslip.State()),
+    "state_error": lambda: microslip.State().force_error,
+    "masing_update": lambda: contact.update(microslip.State(), 1e-7),
+    "masing_path": lambda: contact.update(microslip.State(), [1e-7]),
+    "masing_tractions": lambda: contact.tractions(microslip.State(), 0.0),
+    "hysteresis_loop": lambda: contact.hysteresis_loop(1e-7),
+    "dissipated_energy": lambda: contact.dissipated_energy(100),
+    "complex_stiffness": lambda: contact.complex_stiffness(1e-7),
+    "stiffness_table_length": lambda: microslip.StiffnessTable(contact),
+    "stiffness_table_init": lambda: microslip.StiffnessTable(contact),
+    "complex_stiffness_tabulated": lambda: contact.complex_stiffness(1e-7, table),
+    "jenkins_equivalent": lambda: contact.jenkins_equivalent(1e-7),
+    "iwan_equivalent": lambda: contact.iwan_equivalent(4),
+    "harmonic_workspace_length": lambda: microslip.Workspace(1, 8),
+    "harmonic_workspace_init": lambda: microslip.Workspace(1, 8),
+    "harmonic_workspace_size": lambda: microslip.Workspace(1, 8),
+    "element_workspace_length": lambda: microslip.ElementWorkspace(1, 1, 8),
+    "element_workspace_init": lambda: microslip.ElementWorkspace(1, 1, 8),
+    "element_workspace_size": lambda: microslip.ElementWorkspace(1, 1, 8),
+    "element_harmonic_force": lambda: element.harmonic_force(element_workspace, ELEMENT_HARMONICS),
+    "harmonic_force": lambda: contact.harmonic_force(workspace, HARMONICS),
+    "element_init": lambda: microslip.Element(**FLAT),
+    "element_init_elliptic": lambda: microslip.Element.elliptic(**ELLIPSE),
+    "element_check": lambda: reloaded(element),
+    "normal_force": lambda: element.normal_force_at(1e-6),
+    "normal_approach": lambda: element.approach_at(100),
+    "element_state_length": lambda: microslip.ElementState(2),
+    "element_state_init": lambda: microslip.ElementState(2),
+    "element_state_check": lambda: reloaded(pressed(2)),
+    "element_state_error": lambda: pressed().force_error,
+    "element_update": lambda: element.update(pressed(), [0, 1e-6]),
+    "element_path": lambda: element.update(pressed(), [[0, 1e-6]]),
+    "element_tractions": lambda: element.tractions(pressed(), 0.0),
+    "batch_complex_stiffness": lambda: contacts.complex_stiffness([1e-7]),
+    "batch_masing_update": lambda: contacts.update(contacts.states(), [1e-7, 2e-7]),
+    "batch_harmonic_force": lambda: contacts.harmonic_force(workspace, [HARMONICS]),
+    "batch_element_update": lambda: elements.update(elements.states(), [[0, 1e-6], [0, 2e-6]]),
+    "batch_element_harmonic_force": lambda: elements.harmonic_force(element_workspace, [ELEMENT_HARMONICS]),
+}
+
+
+class Recorder:
+    def __init__(self, lib):
+        self.lib, self.called = lib, []
+
+    def __getattr__(self, name):
+        self.called.append(name)
+        return getattr(self.lib, name)
+
+
+def test_every_function_of_the_header_is_called(monkeypatch):
+    declared = set(re.findall(r"^\w.*?\bmslip_(\w+)\(", HEADER, flags=re.MULTILINE))
+    assert declared == set(CALLS)
+    recorder = Recorder(_core.lib)
+    for module in (_core, _contact, _element, _memory):
+        monkeypatch.setattr(module, "lib", recorder)
+    for name, call in CALLS.items():
+        recorder.called.clear()
+        call()
+        assert f"mslip_{name}" in recorder.called
+
+
+def test_status_codes_and_constants_are_those_of_the_header():
+    defined = {name: int(value) for name, value in re.findall(r"#define MSLIP_(\w+) (\d+)", HEADER)}
+    version = ".".join(str(defined.pop(f"VERSION_{part}")) for part in ("MAJOR", "MINOR", "PATCH"))
+    assert microslip.__version__ == version
+    assert defined.pop("OK") == 0
+    for name in ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "APPROACH", "NORMAL_FORCE"]:
+        assert getattr(microslip, name) == defined.pop(name)
+    assert len(microslip.Parameter) == defined.pop("PARAMETER_COUNT")
+    for parameter in microslip.Parameter:
+        assert parameter.value == defined.pop(f"BY_{parameter.name}")
+    assert {status.name: status.value for status in microslip.Status} == defined
+    # The comment above each definition of a code is its message.
+    for text, name in re.findall(r"// (.*)\n#define MSLIP_(\w+) \d+", HEADER):
+        if name in microslip.Status.__members__:
+            assert microslip.status_text(microslip.Status[name]) == text
+
+
+def test_errors():
+    with pytest.raises(microslip.Error, match=r"^edge_radius must be finite and > 0") as caught:
+        microslip.Contact(**{**FLAT, "edge_radius": -1})
+    assert caught.value.status is microslip.Status.BAD_EDGE_RADIUS
+    assert reloaded(caught.value).status == caught.value.status
+    with pytest.raises(microslip.Error, match="each poisson_ratio"):
+        microslip.Contact(**{**FLAT, "poisson_ratio": (0.3, 0.6)})
+    with pytest.raises(microslip.Error, match="displacement must be finite"):
+        contact.monotonic_force([0.0, np.nan])
+    with pytest.raises(microslip.Error, match="not available"):
+        elliptic.slip(1.0, [0.0])
+    with pytest.raises(microslip.Error, match="harmonics"):
+        microslip.Workspace(0, 8)
+    with pytest.raises(microslip.Error, match="samples"):
+        microslip.Workspace(4, 8)
+    with pytest.raises(microslip.Error, match="BAD_INDEX"):
+        contacts.complex_stiffness([1e-7], index=[2])
+    with pytest.raises(microslip.Error, match="BAD_INDEX"):
+        contacts.complex_stiffness([1e-7], index=[2**32])
+    with pytest.raises(microslip.Error, match="BAD_DIRECTIONS"):
+        microslip.ElementArray([element, both])
+    with pytest.raises(microslip.Error, match="BAD_DIRECTIONS"):
+        both.harmonic_force(element_workspace, ELEMENT_HARMONICS)
+    state = microslip.State()
+    before = bytes(state)
+    with pytest.raises(microslip.Error):
+        contact.update(state, [1e-7, np.inf], out=state)
+    assert bytes(state) == before
+
+
+@pytest.mark.parametrize("wrong", [1j, "1e-7", None, True, [1e-7, None]])
+def test_what_is_no_real_number_is_a_type_error(wrong):
+    with pytest.raises(TypeError, match="displacement must be real numbers"):
+        contact.monotonic_force(wrong)
+
+
+def test_wrong_shapes_are_value_errors():
+    for call in [
+        lambda: contact.harmonic_force(workspace, np.zeros(7)),
+        lambda: contact.update(microslip.State(), np.zeros((2, 2))),
+        lambda: contact.update(microslip.State(4), 0, out=microslip.State(5)),
+        lambda: element.update(microslip.ElementState(), [0, 0, 0]),
+        lambda: element.harmonic_force(element_workspace, ELEMENT_HARMONICS.T),
+        lambda: contacts.update(contacts.states(), [0.0]),
+        lambda: contacts.update(contacts.states(), [0.0, 0.0], out=np.zeros((2, 7))),
+        lambda: contacts.complex_stiffness(np.zeros(3)),
+        lambda: contacts.complex_stiffness(np.zeros(3), index=[0, 1]),
+        lambda: microslip.Contact.from_bytes(b"short"),
+    ]:
+        with pytest.raises(ValueError, match=r"shape|dimension|doubles|array|index|bytes"):
+            call()
+
+
+def test_arrays_are_used_as_they_are_or_converted():
+    exact = np.linspace(-2, 2, 7) * SLIP
+    assert _core.doubles(exact, "x") is exact
+    frozen = exact.copy()
+    frozen.flags.writeable = False
+    assert _core.doubles(frozen, "x") is frozen
+    assert contact.monotonic_force(frozen).force.shape == (7,)
+    memory = _core.ffi.cast("intptr_t", _core.pointer(exact))
+    assert int(memory) == exact.ctypes.data
+    expected = contact.monotonic_force(exact).force
+    strided = np.zeros((7, 3))[:, 1]
+    strided[:] = exact
+    shifted = np.zeros(57, dtype=np.uint8)[1:].view(np.float64)
+    shifted[:] = exact
+    for other in [list(exact), exact.astype(">f8"), strided, shifted, exact.astype(np.longdouble)]:
+        assert (contact.monotonic_force(other).force == expected).all()
+    square = np.asfortranarray(exact[:6].reshape(2, 3))
+    assert (contact.monotonic_force(square).force == expected[:6].reshape(2, 3)).all()
+    assert_allclose(contact.monotonic_force(exact.astype(np.float32)).force, expected, rtol=1e-6)
+    assert contact.monotonic_force(np.array([0, 1])).force[1] == contact.slip_force
+    scalar = contact.monotonic_force(SLIP / 2).force
+    assert isinstance(scalar, float)
+    assert contact.monotonic_force(np.zeros((0, 2))).force.shape == (0, 2)
+
+
+def difference(function, at, steps):
+    """Central differences by column."""
+    columns = []
+    for j in range(at.size):
+        step = np.zeros(at.size)
+        step[j] = steps.ravel()[j]
+        step = step.reshape(at.shape)
+        columns.append((function(at + step) - function(at - step)).ravel() / (2 * step.ravel()[j]))
+    return np.array(columns).T
+
+
+def test_jacobians_are_not_transposed():
+    # Differences of second order; steps within a branch.
+    found = contact.harmonic_force(workspace, HARMONICS).jacobian
+    steps = np.full(5, 1e-7 * SLIP)
+    expected = difference(lambda u: contact.harmonic_force(workspace, u, jacobian=False).force, HARMONICS, steps)
+    scale = abs(expected).max()
+    assert abs(expected - expected.T).max() > 0.1 * scale
+    assert_allclose(found, expected, rtol=0, atol=1e-6 * scale)
+    batch = contacts.harmonic_force(workspace, [HARMONICS, HARMONICS * 0.5], index=[0, 0])
+    assert (batch.jacobian[0] == found).all()
+    assert (batch.jacobian[1] == contact.harmonic_force(workspace, HARMONICS * 0.5).jacobian).all()
+
+
+@pytest.mark.parametrize("directions", [1, 2])
+def test_jacobians_of_elements_are_not_transposed(directions):
+    one = element if directions == 1 else both
+    space = microslip.ElementWorkspace(directions, 2, 64)
+    u = ELEMENT_HARMONICS if directions == 1 else np.insert(ELEMENT_HARMONICS, 1, HARMONICS[::-1], axis=0)
+    found = one.harmonic_force(space, u)
+    assert found.force.shape == u.shape
+    steps = np.repeat([SLIP] * directions + [element.approach], 5) * 1e-7
+    expected = difference(lambda u: one.harmonic_force(space, u, jacobian=False).force, u, steps)
+    scale = abs(expected).max()
+    # Nothing tangential changes the normal force; the normal displacement changes the tangential force.
+    assert (found.jacobian[5 * directions :, : 5 * directions] == 0).all()
+    assert abs(found.jacobian[: 5 * directions, 5 * directions :]).max() > 0.01 * scale
+    assert_allclose(found.jacobian, expected, rtol=0, atol=1e-5 * scale)
+    batch = microslip.ElementArray([one]).harmonic_force(space, [u, u], index=[0, 0])
+    assert (batch.force[1] == found.force).all()
+    assert (batch.jacobian[1] == found.jacobian).all()
+    assert batch.dissipated[1] == found.dissipated
+
+
+@pytest.mark.parametrize("directions", [1, 2])
+def test_tangents_are_not_transposed(directions):
+    one = element if directions == 1 else both
+    state = pressed(directions)
+    to = np.array([*[1.4 * SLIP, 0.7 * SLIP][:directions], 0.9 * element.approach])
+    found = one.update(state, to)
+    expected = difference(lambda u: one.update(state, u).force, to, 1e-6 * to)
+    assert abs(found.tangent[0, -1]) > 0
+    assert found.tangent[-1, 0] == 0
+    assert_allclose(found.tangent, expected, rtol=0, atol=1e-5 * abs(expected).max())
+    path = one.update(state, [to, 0.5 * to])
+    assert (path.tangent[0] == found.tangent).all()
+    array = microslip.ElementArray([one, one])
+    force, tangent, dissipated, new = array.update(np.array([state.array, state.array]), [to, 0.5 * to])
+    assert (force[0] == found.force).all()
+    assert (tangent[0] == found.tangent).all()
+    assert dissipated[0] == found.dissipated
+    assert (new[0] == found.state.array).all()
+
+
+@pytest.mark.parametrize("parameter", microslip.Parameter)
+def test_sensitivities_are_derivatives(parameter):
+    name = "young_modulus" if parameter == microslip.Parameter.COMPOSITE_MODULUS else parameter.name.lower()
+
+    def changed(factor):
+        return microslip.Contact(**(FLAT | {name: np.multiply(FLAT[name], factor)}))
+
+    step = 1e-5
+    value = contact.composite_modulus if name == "young_modulus" else FLAT[name]
+    displacement = np.array([[0.3, 0.9], [-0.7, 1.5]]) * SLIP
+    for found, evaluate in [
+        (contact.monotonic_sensitivity(displacement), lambda one: one.monotonic_force(displacement).force),
+        (contact.harmonic_sensitivity(workspace, HARMONICS), lambda one: one.harmonic_force(workspace, HARMONICS).force),
+    ]:
+        assert_allclose(found.force, evaluate(contact), rtol=0, atol=1e-13 * contact.slip_force)
+        expected = (evaluate(changed(1 + step)) - evaluate(changed(1 - step))) / (2 * step * value)
+        assert found.sensitivity.shape == (*expected.shape, 6)
+        # Differences of second order, and roundings of the force over the step.
+        assert_allclose(found.sensitivity[..., parameter], expected, rtol=1e-6, atol=1e-8 * contact.slip_force / value)
+
+
+def test_batches_are_single_calls():
+    displacement = np.array([0.3, -0.8, 1.2]) * SLIP
+    index = np.array([1, 0, 0])
+    chosen = [contacts[int(i)] for i in index]
+    states = contacts.states(3)
+    kept = states.copy()
+    force, stiffness, dissipated, new = contacts.update(states, displacement, index=index)
+    assert (states == kept).all()
+    for i, one in enumerate(chosen):
+        step = one.update(microslip.State(), displacement[i])
+        assert (force[i], stiffness[i], dissipated[i]) == step[:3]
+        assert (new[i] == step.state.array).all()
+    stiffness = contacts.complex_stiffness(abs(displacement), index=index, active=[True, False, True])
+    for i, one in enumerate(chosen):
+        expected = one.complex_stiffness(abs(displacement[i])) if i != 1 else (0, 0, 0, 0)
+        assert tuple(values[i] for values in stiffness) == tuple(expected)
+    in_place = contacts.update(states, displacement, index=index, active=[1, 0, 1], out=states)
+    assert in_place[3] is states
+    assert (states[[0, 2]] == new[[0, 2]]).all()
+    assert (states[1] == kept[1]).all()
+    assert [c.slip_force for c in contacts] == [contact.slip_force, elliptic.slip_force]
+
+
+def test_plain_data_is_pickled_and_checked():
+    state = contact.update(microslip.State(), [SLIP / 2, -SLIP / 4]).state
+    for value in [contact, elliptic, element, both, state, pressed(), pressed(2)]:
+        for other in [reloaded(value), copy.deepcopy(value)]:
+            assert type(other) is type(value)
+            assert other is not value
+            assert bytes(other) == bytes(value)
+    assert reloaded(pressed(2)).directions == 2
+    assert (reloaded(table).array == table.array).all()
+    assert [bytes(c) for c in reloaded(contacts)] == [bytes(c) for c in contacts]
+    assert [bytes(c) for c in reloaded(elements)] == [bytes(c) for c in elements]
+    assert (
+        contact.harmonic_force(reloaded(workspace), HARMONICS).dissipated == contact.harmonic_force(workspace, HARMONICS).dissipated
+    )
+    assert repr(reloaded(element_workspace)) == "ElementWorkspace(1, 2, 64, 0)"
+    # One wrong byte in the stored copy.
+    for value, status in [
+        (contact, microslip.Status.BAD_CONTACT),
+        (element, microslip.Status.BAD_ELEMENT),
+        (state, microslip.Status.BAD_STATE),
+        (pressed(), microslip.Status.BAD_STATE),
+    ]:
+        pickled = pickle.dumps(value)
+        data = bytes(value)
+        broken = data[:3] + bytes([data[3] ^ 0x40]) + data[4:]
+        with pytest.raises(microslip.Error) as caught:
+            pickle.loads(pickled.replace(data, broken))
+        assert caught.value.status == status
+    with pytest.raises(microslip.Error):
+        microslip.State.from_bytes(b"")
+
+
+def test_values_of_a_contact_can_only_be_read():
+    assert contact.slip_force == 400
+    with pytest.raises(AttributeError, match="can only be read"):
+        contact.slip_force = 1.0
+    assert microslip.Contact.slip_force.__doc__ == "mu N [N]."
+    assert (both.directions, both.normal_input) == (2, microslip.APPROACH)
+
+
+def test_equivalents():
+    jenkins = contact.jenkins_equivalent(SLIP)
+    assert jenkins.slip_force < contact.slip_force
+    iwan = contact.iwan_equivalent(8)
+    assert_allclose(iwan.slip_force.sum(), contact.slip_force, rtol=1e-14)
+    displacement = np.linspace(0, 1.5, 200) * SLIP
+    parallel = np.minimum(np.outer(displacement, iwan.stiffness), iwan.slip_force).sum(axis=1)
+    error = abs(parallel - contact.monotonic_force(displacement).force).max() / contact.slip_force
+    assert 0.5 * iwan.force_error < error <= iwan.force_error * (1 + 1e-9)
+
+
+def test_hysteresis_loop():
+    loop = contact.hysteresis_loop(0.8 * SLIP, 400)
+    assert_allclose(loop.displacement, 0.8 * SLIP * np.cos(2 * np.pi * np.arange(400) / 400), rtol=0, atol=1e-15 * SLIP)
+    # The area of the polygon, of second order in the distance of the points.
+    area = 0.5 * np.sum(loop.displacement * np.roll(loop.force, -1) - np.roll(loop.displacement, -1) * loop.force)
+    assert abs(area) == pytest.approx(contact.dissipated_energy(loop.force.max()), rel=1e-3)
+
+
+def test_threads_share_a_workspace():
+    # Calls of about a millisecond, so that threads meet in them.
+    long = microslip.Workspace(2, 20_000)
+    scales = [1, 0.5, 0.1] * 10
+    expected = [contact.harmonic_force(long, HARMONICS * scale).force for scale in scales]
+    results = [[] for _ in range(4)]
+
+    def run(mine):
+        mine.extend(contact.harmonic_force(long, HARMONICS * scale).force for scale in scales)
+
+    threads = [threading.Thread(target=run, args=(mine,)) for mine in results]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(mine, expected) for mine in results)

@@ -1,0 +1,127 @@
+"""The element of pyHarm: a forced response, the element with a varying normal force, and the conventions of pyHarm."""
+
+from __future__ import annotations
+
+import logging
+
+import microslip
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from pyHarm.Maestro import Maestro
+from pyharm_microslip import CONTACT, DAMPING, LENGTH, MASS, STIFFNESS, deviation, response, response_at, two_masses
+from tables import REPOSITORY
+
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::numba.NumbaPerformanceWarning"),
+    pytest.mark.filterwarnings("ignore::DeprecationWarning"),
+]
+logging.disable(logging.CRITICAL)
+
+contact = microslip.Contact(**CONTACT)
+SLIP = contact.slip_displacement
+
+
+def test_response_of_two_masses_is_that_of_the_fortran_example():
+    # The Fortran example stops at a residual of 1e-12 of the displacement.
+    assert deviation(REPOSITORY / "fortran_examples" / "expected" / "two_dof.csv") < 1e-11
+
+
+def test_continuation_passes_the_resonance():
+    maestro = Maestro(two_masses({"type": "microslip", "dirs": [0], "law": contact}, [300.0, 900.0]))
+    frequencies, coefficients = response(maestro)
+    amplitude = np.hypot(coefficients[:, 0, 1], coefficients[:, 0, 2])
+    assert len(frequencies) > 100
+    assert 780 < frequencies[amplitude.argmax()] < 800
+    assert amplitude.max() > 4 * amplitude[0]
+
+
+def connector(law, **others):
+    """The contact alone, of nodes with two or three directions, in pyHarm's units."""
+    dirs = [0] if law is contact else list(range(law.directions + 1))
+    data = {"type": "microslip", "dirs": dirs, "law": law, **others}
+    system = Maestro(two_masses(data, [300.0, 900.0], ndofs=max(len(dirs), 1))).system
+    return next(e for e in system.LE if e.name == "contact"), system.ndofs
+
+
+@pytest.mark.parametrize("directions", [0, 1, 2])
+def test_jacobian_is_the_derivative_of_the_residual(directions):
+    law = microslip.Element(**CONTACT, directions=directions) if directions else contact
+    element, unknowns = connector(law, **({"interference": law.approach} if directions else {}))
+    x = 0.3 * SLIP / LENGTH * np.random.default_rng(1).standard_normal(unknowns)
+    jacobian, by_frequency = element.evalJacobian(x, 1.0)
+    assert (by_frequency == 0).all()
+    step = 1e-6 * SLIP / LENGTH
+    differences = []
+    for i in element.indices:
+        d = step * (np.arange(unknowns) == i)
+        differences.append((element.evalResidual(x + d, 1.0) - element.evalResidual(x - d, 1.0)) / (2 * step))
+    # Differences of second order with steps of 1e-6.
+    assert_allclose(jacobian, np.array(differences).T, rtol=0, atol=1e-4 * abs(jacobian).max())
+
+
+def test_a_mean_displacement_loads_the_contact_as_pyharms_jenkins_element():
+    own, unknowns = connector(contact)
+    jenkins = {"type": "Jenkins", "dirs": [0], "mu": 0.4, "N0": 150.0, "k": contact.initial_stiffness}
+    other = next(e for e in Maestro(two_masses(jenkins, [300.0, 900.0])).system.LE if e.name == "contact")
+    x = np.zeros(unknowns)
+    x[1], x[3] = 0.02 * SLIP / LENGTH, 0.01 * SLIP / LENGTH  # mean and cosine of the second mass
+    # Small displacements: the contact is hardly softer than its initial stiffness.
+    assert_allclose(own.evalResidual(x, 1.0)[:2], other.evalResidual(x, 1.0)[:2], rtol=0.02)
+    assert own.evalResidual(x, 1.0)[0] > 0
+
+
+def test_element_with_a_varying_normal_force():
+    """Masses that move in a plane, the second one pressed against an inclined face by 150 N: undeformed in equilibrium."""
+    element = microslip.Element(**CONTACT)
+    angle = np.radians(70)
+    inclined = {"coordinates": {"face": [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]}}
+    data = {"type": "microslip", "dirs": [0, 1], "law": element, "interference": element.approach, "coordinatesystem": "face"}
+    idata = two_masses(data, [600.0, 760.0], forcing=8.0, ndofs=2) | inclined
+    for direction, component in enumerate(inclined["coordinates"]["face"][1]):
+        preload = {
+            "type": "GOForcing",
+            "connect": {"masses": [1]},
+            "dirs": [direction],
+            "dto": 0,
+            "ho": 0,
+            "amp": 150.0 * component,
+        }
+        idata["connectors"][f"preload {direction}"] = preload
+    maestro = Maestro(idata)
+    frequencies = np.array([620.0, 700.0, 750.0])
+    found = response_at(maestro, frequencies)
+    workspace = microslip.ElementWorkspace(1, 5, 128)
+    face = np.array(inclined["coordinates"]["face"])
+    for frequency, x in zip(frequencies, found):
+        # The equations of motion with the element called directly; rows: mass 1 x, y, mass 2 x, y.
+        displacement = face @ x[2:]
+        displacement[1, 0] += element.approach
+        law = element.harmonic_force(workspace, displacement)
+        residual = np.kron(STIFFNESS, np.eye(2)) @ x
+        residual[2:] += face.T @ law.force
+        residual[2:, 0] -= 150.0 * face[1]
+        residual[0, 1] -= 8.0
+        for k in range(1, 6):
+            omega = 2 * np.pi * frequency * k
+            c, s = x[:, 2 * k - 1], x[:, 2 * k]
+            mass, damping = np.kron(MASS, np.eye(2)), np.kron(DAMPING, np.eye(2))
+            residual[:, 2 * k - 1] += -(omega**2) * mass @ c + omega * damping @ s
+            residual[:, 2 * k] += -(omega**2) * mass @ s - omega * damping @ c
+        assert abs(residual).max() < 1e-9  # N, of forces of some 100 N with rounding errors
+        # The normal force varies.
+        assert np.hypot(*law.force[1, 1:3]) > 0.01 * law.force[1, 0]
+
+
+def test_harmonics_may_be_chosen():
+    full, unknowns = connector(contact)
+    idata = two_masses({"type": "microslip", "dirs": [0], "law": contact}, [300.0, 900.0])
+    idata["system"]["nh"] = [1, 3, 5]
+    odd = next(e for e in Maestro(idata).system.LE if e.name == "contact")
+    x = SLIP / LENGTH * np.random.default_rng(3).standard_normal(12)
+    places = np.array([2 * i + m for k in (1, 3, 5) for i in (2 * k - 1, 2 * k) for m in (0, 1)])
+    embedded = np.zeros(unknowns)
+    embedded[places] = x
+    of_second = places[1::2] // 2
+    assert (odd.evalResidual(x, 1.0) == full.evalResidual(embedded, 1.0)[of_second]).all()
+    assert (odd.evalJacobian(x, 1.0)[0] == full.evalJacobian(embedded, 1.0)[0][np.ix_(of_second, of_second)]).all()

@@ -1,0 +1,203 @@
+"""The reference tables of the repository, through Python.
+
+The accuracy of the library is tested in Rust. Here the tolerances show that arguments and results are the right ones, in the right
+order: a few thousand units of rounding, for the conditioning near gross slip, on the scale of the largest value where a
+result passes through zero.
+"""
+
+from __future__ import annotations
+
+import microslip
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from tables import column, flat, groups, rows
+
+CLOSE = 1e-12
+
+CONTACTS = [microslip.Contact(**flat(row, normal_force=row["N"], friction_coefficient=row["mu"])) for row in rows("contacts")]
+
+
+def test_contacts():
+    fields = {"E_star": "composite_modulus", "b": "half_width"}
+    for contact, row in zip(CONTACTS, rows("contacts")):
+        for name in ["E_star", "b", "slip_force", "slip_displacement", "initial_stiffness", "slip_energy"]:
+            assert_allclose(getattr(contact, fields.get(name, name)), row[name], rtol=CLOSE)
+
+
+@pytest.mark.parametrize("group", groups("monotonic", "contact"))
+def test_monotonic_displacement(group):
+    point = CONTACTS[int(group[0]["contact"])].monotonic_displacement(column(group, "T"))
+    # The compliance near gross slip has the conditioning of the distance to it.
+    assert_allclose(point.displacement, column(group, "displacement"), rtol=CLOSE)
+    assert_allclose(1 / point.compliance, 1 / column(group, "compliance"), rtol=1e-9, atol=CLOSE / point.compliance[0])
+    assert_allclose(point.stick_half_width, column(group, "stick_half_width"), rtol=1e-9)
+
+
+@pytest.mark.parametrize("group", groups("monotonic_inverse", "contact"))
+def test_monotonic_force(group):
+    contact = CONTACTS[int(group[0]["contact"])]
+    point = contact.monotonic_force(column(group, "displacement"))
+    assert_allclose(point.force, column(group, "T"), rtol=CLOSE)
+    assert point.stiffness[0] == pytest.approx(contact.initial_stiffness, rel=1e-6)
+
+
+@pytest.mark.parametrize("group", groups("energy", "contact"))
+def test_dissipated_energy(group):
+    energy = CONTACTS[int(group[0]["contact"])].dissipated_energy(column(group, "T"))
+    assert_allclose(energy, column(group, "dissipated_per_cycle"), rtol=CLOSE)
+
+
+@pytest.mark.parametrize("group", groups("complex_stiffness", "contact"))
+@pytest.mark.parametrize("tabulated", [False, True])
+def test_complex_stiffness(group, tabulated):
+    contact = CONTACTS[int(group[0]["contact"])]
+    amplitude = column(group, "amplitude")
+    found = contact.complex_stiffness(amplitude, microslip.StiffnessTable(contact) if tabulated else None)
+    # Errors of 1e-13 of |K| and of |K|/amplitude; at the onset of gross slip the slope is not defined.
+    size = np.hypot(column(group, "k_real"), column(group, "k_imag"))
+    for name in ["k_real", "k_imag"]:
+        assert (abs(getattr(found, name) - column(group, name)) <= 1e-13 * size).all()
+        slope = column(group, "d" + name)
+        error = abs(getattr(found, "d" + name) - slope) / (size / amplitude)
+        assert (error[~np.isnan(slope)] <= 1e-13).all()
+    energy = np.pi * amplitude**2 * found.k_imag
+    assert (abs(energy - column(group, "dissipated_per_cycle")) <= CLOSE * np.pi * amplitude**2 * size).all()
+
+
+@pytest.mark.parametrize("group", groups("tractions", "contact", "T"))
+def test_tractions(group):
+    contact = CONTACTS[int(group[0]["contact"])]
+    found = contact.tractions(group[0]["T"], column(group, "x"))
+    scale = column(group, "pressure").max()
+    # At the edge of the stick zone the traction has a vertical tangent: the square root of a rounding.
+    assert_allclose(found.pressure, column(group, "pressure"), rtol=0, atol=1e-7 * scale)
+    assert_allclose(found.shear, column(group, "shear"), rtol=0, atol=1e-7 * scale)
+    state = contact.update(microslip.State(), contact.monotonic_displacement(group[0]["T"]).displacement).state
+    assert_allclose(contact.tractions(state, column(group, "x")).shear, found.shear, rtol=0, atol=1e-6 * scale)
+
+
+@pytest.mark.parametrize("group", groups("slip", "contact", "T"))
+def test_slip(group):
+    found = CONTACTS[int(group[0]["contact"])].slip(group[0]["T"], column(group, "x"))
+    for name in ["slip", "damage"]:
+        expected = column(group, name)
+        assert_allclose(getattr(found, name), expected, rtol=0, atol=1e-11 * expected.max())
+
+
+@pytest.mark.parametrize("group", groups("elliptic", "case"))
+def test_elliptic(group):
+    first = group[0]
+    contact = microslip.Contact.elliptic(
+        semi_axis_x=first["semi_axis_x"],
+        semi_axis_y=first["semi_axis_y"],
+        normal_force=first["N"],
+        friction_coefficient=first["mu"],
+        young_modulus=first["E"],
+        poisson_ratio=first["nu"],
+    )
+    assert_allclose(contact.initial_stiffness, first["initial_stiffness"], rtol=CLOSE)
+    force = column(group, "T")
+    found = contact.monotonic_displacement(force)
+    # Displacement and energy depend on the power 2/3 of the distance to gross slip: of a rounding of mu N, 4e-11.
+    assert_allclose(found.displacement, column(group, "displacement"), rtol=4e-11)
+    assert_allclose(contact.dissipated_energy(force), column(group, "dissipated_per_cycle"), rtol=1e-10)
+
+
+@pytest.mark.parametrize("group", groups("histories", "history"))
+def test_histories(group):
+    contact = CONTACTS[int(group[0]["contact"])]
+    start = microslip.State(64)
+    path = contact.update(start, column(group, "displacement"))
+    assert_allclose(path.force, column(group, "T"), rtol=0, atol=CLOSE * contact.slip_force)
+    # Step by step, new states and in place, bit for bit.
+    functional, in_place = start, start.copy()
+    for i, displacement in enumerate(column(group, "displacement")):
+        step = contact.update(functional, displacement)
+        assert step.state is not functional
+        functional = step.state
+        same = contact.update(in_place, displacement, out=in_place)
+        assert same.state is in_place
+        assert step[:3] == same[:3] == (path.force[i], path.stiffness[i], path.dissipated[i])
+    assert (functional.array == path.state.array).all()
+    assert (in_place.array == path.state.array).all()
+    assert functional.force_error == 0
+    assert (start.array == microslip.State(64).array).all()
+
+
+@pytest.mark.parametrize("row", rows("harmonic_force"))
+def test_harmonic_force(row):
+    contact = CONTACTS[int(row["contact"])]
+    u, f = (np.array([row[f"{kind}{k}"] for k in range(7)]) for kind in "uf")
+    found = contact.harmonic_force(microslip.Workspace(3, int(row["samples"])), u)
+    assert_allclose(found.force, f, rtol=0, atol=CLOSE * contact.slip_force)
+
+
+@pytest.mark.parametrize("group", groups("normal_law", "contact"))
+def test_normal_law(group):
+    element = element_of(group, column(group, "N").max(), 0)
+    force, approach = column(group, "N"), column(group, "u_n")
+    at_force, at_approach = element.approach_at(force), element.normal_force_at(approach)
+    assert_allclose(at_force.approach, approach, rtol=CLOSE)
+    assert_allclose(at_approach.normal_force, force, rtol=CLOSE)
+    assert_allclose(at_force.compliance, 1 / column(group, "dN_dun"), rtol=CLOSE)
+    assert_allclose(at_approach.stiffness, column(group, "dN_dun"), rtol=CLOSE)
+    assert_allclose(at_force.half_width, column(group, "size"), rtol=CLOSE)
+    assert_allclose(at_approach.half_width, column(group, "size"), rtol=CLOSE)
+
+
+def element_of(group, normal_force, normal_input):
+    first = group[0]
+    common = {"friction_coefficient": first.get("mu", 0.5), "normal_input": normal_input}
+    if np.isnan(first["a"]):
+        semi_axes = {"semi_axis_x": first["semi_x"], "semi_axis_y": first["semi_y"], "normal_force": first["N_ref"]}
+        material = {"young_modulus": (first["E1"], first["E2"]), "poisson_ratio": (first["nu1"], first["nu2"])}
+        return microslip.Element.elliptic(**semi_axes, **material, **common)
+    return microslip.Element(**flat(first, normal_force=normal_force), **common)
+
+
+@pytest.mark.parametrize("group", groups("varying_load", "history"))
+def test_varying_load(group):
+    by_force = group[0]["control"] == "N"
+    normal_force = column(group, "N").max()
+    element = element_of(group, normal_force, int(by_force))
+    displacement = np.column_stack([column(group, "delta"), column(group, "N" if by_force else "u_n")])
+    path = element.update(microslip.ElementState(1, 64), displacement)
+    slip_force = element.friction_coefficient * normal_force
+    assert_allclose(path.force[:, 0], column(group, "T"), rtol=0, atol=CLOSE * slip_force)
+    assert_allclose(path.force[:, 1], column(group, "N"), rtol=0, atol=CLOSE * normal_force)
+    energy = slip_force * abs(column(group, "delta")).max()
+    assert_allclose(path.dissipated, column(group, "dissipated"), rtol=0, atol=CLOSE * energy)
+    # Row and column: dT/dw is above the diagonal, dN/du = 0 below it. At corners the tangents of the table are NaN.
+    by_input = column(group, "dN_dun") if by_force else 1
+    known = ~np.isnan(column(group, "dT_dun"))
+    expected = (column(group, "dT_ddelta"), column(group, "dT_dun"))
+    scales = element.tangential_stiffness, element.friction_coefficient * element.normal_stiffness
+    for found, value, scale in zip((path.tangent[:, 0, 0], path.tangent[:, 0, 1] * by_input), expected, scales):
+        assert_allclose(found[known], value[known], rtol=0, atol=1e-11 * scale)
+    assert (path.tangent[:, 1, 0] == 0).all()
+    state = microslip.ElementState(1, 64)
+    for i, step in enumerate(displacement):
+        force, tangent, dissipated, state = element.update(state, step)
+        assert (force == path.force[i]).all()
+        assert (tangent == path.tangent[i]).all()
+        assert dissipated == path.dissipated[i]
+    assert (state.array == path.state.array).all()
+
+
+@pytest.mark.parametrize("group", groups("two_directions", "path", "a"))
+def test_two_directions(group):
+    first = group[0]
+    normal_force = column(group, "N").max()
+    element = microslip.Element(
+        **flat(first, normal_force=normal_force, friction_coefficient=first["mu"]),
+        directions=2,
+        normal_input=microslip.NORMAL_FORCE,
+    )
+    start = element.update(microslip.ElementState(2), [first["u"], first["v"], 0]).state
+    path = element.update(start, np.column_stack([column(group, name) for name in ("u", "v", "N")]))
+    slip_force = first["mu"] * normal_force
+    error = np.hypot(path.force[:, 0] - column(group, "Tx"), path.force[:, 1] - column(group, "Ty")).max()
+    # The error of the law with its few points of slip.
+    assert error <= 0.012 * slip_force
+    assert path.dissipated.sum() == pytest.approx(column(group, "dissipated").sum(), rel=0.06)

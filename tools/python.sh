@@ -1,0 +1,105 @@
+#!/bin/sh
+# python.sh [all]: build the wheel of the Python package, and test it installed in a clean environment. `all` tests it also by the
+# oldest and the newest other Python that are found, and tests types, format, adapters, examples and the programs of the documents.
+# PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools.
+set -eu
+
+cd "$(dirname "$0")/.."
+: "${PYTHON:=python3}" "${CARGO:=cargo}"
+export CARGO
+tools=$PWD/target/tools/python
+wheels=$PWD/target/python
+package=$PWD/python
+PIP_DISABLE_PIP_VERSION_CHECK=1
+PIP_QUIET=1
+export PIP_DISABLE_PIP_VERSION_CHECK PIP_QUIET
+. tools/checks.sh
+
+version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+
+# A wheel is built from the crates of Cargo.lock without a network, in a namespace without one if the system permits that.
+isolated=
+if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
+tools() {
+    "$tools/bin/maturin" --version 2> /dev/null ||
+        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
+}
+wheel() {
+    rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
+        (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated maturin build --release --out "$wheels") &&
+        ls "$wheels/microslip-$version-py3-none-"*.whl
+}
+# environment DIRECTORY PYTHON PACKAGE...: a clean one with the wheel.
+environment() {
+    directory=$1
+    "$2" -m venv "$directory" && shift 2 && "$directory/bin/pip" install "$wheels"/*.whl pytest "$@"
+}
+# tests NAME DIRECTORY ARGUMENT...: counts the tests of pytest.
+tests() {
+    name=$1 directory=$2
+    shift 2
+    (cd "$work" && "$directory/bin/pytest" -q -p no:cacheprovider -c "$package/pyproject.toml" "$@") > "$work/pytest" 2>&1 ||
+        tail -n 60 "$work/pytest"
+    good=$(sed -n 's/^\(.* \)\{0,1\}\([0-9]*\) passed.*/\2/p' "$work/pytest" | tail -n 1)
+    bad=$(sed -n 's/^\([0-9]*\) failed.*/\1/p; s/.* \([0-9]*\) error.*/\1/p' "$work/pytest" | tail -n 1)
+    [ -n "$good$bad" ] || bad=1
+    passed=$((passed + ${good:-0}))
+    failed=$((failed + ${bad:-0}))
+    echo "$name: ${good:-0} passed, ${bad:-0} failed"
+}
+
+# core DIRECTORY: the tests that need nothing but the wheel.
+core() {
+    tests "tests, $("$1/bin/python" --version)" "$1" \
+        "$package"/tests/test_interface.py "$package"/tests/test_tables.py "$package"/tests/test_fit.py
+}
+
+check 'build tools' tools
+check 'wheel' wheel
+[ "$failed" -eq 0 ] || { counts; exit; }
+check "clean environment" environment "$work/python" "$PYTHON"
+core "$work/python"
+[ "${1:-}" = all ] || { counts; exit; }
+
+# The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
+others() {
+    for minor in 9 10 11 12 13 14; do
+        for candidate in $(command -v python3.$minor) "${PYENV_ROOT:-$HOME/.pyenv}/versions/3.$minor".*/bin/python3; do
+            if "$candidate" -c "import ensurepip, sys; sys.exit(sys.version_info[1] != $minor)" 2> /dev/null; then
+                [ "$minor" -eq "$("$PYTHON" -c 'import sys; print(sys.version_info[1])')" ] || echo "$candidate"
+                break
+            fi
+        done
+    done | sed -n '1p; $p' | uniq
+}
+for other in $(others); do
+    check "clean environment, $("$other" --version)" environment "$work/other" "$other"
+    core "$work/other"
+    rm -rf "$work/other"
+done
+from_source() {
+    "$PYTHON" -m venv "$work/source" && "$work/source/bin/pip" install ./python &&
+        (cd "$work" && source/bin/python -c 'import microslip')
+}
+check 'pip install ./python' from_source
+# Kept, because they are many. pyHarm names Jupyter among its requirements, a hundred packages that it does not need.
+adapters=$PWD/target/tools/python-adapters
+examples() {
+    { [ -e "$adapters/bin/ruff" ] || {
+        "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install --no-deps pyHarm-os==1.2.2 && "$adapters/bin/python" -c '
+from importlib.metadata import requires
+kept = [r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))]
+print(*kept, sep="\n")' > "$work/required" &&
+            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib mypy==2.4.1 pytest ruff==0.17.6
+    }; } && "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install cffi numpy
+}
+check 'packages of the examples' examples
+types() {
+    (cd "$work" && "$adapters/bin/mypy" --config-file "$package/pyproject.toml" -p microslip)
+}
+check 'types' types
+check 'format' "$adapters/bin/ruff" format --check python
+check 'lints' "$adapters/bin/ruff" check python
+tests 'adapters and examples' "$adapters" \
+    "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_documents.py
+counts
