@@ -210,7 +210,8 @@ fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
     };
     let mut panels: Vec<_> = found.loops.iter().take(LOOPS).flat_map(of_loop).collect();
     if !found.profile.is_empty() {
-        let points = found.profile.iter().map(|at| (at.shape, at.relative_rms)).collect();
+        // Rounded, so that a flat profile looks flat.
+        let points = found.profile.iter().map(|at| (at.shape, (1e3 * at.relative_rms).round() / 1e3)).collect();
         panels.push(Panel {
             x: Axis::linear("a/b", Number),
             y: Axis::linear("misfit over the least", Number),
