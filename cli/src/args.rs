@@ -298,6 +298,9 @@ pub struct Fit {
     /// Column of normal forces [default: normal_force, if there is one]
     #[arg(long, value_name = "NAME", conflicts_with = "loads")]
     pub normal_force_column: Option<String>,
+    /// Column of times, in which gaps are found [default: time, if there is one]
+    #[arg(long, value_name = "NAME")]
+    pub time_column: Option<String>,
     /// Constant normal force of each table, or of all [default: normal_force of the contact]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number)]
     pub loads: Vec<f64>,

@@ -4,10 +4,10 @@ use crate::args::{Fit, Fixable, ShapeOption};
 use crate::commands::{Report, quoted};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, usage};
-use crate::files::{check_outputs, write_file};
+use crate::files::{check_outputs, read_text, write_file};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, rounded};
-use crate::table::{ColumnSpec, Table, read_columns};
+use crate::table::{ColumnSpec, Table, parse_columns};
 use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
 use crate::units::Units;
 use microslip_fit::{Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter, Status};
@@ -72,8 +72,14 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
         names: &["normal_force"],
         unit: force.0,
     }];
+    let time =
+        ColumnSpec { option: "--time-column", selected: options.time_column.as_deref(), names: &["time"], unit: "s" };
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
-    let table = read_columns(path, [&column, &forces], normal)?;
+    let text = read_text(path)?;
+    let columns = |second, others| {
+        parse_columns(&text, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
+    };
+    let (table, times) = (columns(&forces, normal)?, columns(&time, &[])?);
     if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
         return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
     }
@@ -93,7 +99,7 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
         displacement: values(0, length.1),
         force: values(1, force.1),
         normal_force: load,
-        time: None,
+        time: times.has_second.then(|| times.rows.iter().map(|row| row.values[1]).collect()),
     })
 }
 
@@ -122,6 +128,7 @@ fn repeat(options: &Fit) -> String {
         ("--column", &options.column),
         ("--force-column", &options.force_column),
         ("--normal-force-column", &options.normal_force_column),
+        ("--time-column", &options.time_column),
     ];
     for (option, selected) in columns {
         text += &selected.as_ref().map_or(String::new(), |selected| format!(" {option} {}", quoted(selected)));
@@ -203,7 +210,8 @@ fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
     };
     let mut panels: Vec<_> = found.loops.iter().take(LOOPS).flat_map(of_loop).collect();
     if !found.profile.is_empty() {
-        let points = found.profile.iter().map(|at| (at.shape, at.relative_rms)).collect();
+        // Rounded, so that a flat profile looks flat.
+        let points = found.profile.iter().map(|at| (at.shape, (1e3 * at.relative_rms).round() / 1e3)).collect();
         panels.push(Panel {
             x: Axis::linear("a/b", Number),
             y: Axis::linear("misfit over the least", Number),

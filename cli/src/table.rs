@@ -82,7 +82,8 @@ pub fn read_columns(path: &Path, columns: [&ColumnSpec; 2], alternatives: &[Colu
     parse_columns(&text, columns, alternatives).map_err(|reason| CliError::in_file(path, reason))
 }
 
-fn parse_columns(
+/// [`read_columns`] from the text of a file.
+pub fn parse_columns(
     text: &str,
     [spec, second]: [&ColumnSpec; 2],
     alternatives: &[ColumnSpec],
@@ -173,7 +174,7 @@ impl ColumnSpec<'_> {
             let expected = self.unit;
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
                 Some(unit) if unit != expected => {
-                    Err(format!("column {name} is in {unit}, not in {expected} (see --units)"))
+                    Err(format!("column {name} is in {unit}, not in {expected} (see --units or --data-units)"))
                 }
                 _ => Ok(index),
             };

@@ -565,6 +565,8 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     for name in ["series_compliance", "contact_compliance", "flat_half_width_over_half_width"] {
         assert_eq!(quantity(&same, name).1, "fixed", "{name}");
     }
+    let times = "awk -F, '/^[0-9]/ {print NR + (NR > 50 ? 9 : 0) \",\" $2 \",\" $3}' 1.5.csv";
+    shell.stdout(&format!("(echo 'time [s],displacement,force'; {times}) > gap.csv"));
     for (arguments, status, text) in [
         ("--measured 0.7.csv --data-units um", 2, "two units are needed"),
         ("--measured 0.7.csv --data-units um,kg", 2, "the force is in N, mN or kN"),
@@ -577,6 +579,7 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         ("--measured 0.7.csv --fitted same --json same", 2, "cannot be the same file"),
         ("--measured 0.7.csv --column force --force-column displacement", 1, "column force is in N, not in m"),
         ("--measured 1.5.csv --loads 1e-3", 1, "no friction coefficient"),
+        ("--measured gap.csv", 1, "gap.csv: a gap of"),
         ("", 2, "--measured"),
     ] {
         shell.check_error(&format!("microslip fit flat.toml {arguments}"), status, text);
@@ -756,7 +759,7 @@ fn errors_in_files_name_file_and_line() {
         (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
         (b"0,1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
         (b"# c\n0,1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
-        (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units)"),
+        (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units or --data-units)"),
         (b"u\n# c\n", "", "the table has no displacements"),
         (b"", "", "the table has no displacements"),
         (b"u\n1\n2 # \xb5m\n", "", "line 3: invalid UTF-8"),

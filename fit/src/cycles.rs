@@ -195,7 +195,7 @@ impl Loop {
             noise: record.noise,
             has_drift,
             cycles: (reversals.len() - 1) / 2,
-            complete: (samples.start..=last).filter(|i| !rests[*i]).count(),
+            complete: (samples.start..end.min(last + 1)).filter(|i| !rests[*i]).count(),
             samples: samples.filter(|i| !rests[*i]).map(sample).collect(),
         }
     }

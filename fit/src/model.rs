@@ -199,8 +199,10 @@ impl Curve {
     fn solve(&self, displacement: f64, series: f64, contact: f64) -> (f64, (f64, f64)) {
         let (mut z, mut response) = (0.0, (0.0, self.contact.initial_stiffness));
         for _ in 0..60 {
-            let step = (displacement - contact * z - series * response.0) / (contact + series * response.1);
-            z = (z + step).min(self.contact.slip_displacement);
+            // Without a contact compliance the slope may vanish at gross slip.
+            let slope = (contact + series * response.1).max(f64::MIN_POSITIVE);
+            let step = (displacement - contact * z - series * response.0) / slope;
+            z = (z + step).clamp(0.0, self.contact.slip_displacement);
             response = contact_force(&self.contact, z);
             if step.abs() <= 1e-13 * z {
                 break;

@@ -283,3 +283,45 @@ fn json_has_the_names_of_the_parameter_file() {
     assert!(fit_json("{}").unwrap_err().to_string().contains("contact"));
     let _: &Contact = &contact;
 }
+
+/// Whatever the record, there is a report of finite numbers or a message.
+#[test]
+fn arbitrary_records_are_fitted_or_rejected() {
+    let mut fitted = 0;
+    for seed in 0..300 {
+        let mut random = Random::new(seed);
+        let count = 40 + (random.uniform() * 200.0) as usize;
+        let mut walk = 0.0;
+        let mut column = |kind: u64, size: f64| -> Vec<f64> {
+            let value = |i: usize| {
+                walk += random.normal();
+                let phase = i as f64 / 15.0;
+                size * match kind {
+                    0 => random.normal(),
+                    1 => walk,
+                    2 => phase.sin() + 0.01 * random.normal(),
+                    3 => (phase.sin() * 3.0).clamp(-1.0, 1.0) + 0.3 * (phase - 0.8).sin(),
+                    _ => (phase.sin() * 1.2).round(),
+                }
+            };
+            (0..count).map(value).collect()
+        };
+        let [displacement, force] = [column(seed % 5, 1e-6), column(seed / 5 % 5, 200.0)];
+        let measurement = Measurement { displacement, force, ..Measurement::default() };
+        match fit(&flat(), &[measurement], &Options::default()) {
+            Err(error) => assert!(!error.to_string().is_empty()),
+            Ok(report) => {
+                let numbers = estimates(&report).map(|estimate| [estimate.value, estimate.lower]);
+                assert!(numbers.as_flattened().iter().all(|number| number.is_finite()), "{seed}: {numbers:?}");
+                assert!(
+                    report.law.force_rms.is_finite() && report.spring_slider.misfit.force_rms.is_finite(),
+                    "{seed} {:?} {:?}",
+                    report.law,
+                    report.spring_slider
+                );
+                fitted += 1;
+            }
+        }
+    }
+    assert!(fitted > 20, "{fitted}");
+}

@@ -223,6 +223,9 @@ mod tests {
             let beyond = contact.curve_at_displacement(-2.0 * contact.slip_displacement).unwrap();
             assert_eq!((beyond.force(), beyond.stiffness()), (-contact.slip_force, 0.0));
             assert_eq!((beyond.displacement(), beyond.stick_half_width()), (-contact.slip_displacement, 0.0));
+            for point in [end, beyond, contact.curve_at_displacement(-half).unwrap()] {
+                assert_eq!(point.force_and_stiffness(), (point.force(), point.stiffness()));
+            }
         }
     }
 
