@@ -8,7 +8,7 @@
 //! - `edge`: the shell that ends at the present size;
 //! - `slip`: Coulomb's law at the points, by Newton's method;
 //! - `fine`: correction by a finer bank of springs;
-//! - `step`, `sensitivity`: a step, and its derivatives;
+//! - `step`, `sensitivity`: a step, and its derivatives, as `columns`;
 //! - `stick`: a step in which nothing slips;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 //!
@@ -23,6 +23,7 @@
 
 pub mod harmonic_force;
 
+pub(crate) mod columns;
 pub(crate) mod edge;
 pub(crate) mod fine;
 pub(crate) mod sensitivity;

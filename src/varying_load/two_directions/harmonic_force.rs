@@ -9,6 +9,7 @@
 //! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
 //! springs.
 
+use super::columns::{row, row_mut};
 use super::edge::PressedSlopes;
 use super::sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
 use super::step::{Course, Memory};
@@ -201,15 +202,6 @@ impl<'a> Workspace<'a> {
         let [u, v, input, _] = self.samples.get(index).copied().unwrap_or([0.0; 4]);
         [u, v, input]
     }
-}
-
-/// Row r of n columns.
-fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
-    matrix.get(r * n..(r + 1) * n).unwrap_or(&[])
-}
-
-fn row_mut(matrix: &mut [f64], n: usize, r: usize) -> &mut [f64] {
-    matrix.get_mut(r * n..(r + 1) * n).unwrap_or(&mut [])
 }
 
 /// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal component, the

@@ -3,18 +3,21 @@
 //! The map B depends on the load through the column of the last spring only. With `h = B (dz* - dB'σ) + dB z - e dp` the multipliers
 //! change by `dσ = S (h - p e' dθ)`, and the angles by `K dθ = -(dσ at fixed angles) × n - σ × dn`, with the factors of Newton's method.
 
+use super::columns::{add, add_row, row, row_mut, scale};
 use super::edge::{Map, Share};
-use super::slip::{DirectionSlopes, at as point, product, solve_columns};
+use super::slip::{DirectionSlopes, at, product, solve_columns};
 use super::springs::{Both, FINE, Row, SPRINGS, Springs};
-use super::step::{Course, Memory, Motion};
+use super::step::{Course, Memory, Motion, Slipped};
 use crate::shape::TINY;
 
 /// Rows of the derivatives of a memory: springs, tractions, fine bank.
 const TRACTIONS: usize = 2 * SPRINGS;
 const FINE_ROWS: usize = 4 * SPRINGS;
 pub(crate) const ROWS: usize = FINE_ROWS + 2 * FINE;
-/// Rows of scratch memory.
-pub(crate) const SCRATCH: usize = 7 * SPRINGS + 2;
+/// Rows of scratch memory: h of both directions, the angles, and one row.
+const ANGLES: usize = 2 * SPRINGS;
+const SINGLE: usize = 3 * SPRINGS;
+pub(crate) const SCRATCH: usize = SINGLE + 1;
 
 /// Derivatives of the motion, a row of columns each: displacements; N, S of both directions and w² at the end; S at the start.
 pub(crate) struct MotionColumns<'a> {
@@ -34,290 +37,126 @@ pub(crate) struct Taken<'a> {
     pub course: &'a Course,
 }
 
-/// Row r of a matrix of rows of n columns.
-#[inline(always)]
-fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
-    matrix.get(r * n..(r + 1) * n).unwrap_or(&[])
+/// Derivatives of a quantity of direction k by w², S_k and N at the end.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slopes {
+    size: f64,
+    shift: f64,
+    load: f64,
 }
 
-#[inline(always)]
-fn row_mut(matrix: &mut [f64], n: usize, r: usize) -> &mut [f64] {
-    matrix.get_mut(r * n..(r + 1) * n).unwrap_or(&mut [])
-}
-
-/// y += a x.
-#[inline(always)]
-fn add(y: &mut [f64], a: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += a * x;
+impl Slopes {
+    /// place += factor × the change of the quantity.
+    #[inline(always)]
+    fn add(&self, place: &mut [f64], factor: f64, columns: &MotionColumns, k: usize) {
+        if self.size != 0.0 {
+            add(place, factor * self.size, columns.size);
+        }
+        add(place, factor * self.shift, columns.shift[k]);
+        add(place, factor * self.load, columns.load);
     }
 }
 
-/// Row `to` += a × row `from`.
-#[inline(always)]
-fn add_row(matrix: &mut [f64], n: usize, to: usize, a: f64, from: usize) {
-    let split = to.max(from) * n;
-    if to == from || split > matrix.len() {
-        return;
-    }
-    let (low, high) = matrix.split_at_mut(split);
-    if to > from {
-        add(high.get_mut(..n).unwrap_or(&mut []), a, row(low, n, from));
-    } else {
-        add(row_mut(low, n, to), a, high.get(..n).unwrap_or(&[]));
+/// What the edge depends on the load through: the pressures, and the root of the stiffness and the column of the last spring.
+struct EdgeSlopes {
+    /// dp_i/d(w²).
+    pressure: Row,
+    /// d(root)/root.
+    root: Both<Slopes>,
+    column: Both<[Slopes; SPRINGS]>,
+}
+
+impl EdgeSlopes {
+    #[inline(always)]
+    fn new(taken: &Taken, map: &Map) -> EdgeSlopes {
+        let Taken { springs, motion, course, .. } = *taken;
+        let edge = &course.edge;
+        let last = edge.last.min(SPRINGS - 1);
+        let mut slopes = EdgeSlopes {
+            pressure: [0.0; SPRINGS],
+            root: [Slopes::default(); 2],
+            column: [[Slopes::default(); SPRINGS]; 2],
+        };
+        for i in 0..last {
+            let height = (motion.now.size - springs.point[i]).max(TINY).sqrt();
+            slopes.pressure[i] = 0.5 * springs.weight[last] * springs.unit[i] / height;
+        }
+        for k in 0..2 {
+            let (per_root, per_step) = (1.0 / edge.root[k], 1.0 / edge.step[k]);
+            let load = 0.5 * per_root * per_root * per_step;
+            let root = Slopes { size: 0.0, shift: -load * edge.secant[k], load };
+            slopes.root[k] = root;
+            for i in 0..SPRINGS {
+                if i <= last {
+                    let column = map.column[k][i];
+                    slopes.column[k][i] = Slopes {
+                        size: slopes.pressure[i] * per_step * per_root,
+                        shift: -edge.slope(k, i) * per_step * per_root - column * root.shift,
+                        load: -column * root.load,
+                    };
+                }
+            }
+        }
+        slopes
     }
 }
 
 /// Replaces the derivatives of the memory at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
 /// the force of both directions.
 #[inline(always)]
-#[expect(clippy::too_many_lines, reason = "the equations of a step, in its order")]
 pub(crate) fn step(
     taken: &Taken,
     columns: &MotionColumns,
     memory: &mut [f64],
     scratch: &mut [f64],
-    force: Both<&mut [f64]>,
+    [force_x, force_y]: Both<&mut [f64]>,
 ) {
-    let Taken { springs, memories: [old, new], motion, course } = *taken;
-    let n = columns.load.len();
-    let Course { edge, .. } = course;
-    let last = edge.last.min(SPRINGS - 1);
+    let Taken { springs, memories: [_, new], motion, course } = *taken;
+    let (n, last) = (columns.load.len(), course.edge.last.min(SPRINGS - 1));
     let share = Share::new(&motion.before, &motion.now);
-    let map = Map::new(springs, edge);
-    let [force_x, force_y] = force;
+    let map = Map::new(springs, &course.edge);
+    let edge = EdgeSlopes::new(taken, &map);
+    let slipped = course.slip.as_ref();
+    let converged = slipped.filter(|slipped| slipped.slip.converged);
+    trial(taken, &share, columns, memory);
+    if let Some(slipped) = converged {
+        scratch.get_mut(..n * SCRATCH).unwrap_or(&mut []).fill(0.0);
+        directions(taken, slipped, columns, memory, scratch);
+    }
+    // From v to z = sqrt(w) v.
+    let trial = slipped.map_or(&new.springs, |slipped| &slipped.trial);
+    for k in 0..2 {
+        for j in 0..SPRINGS {
+            scale(row_mut(memory, n, k * SPRINGS + j), map.root[k][j]);
+        }
+        edge.root[k].add(row_mut(memory, n, k * SPRINGS + last), map.root[k][last] * trial[k][last], columns, k);
+    }
+    if let Some(slipped) = converged {
+        slip(taken, slipped, &map, &edge, columns, memory, scratch);
+    } else if let Some(slipped) = slipped {
+        for k in 0..2 {
+            for j in 0..SPRINGS {
+                scale(row_mut(memory, n, k * SPRINGS + j), 1.0 / (1.0 + slipped.overshoot[j]));
+            }
+        }
+    }
+    tractions(taken, converged, &map, &edge, columns, memory, scratch);
+    // Back to v, and the force.
     force_x.fill(0.0);
     force_y.fill(0.0);
-    // Trial displacements of the springs.
-    for k in 0..2 {
-        for j in 0..SPRINGS {
-            let place = row_mut(memory, n, k * SPRINGS + j);
-            if j > last || j >= springs.used {
-                place.fill(0.0);
-                continue;
-            }
-            let part = share.of(k, motion.now.shift[k] - springs.shift[k][j]);
-            add(place, part, columns.by[k]);
-            if part < 1.0 {
-                let rate = motion.by[k] * share.per_rise[k];
-                add(place, rate * (1.0 - part), columns.shift[k]);
-                add(place, rate * part, columns.before[k]);
-            }
-        }
-    }
-    // d(w_last), over w; d(reach) over d(w²).
-    let per_step = [1.0 / edge.step[0], 1.0 / edge.step[1]];
-    let mut reach = [0.0; SPRINGS];
-    for i in 0..SPRINGS {
-        if i < last {
-            let height = (motion.now.size - springs.point[i]).max(TINY).sqrt();
-            reach[i] = 0.5 * springs.weight[last] * springs.unit[i] / height;
-        }
-    }
-    let trial: Both<Row> = core::array::from_fn(|k| {
-        core::array::from_fn(|j| {
-            if j > last || j >= springs.used {
-                return 0.0;
-            }
-            let part = share.of(k, motion.now.shift[k] - springs.shift[k][j]);
-            old.springs[k][j] + motion.by[k] * part
-        })
-    });
-    // The rows of the springs as z* = sqrt(w) v*: the change of the last root.
-    let per_root = [1.0 / edge.root[0], 1.0 / edge.root[1]];
-    let root_change = |k: usize, column: usize| {
-        let at = |values: &[f64]| values.get(column).copied().unwrap_or(0.0);
-        0.5 * per_root[k] * per_step[k] * (at(columns.load) - edge.secant[k] * at(columns.shift[k]))
-    };
-    for k in 0..2 {
-        for j in 0..SPRINGS {
-            let root = map.root[k][j];
-            row_mut(memory, n, k * SPRINGS + j).iter_mut().for_each(|value| *value *= root);
-        }
-        for (column, value) in row_mut(memory, n, k * SPRINGS + last).iter_mut().enumerate() {
-            *value += root_change(k, column) * trial[k][last];
-        }
-    }
-    // d(column of B) at a point.
-    let column_change = |k: usize, i: usize, column: usize| {
-        let at = |values: &[f64]| values.get(column).copied().unwrap_or(0.0);
-        let grown = reach[i] * at(columns.size) - edge.slope(k, i) * at(columns.shift[k]);
-        (grown * per_step[k] - map.column[k][i] * root_change(k, column)) * per_root[k]
-    };
-    let end: Both<Row> = core::array::from_fn(|k| core::array::from_fn(|j| new.springs[k][j] * map.root[k][j]));
-    // Rows of the scratch memory: h of both directions, the angles, dσ, and single rows.
-    let (h, angles, sigma_rows) = (0, 2 * SPRINGS, 3 * SPRINGS);
-    let converged = course.slip.as_ref().filter(|slipped| slipped.slip.converged);
-    if let Some(slipped) = converged {
-        let slip = &slipped.slip;
-        scratch.get_mut(..n * SCRATCH).unwrap_or(&mut []).fill(0.0);
-        // z* - dB'σ.
-        for k in 0..2 {
-            for i in 0..SPRINGS {
-                if slip.slips[i] {
-                    let sigma = slip.sigma[k][i];
-                    for (column, value) in row_mut(memory, n, k * SPRINGS + last).iter_mut().enumerate() {
-                        *value -= column_change(k, i, column) * sigma;
-                    }
-                }
-            }
-        }
-        for i in 0..SPRINGS {
-            if !slip.slips[i] {
-                continue;
-            }
-            for k in 0..2 {
-                let entries = map.row(k, i);
-                let place = row_mut(scratch, n, h + k * SPRINGS + i);
-                for j in i..SPRINGS {
-                    if j <= last {
-                        add(place, entries[j], row(memory, n, k * SPRINGS + j));
-                    }
-                }
-                for (column, value) in place.iter_mut().enumerate() {
-                    *value += column_change(k, i, column) * end[k][last];
-                }
-                if i < last {
-                    add(place, -slip.e[k][i] * reach[i], columns.size);
-                }
-            }
-        }
-        // dσ at fixed angles, and the right-hand sides of the angles.
-        for i in 0..SPRINGS {
-            if !slip.slips[i] {
-                continue;
-            }
-            let start = [slipped.start[0][i], slipped.start[1][i]];
-            let direction = DirectionSlopes::new(&point(&slip.e, i), &start, slipped.overshoot[i]);
-            let (n_x, n_y) = (direction.vector[0], direction.vector[1]);
-            for j in 0..SPRINGS {
-                if slip.slips[j] {
-                    add_row(scratch, n, angles + i, -n_y * slip.inverse[0][i][j], h + j);
-                    add_row(scratch, n, angles + i, n_x * slip.inverse[1][i][j], h + SPRINGS + j);
-                }
-            }
-            let sigma = [slip.sigma[0][i], slip.sigma[1][i]];
-            let turned = |vector: &Both<f64>| sigma[0] * vector[1] - sigma[1] * vector[0];
-            let place = row_mut(scratch, n, angles + i);
-            for k in 0..2 {
-                add(place, -turned(&direction.by_start[k]), row(memory, n, TRACTIONS + k * SPRINGS + i));
-            }
-            // The overshoot, from z* again.
-            let per_overshoot = turned(&direction.by_overshoot);
-            if per_overshoot != 0.0 && slipped.overshoot[i] > 0.0 {
-                let over = 1.0 + slipped.overshoot[i];
-                for k in 0..2 {
-                    let limit = motion.now.shift[k] - springs.shift[k][i];
-                    let ratio = trial[k][i] / limit.max(TINY);
-                    let factor = -per_overshoot * ratio / (over * limit.max(TINY));
-                    // The trial displacement: without what was subtracted from the last row.
-                    let part = share.of(k, limit);
-                    if i < last {
-                        add(place, factor / map.root[k][i], row(memory, n, k * SPRINGS + i));
-                    } else {
-                        for (column, value) in place.iter_mut().enumerate() {
-                            let mut change = row(memory, n, k * SPRINGS + i).get(column).copied().unwrap_or(0.0);
-                            for m in 0..SPRINGS {
-                                if slip.slips[m] {
-                                    change += column_change(k, m, column) * slip.sigma[k][m];
-                                }
-                            }
-                            change = (change - root_change(k, column) * trial[k][i]) * per_root[k];
-                            *value += factor * change;
-                        }
-                    }
-                    let _ = part;
-                    add(place, -factor * ratio, columns.shift[k]);
-                }
-            }
-        }
-        let angle_rows = scratch.get_mut(angles * n..(angles + SPRINGS) * n).unwrap_or(&mut []);
-        solve_columns(&slip.factors, slip.first, last, angle_rows, n);
-        // h - p e' dθ, dσ and the springs.
-        for i in 0..SPRINGS {
-            if slip.slips[i] {
-                let p = edge.pressure[i];
-                add_row(scratch, n, h + i, p * slip.e[1][i], angles + i);
-                add_row(scratch, n, h + SPRINGS + i, -p * slip.e[0][i], angles + i);
-            }
-        }
-        for k in 0..2 {
-            for i in 0..SPRINGS {
-                if !slip.slips[i] {
-                    continue;
-                }
-                row_mut(scratch, n, sigma_rows).fill(0.0);
-                for j in 0..SPRINGS {
-                    if slip.slips[j] {
-                        add_row(scratch, n, sigma_rows, slip.inverse[k][i][j], h + k * SPRINGS + j);
-                    }
-                }
-                let entries = map.row(k, i);
-                for j in i..SPRINGS {
-                    if j <= last {
-                        add(row_mut(memory, n, k * SPRINGS + j), -entries[j], row(scratch, n, sigma_rows));
-                    }
-                }
-            }
-        }
-    } else if let Some(slipped) = &course.slip {
-        for k in 0..2 {
-            for j in 0..SPRINGS {
-                let scale = 1.0 / (1.0 + slipped.overshoot[j]);
-                row_mut(memory, n, k * SPRINGS + j).iter_mut().for_each(|value| *value *= scale);
-            }
-        }
-    }
-    // Tractions over the pressure.
-    for i in 0..SPRINGS {
-        let slides = converged.filter(|slipped| slipped.slip.slips[i]);
-        for k in 0..2 {
-            let place = row_mut(memory, n, TRACTIONS + k * SPRINGS + i);
-            place.fill(0.0);
-            if i > last {
-                continue;
-            }
-            if let Some(slipped) = slides {
-                let e = point(&slipped.slip.e, i);
-                add(place, if k == 0 { -e[1] } else { e[0] }, row(scratch, n, angles + i));
-                continue;
-            }
-            let per_pressure = 1.0 / edge.pressure[i].max(TINY);
-            let entries = map.row(k, i);
-            for j in i..SPRINGS {
-                if j <= last {
-                    add_row(memory, n, TRACTIONS + k * SPRINGS + i, entries[j] * per_pressure, k * SPRINGS + j);
-                }
-            }
-            let place = row_mut(memory, n, TRACTIONS + k * SPRINGS + i);
-            for (column, value) in place.iter_mut().enumerate() {
-                *value += column_change(k, i, column) * end[k][last] * per_pressure;
-            }
-            if i < last {
-                add(place, -new.tractions[k][i] * reach[i] * per_pressure, columns.size);
-            }
-        }
-    }
-    // Back to v, and the force.
     for k in 0..2 {
         let sum = if k == 0 { &mut *force_x } else { &mut *force_y };
-        for (column, value) in row_mut(memory, n, k * SPRINGS + last).iter_mut().enumerate() {
-            *value -= root_change(k, column) * new.springs[k][last];
-        }
+        let outer = new.springs[k][last];
+        edge.root[k].add(row_mut(memory, n, k * SPRINGS + last), -map.root[k][last] * outer, columns, k);
         for j in 0..SPRINGS {
-            if j > last {
-                continue;
+            if j <= last {
+                let (root, place) = (map.root[k][j], row_mut(memory, n, k * SPRINGS + j));
+                scale(place, if root > 0.0 { 1.0 / root.max(TINY) } else { 0.0 });
+                add(sum, root * root, place);
             }
-            let root = map.root[k][j];
-            let place = row_mut(memory, n, k * SPRINGS + j);
-            let per_root = if root > 0.0 { 1.0 / root.max(TINY) } else { 0.0 };
-            place.iter_mut().for_each(|value| *value *= per_root);
-            add(sum, root * root, place);
         }
         // The stiffness of the last spring.
-        let factor = per_step[k] * new.springs[k][last];
-        add(sum, factor, columns.load);
-        add(sum, -factor * edge.secant[k], columns.shift[k]);
+        edge.root[k].add(sum, 2.0 * map.root[k][last] * map.root[k][last] * outer, columns, k);
     }
     fine(taken, &share, columns, memory, [&mut *force_x, &mut *force_y]);
     // Coulomb's bound.
@@ -328,6 +167,169 @@ pub(crate) fn step(
             let along = e[0] * *x + e[1] * *y;
             *x = ratio * (*x - e[0] * along) + e[0] * load;
             *y = ratio * (*y - e[1] * along) + e[1] * load;
+        }
+    }
+}
+
+/// Trial displacements of the springs.
+#[inline(always)]
+fn trial(taken: &Taken, share: &Share, columns: &MotionColumns, memory: &mut [f64]) {
+    let Taken { springs, motion, course, .. } = *taken;
+    let n = columns.load.len();
+    for k in 0..2 {
+        for j in 0..SPRINGS {
+            let place = row_mut(memory, n, k * SPRINGS + j);
+            if j > course.edge.last || j >= springs.used {
+                place.fill(0.0);
+                continue;
+            }
+            share.differentiate(place, motion.now.shift[k] - springs.shift[k][j], motion, columns, k);
+        }
+    }
+}
+
+impl Share {
+    /// Adds the derivatives of the part of the motion that a spring follows, at the distance S_b - S_j.
+    #[inline(always)]
+    fn differentiate(&self, place: &mut [f64], limit: f64, motion: &Motion, columns: &MotionColumns, k: usize) {
+        let part = self.of(k, limit);
+        add(place, part, columns.by[k]);
+        if part < 1.0 {
+            let rate = motion.by[k] * self.per_rise[k];
+            add(place, rate * (1.0 - part), columns.shift[k]);
+            add(place, rate * part, columns.before[k]);
+        }
+    }
+}
+
+/// The change of the directions of slip at fixed angles, by tractions at the start and by overshoots of the trial state: -σ × dn.
+#[inline(always)]
+fn directions(taken: &Taken, slipped: &Slipped, columns: &MotionColumns, memory: &[f64], scratch: &mut [f64]) {
+    let Taken { springs, motion, .. } = *taken;
+    let n = columns.load.len();
+    let Slipped { slip, start, overshoot, trial, .. } = slipped;
+    for i in 0..SPRINGS {
+        if !slip.slips[i] {
+            continue;
+        }
+        let direction = DirectionSlopes::new(&at(&slip.e, i), &at(start, i), overshoot[i]);
+        let sigma = at(&slip.sigma, i);
+        let turned = |vector: &Both<f64>| sigma[0] * vector[1] - sigma[1] * vector[0];
+        let place = row_mut(scratch, n, ANGLES + i);
+        let per_over = turned(&direction.by_overshoot) / (1.0 + overshoot[i]);
+        for k in 0..2 {
+            add(place, -turned(&direction.by_start[k]), row(memory, n, TRACTIONS + k * SPRINGS + i));
+            if per_over != 0.0 && overshoot[i] > 0.0 {
+                let limit = (motion.now.shift[k] - springs.shift[k][i]).max(TINY);
+                let ratio = trial[k][i] / limit;
+                let factor = per_over * ratio / limit;
+                add(place, -factor, row(memory, n, k * SPRINGS + i));
+                add(place, factor * ratio, columns.shift[k]);
+            }
+        }
+    }
+}
+
+/// Springs and angles, from z* and the change of the directions.
+#[inline(always)]
+fn slip(
+    taken: &Taken,
+    slipped: &Slipped,
+    map: &Map,
+    edge: &EdgeSlopes,
+    columns: &MotionColumns,
+    memory: &mut [f64],
+    scratch: &mut [f64],
+) {
+    let pressure = &taken.course.edge.pressure;
+    let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
+    let Slipped { slip, start, overshoot, end, .. } = slipped;
+    let slipping = || (0..SPRINGS).filter(|i| slip.slips[*i]);
+    for k in 0..2 {
+        // z* - dB'σ.
+        for i in slipping() {
+            edge.column[k][i].add(row_mut(memory, n, k * SPRINGS + last), -slip.sigma[k][i], columns, k);
+        }
+        for i in slipping() {
+            let entries = map.row(k, i);
+            let place = row_mut(scratch, n, k * SPRINGS + i);
+            for j in i..SPRINGS {
+                if j <= last {
+                    add(place, entries[j], row(memory, n, k * SPRINGS + j));
+                }
+            }
+            edge.column[k][i].add(place, end[k][last], columns, k);
+            add(place, -slip.e[k][i] * edge.pressure[i], columns.size);
+        }
+    }
+    // dσ at fixed angles × n.
+    for i in slipping() {
+        let n_i = DirectionSlopes::new(&at(&slip.e, i), &at(start, i), overshoot[i]).vector;
+        for j in slipping() {
+            add_row(scratch, n, ANGLES + i, -n_i[1] * slip.inverse[0][i][j], j);
+            add_row(scratch, n, ANGLES + i, n_i[0] * slip.inverse[1][i][j], SPRINGS + j);
+        }
+    }
+    let angles = scratch.get_mut(ANGLES * n..SINGLE * n).unwrap_or(&mut []);
+    solve_columns(&slip.factors, slip.first, last, angles, n);
+    // h - p e' dθ, dσ and the springs.
+    for i in slipping() {
+        add_row(scratch, n, i, pressure[i] * slip.e[1][i], ANGLES + i);
+        add_row(scratch, n, SPRINGS + i, -pressure[i] * slip.e[0][i], ANGLES + i);
+    }
+    for k in 0..2 {
+        for i in slipping() {
+            row_mut(scratch, n, SINGLE).fill(0.0);
+            for j in slipping() {
+                add_row(scratch, n, SINGLE, slip.inverse[k][i][j], k * SPRINGS + j);
+            }
+            let entries = map.row(k, i);
+            for j in i..SPRINGS {
+                if j <= last {
+                    add(row_mut(memory, n, k * SPRINGS + j), -entries[j], row(scratch, n, SINGLE));
+                }
+            }
+        }
+    }
+}
+
+/// Tractions over the pressure, from z and the angles.
+#[inline(always)]
+fn tractions(
+    taken: &Taken,
+    slipped: Option<&Slipped>,
+    map: &Map,
+    edge: &EdgeSlopes,
+    columns: &MotionColumns,
+    memory: &mut [f64],
+    scratch: &[f64],
+) {
+    let Taken { memories: [_, new], course, .. } = *taken;
+    let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
+    for i in 0..SPRINGS {
+        let slides = slipped.filter(|slipped| slipped.slip.slips[i]);
+        let per_pressure = 1.0 / course.edge.pressure[i].max(TINY);
+        for k in 0..2 {
+            let r = TRACTIONS + k * SPRINGS + i;
+            row_mut(memory, n, r).fill(0.0);
+            if i > last {
+                continue;
+            }
+            if let Some(slipped) = slides {
+                let [x, y] = at(&slipped.slip.e, i);
+                add(row_mut(memory, n, r), if k == 0 { -y } else { x }, row(scratch, n, ANGLES + i));
+                continue;
+            }
+            let entries = map.row(k, i);
+            for j in i..SPRINGS {
+                if j <= last {
+                    add_row(memory, n, r, entries[j] * per_pressure, k * SPRINGS + j);
+                }
+            }
+            let outer = new.springs[k][last] * map.root[k][last];
+            let place = row_mut(memory, n, r);
+            edge.column[k][i].add(place, outer * per_pressure, columns, k);
+            add(place, -new.tractions[k][i] * edge.pressure[i] * per_pressure, columns.size);
         }
     }
 }
@@ -356,15 +358,8 @@ fn fine(
         let limit: Both<f64> = core::array::from_fn(|k| motion.now.shift[k] - springs.fine_shift[k][j]);
         let mut trial = [0.0; 2];
         for k in 0..2 {
-            let part = share.of(k, limit[k]);
-            trial[k] = old.fine[k][j] + motion.by[k] * part;
-            let place = if k == 0 { &mut *x } else { &mut *y };
-            add(place, part, columns.by[k]);
-            if part < 1.0 {
-                let rate = motion.by[k] * share.per_rise[k];
-                add(place, rate * (1.0 - part), columns.shift[k]);
-                add(place, rate * part, columns.before[k]);
-            }
+            trial[k] = old.fine[k][j] + motion.by[k] * share.of(k, limit[k]);
+            share.differentiate(if k == 0 { &mut *x } else { &mut *y }, limit[k], motion, columns, k);
         }
         let ratios = [trial[0] / limit[0].max(TINY), trial[1] / limit[1].max(TINY)];
         let over2 = product(&ratios, &ratios);

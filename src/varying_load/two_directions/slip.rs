@@ -14,6 +14,7 @@
 //!
 //! For slipping points `σ = S (B z* - q)` with S the inverse of `B B'` on them, so the angles of e_i are the only unknowns.
 
+use super::columns::{add_row, row_mut, scale};
 use super::edge::Map;
 use super::springs::{Both, Row, SPRINGS, add, dot};
 use crate::shape::TINY;
@@ -393,34 +394,20 @@ fn solve(factors: &Matrix, first: usize, last: usize, right: &Row) -> Row {
 /// Solves with the factors for rows of n columns.
 #[inline(always)]
 pub(crate) fn solve_columns(factors: &Matrix, first: usize, last: usize, rows: &mut [f64], n: usize) {
-    let add = |rows: &mut [f64], to: usize, a: f64, from: usize| {
-        let (low, high) = rows.split_at_mut((to.max(from) * n).min(rows.len()));
-        let (one, two) = if to > from {
-            (high.get_mut(..n), low.get(from * n..(from + 1) * n))
-        } else {
-            (low.get_mut(to * n..(to + 1) * n), high.get(..n))
-        };
-        for (to, from) in one.unwrap_or(&mut []).iter_mut().zip(two.unwrap_or(&[])) {
-            *to += a * from;
-        }
-    };
-    for i in first..SPRINGS {
+    let end = last.min(SPRINGS - 1) + 1;
+    for i in first..end {
         for j in first..i {
-            if i <= last && factors[i][j] != 0.0 {
-                add(rows, i, -factors[i][j], j);
+            if factors[i][j] != 0.0 {
+                add_row(rows, n, i, -factors[i][j], j);
             }
         }
     }
-    for i in (first..SPRINGS).rev() {
-        if i > last {
-            continue;
-        }
-        for j in i + 1..SPRINGS {
-            if j <= last && factors[i][j] != 0.0 {
-                add(rows, i, -factors[i][j], j);
+    for i in (first..end).rev() {
+        for j in i + 1..end {
+            if factors[i][j] != 0.0 {
+                add_row(rows, n, i, -factors[i][j], j);
             }
         }
-        let row = rows.get_mut(i * n..(i + 1) * n).unwrap_or(&mut []);
-        row.iter_mut().for_each(|value| *value *= factors[i][i]);
+        scale(row_mut(rows, n, i), factors[i][i]);
     }
 }

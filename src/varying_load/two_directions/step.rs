@@ -61,6 +61,8 @@ impl Course {
 /// A step with slip: the springs at its end in units of the roots, tractions there and over the pressure at the start.
 pub(crate) struct Slipped {
     pub slip: Slip,
+    /// Displacements of the springs of the trial state.
+    pub trial: Both<Row>,
     pub end: Both<Row>,
     pub tractions: Both<Row>,
     pub start: Both<Row>,
@@ -72,6 +74,7 @@ impl Slipped {
     fn new() -> Slipped {
         Slipped {
             slip: Slip::new(),
+            trial: [[0.0; SPRINGS]; 2],
             end: [[0.0; SPRINGS]; 2],
             tractions: [[0.0; SPRINGS]; 2],
             start: [[0.0; SPRINGS]; 2],
@@ -140,6 +143,7 @@ pub(crate) fn step(
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
         let slipped = course.slip.insert(Slipped::new());
+        slipped.trial = trial;
         slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {
             let mut per_root = springs.per_root[k];
@@ -208,7 +212,7 @@ fn slide(
     slipped: &mut Slipped,
 ) {
     let last = edge.last;
-    let Slipped { slip, end, tractions: end_tractions, start, overshoot } = slipped;
+    let Slipped { slip, end, tractions: end_tractions, start, overshoot, .. } = slipped;
     *start = memory.tractions;
     for i in (0..SPRINGS).rev() {
         if i > last {
