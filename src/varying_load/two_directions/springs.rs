@@ -219,7 +219,7 @@ impl Springs {
     /// W_j and w_j of the law and of the fine bank.
     fn secants(&mut self) {
         let secant = |load: [f64; 2], shift: [f64; 2]| {
-            if shift[1] < NEVER { (load[1] - load[0]) / (shift[1] - shift[0]) } else { 0.0 }
+            if shift[1] < NEVER { (load[1] - load[0]) / (shift[1] - shift[0]).max(TINY) } else { 0.0 }
         };
         for k in 0..2 {
             for j in self.under_flat..self.used.min(SPRINGS - 1) {
@@ -277,7 +277,7 @@ impl Springs {
                         let arc = acosh(width[j + 1]) - if j > i { acosh(width[j]) } else { 0.0 };
                         quarter_load * self.secant[k][j] * arc / (width[j + 1] - width[j])
                     } else if self.shift[k][j + 1] < NEVER {
-                        pressure[j] / (self.shift[k][j + 1] - self.shift[k][j])
+                        pressure[j] / (self.shift[k][j + 1] - self.shift[k][j]).max(TINY)
                     } else {
                         break;
                     };
@@ -304,7 +304,7 @@ impl Springs {
                         inverse[c] -= row[j] * self.inverse[j][k][c];
                     }
                 }
-                self.inverse[i][k] = inverse.map(|value| value / row[i]);
+                self.inverse[i][k] = inverse.map(|value| value / row[i].max(TINY));
             }
         }
     }
