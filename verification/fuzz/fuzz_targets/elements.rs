@@ -16,6 +16,8 @@ use std::ptr::{null, null_mut};
 const ELEMENTS: usize = 3;
 /// Tangential directions of the elements at first.
 const DIRECTIONS: [i32; ELEMENTS] = [1, 2, 2];
+/// Random steps at the end of some paths.
+const WALK: usize = 16;
 const SIZE: usize = size_of::<mslip_element>() / size_of::<f64>();
 
 #[derive(Arbitrary, Debug)]
@@ -35,6 +37,7 @@ struct Call {
     /// Bit k is set if output k is not requested.
     omitted: u8,
     index: Option<[i8; 5]>,
+    /// Flags of a batch; the seed of random steps of a path.
     active: Option<u8>,
 }
 
@@ -107,7 +110,8 @@ fuzz_target!(|input: Input| {
         memory.init(slot, *choice, directions, i32::from(*by_force));
         memory.state_init(slot, directions, mslip_element_state_length(directions, 4 + 3 * slot), Fault::None);
     }
-    memory.workspace_init([1, MSLIP_UNIFORM_SAMPLING], [2, 9], Fault::None);
+    let directions = 1 + (input.calls.len() % 2) as i32;
+    memory.workspace_init([directions, MSLIP_UNIFORM_SAMPLING], [2, 9], Fault::None);
     for call in &input.calls {
         let before = memory.elements.clone();
         memory.perform(call);
@@ -132,6 +136,28 @@ fn used(directions: i32, state: &[f64]) -> &[f64] {
     let knots = (state[0].to_bits() & 0xff_ffff_ffff) as usize;
     let length = if directions == 1 { 8 + 4 * knots } else { mslip_element_state_length(2, 0) };
     state.get(..length).unwrap_or(state)
+}
+
+/// Continues a path of displacements of c components by random steps of one width; the normal component mostly stays.
+fn walk(path: &mut Vec<f64>, seed: u8, c: usize, [shift, normal]: [f64; 2]) {
+    let mut state = u32::from(seed);
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) * 2f64.powi(-23) - 1.0
+    };
+    let width = shift * 2f64.powi(1 - i32::from(seed % 8));
+    for _ in 0..WALK {
+        for k in 1..=c {
+            let before = path.len().checked_sub(c).map(|i| path[i]);
+            let (change, stays) = (random(), random() > -0.5);
+            path.push(match before {
+                Some(before) if k < c => before + width * change,
+                Some(before) if stays => before,
+                _ if k < c => 0.0,
+                _ => normal * change.abs(),
+            });
+        }
+    }
 }
 
 /// Calls a batch, and each item alone if all memory is valid: the status is that of the first item that is rejected.
@@ -282,8 +308,13 @@ impl Memory {
             Function::Tractions => [positive(e.half_width); 2],
             _ => [shift, normal],
         };
-        let values: Vec<f64> =
-            (0..).zip(&call.values).map(|(i, v)| self.numbers.one(*v, scales[usize::from(i % c == c - 1)])).collect();
+        let normal_at = |i: usize| i % c == c - 1;
+        let mut values: Vec<f64> =
+            (0..).zip(&call.values).map(|(i, v)| self.numbers.one(*v, scales[usize::from(normal_at(i))])).collect();
+        if let (Function::Path, Some(seed)) = (call.function, call.active) {
+            values.truncate(values.len() / c * c);
+            walk(&mut values, seed, c, [shift, normal]);
+        }
         let count = values.len();
         let steps = count / c;
         let input = |values: &[f64]| if fault == Fault::NullInput { null() } else { values.as_ptr() };
