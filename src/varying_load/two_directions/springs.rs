@@ -219,7 +219,8 @@ impl Springs {
     /// W_j and w_j of the law and of the fine bank.
     fn secants(&mut self) {
         let secant = |load: [f64; 2], shift: [f64; 2]| {
-            if shift[1] < NEVER { (load[1] - load[0]) / (shift[1] - shift[0]) } else { 0.0 }
+            let secant = (load[1] - load[0]) / (shift[1] - shift[0]).max(TINY);
+            if shift[1] < NEVER { secant } else { 0.0 }
         };
         for k in 0..2 {
             for j in self.under_flat..self.used.min(SPRINGS - 1) {
