@@ -146,7 +146,7 @@ impl Choice {
     /// The contact and its parameters, if these are valid.
     pub fn contact(self) -> Option<(AnyParameters, Contact)> {
         match self {
-            Choice::Listed(index) => Some(listed()[index as usize % listed().len()].clone()),
+            Choice::Listed(index) => Some(listed()[index as usize % listed().len()]),
             _ => self.parameters().contact().ok().map(|contact| (self.parameters(), contact)),
         }
     }
