@@ -56,6 +56,8 @@ pub(crate) fn step(
 ) -> (Both<f64>, f64) {
     let (mut forces, mut energy) = ([[0.0; 4]; 2], 0.0);
     let share = Share::new(before, now);
+    // The fourth powers of large limits overflow.
+    let per_shift = 1.0 / now.shift[1];
     let [x, y] = displacement;
     let (blocks_x, blocks_y) = (x.as_chunks_mut::<4>().0, y.as_chunks_mut::<4>().0);
     for (block, (x, y)) in blocks_x.iter_mut().zip(blocks_y).enumerate() {
@@ -73,9 +75,10 @@ pub(crate) fn step(
                 let moved = old[k][lane] + motion[k] * share.of(k, limit[k][lane]);
                 trial[k][lane] = if inside { moved } else { 0.0 };
             }
-            let (x, y) = (trial[0][lane] * limit[1][lane], trial[1][lane] * limit[0][lane]);
+            let lateral = limit[1][lane] * per_shift;
+            let (x, y) = (trial[0][lane] * lateral, trial[1][lane] * per_shift * limit[0][lane]);
             over[lane] = x * x + y * y;
-            bound[lane] = limit[0][lane] * limit[1][lane];
+            bound[lane] = limit[0][lane] * lateral;
             any |= over[lane] > bound[lane] * bound[lane];
         }
         let mut new = trial;

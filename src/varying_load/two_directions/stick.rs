@@ -88,11 +88,14 @@ pub(crate) fn stuck(springs: &Springs, memory: &Stored, now: &Pressed, offset: &
         let y = memory.tractions[1][i] * p + memory.reach[i] * per_step[1];
         slips |= x * x + y * y > p * p * (1.0 + ROUNDING);
     }
+    // The fourth powers of large limits overflow.
+    let per_shift = 1.0 / now.shift[1];
     for j in 0..FINE {
         let inside = j <= fine_last;
         let limit = [0, 1].map(|k| if inside { now.shift[k] - springs.fine_shift[k][j] } else { 1.0 });
         let value = [0, 1].map(|k| if inside { memory.fine[k][j] + offset[k] } else { 0.0 });
-        let (x, y, bound) = (value[0] * limit[1], value[1] * limit[0], limit[0] * limit[1]);
+        let lateral = limit[1] * per_shift;
+        let (x, y, bound) = (value[0] * lateral, value[1] * per_shift * limit[0], limit[0] * lateral);
         slips |= x * x + y * y > bound * bound;
     }
     if slips {

@@ -1,17 +1,23 @@
 //! Sequences of calls of the element functions of the C interface, also with invalid pointers and lengths and with corrupted memory.
 //!
 //! The same holds as for the target `calls`. With valid memory the forces satisfy Coulomb's law and the normal law, no energy is
-//! negative, a path gives the results of its steps and a batch those of single calls.
+//! negative, states pass their check, a path gives the results of its steps and a batch status and results of single calls.
+//! Elements, states and workspaces of different numbers of directions are rejected.
 #![no_main]
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::fuzz_target;
+use microslip::Error;
 use microslip::ffi::*;
 use microslip_fuzz::calls::{UNTOUCHED, not_negative, run, same, status, untouched};
 use microslip_fuzz::{AnyParameters, Choice, Number, Numbers, all};
 use std::ptr::{null, null_mut};
 
 const ELEMENTS: usize = 3;
+/// Tangential directions of the elements at first.
+const DIRECTIONS: [i32; ELEMENTS] = [1, 2, 2];
+/// Random steps at the end of some paths.
+const WALK: usize = 16;
 const SIZE: usize = size_of::<mslip_element>() / size_of::<f64>();
 
 #[derive(Arbitrary, Debug)]
@@ -31,6 +37,7 @@ struct Call {
     /// Bit k is set if output k is not requested.
     omitted: u8,
     index: Option<[i8; 5]>,
+    /// Flags of a batch; the seed of random steps of a path.
     active: Option<u8>,
 }
 
@@ -69,6 +76,7 @@ enum Fault {
 #[derive(Clone, Default)]
 struct State {
     values: Vec<f64>,
+    directions: i32,
     valid: bool,
     /// Its element was initialised again since.
     foreign: bool,
@@ -80,7 +88,8 @@ struct Memory {
     states: [State; ELEMENTS],
     workspace: Vec<f64>,
     valid_workspace: bool,
-    /// 2H+1 of the workspace.
+    /// Directions and 2H+1 of the workspace.
+    workspace_directions: i32,
     coefficients: usize,
     numbers: Numbers,
 }
@@ -92,14 +101,17 @@ fuzz_target!(|input: Input| {
         states: [(); ELEMENTS].map(|()| State::default()),
         workspace: Vec::new(),
         valid_workspace: false,
+        workspace_directions: 1,
         coefficients: 0,
         numbers: Numbers::default(),
     };
     for (slot, (choice, by_force)) in input.elements.iter().enumerate() {
-        memory.init(slot, *choice, 1, i32::from(*by_force));
-        memory.state_init(slot, 1, mslip_element_state_length(1, 4 + 3 * slot), Fault::None);
+        let directions = DIRECTIONS[slot];
+        memory.init(slot, *choice, directions, i32::from(*by_force));
+        memory.state_init(slot, directions, mslip_element_state_length(directions, 4 + 3 * slot), Fault::None);
     }
-    memory.workspace_init([1, MSLIP_UNIFORM_SAMPLING], [2, 9], Fault::None);
+    let directions = 1 + (input.calls.len() % 2) as i32;
+    memory.workspace_init([directions, MSLIP_UNIFORM_SAMPLING], [2, 9], Fault::None);
     for call in &input.calls {
         let before = memory.elements.clone();
         memory.perform(call);
@@ -113,10 +125,72 @@ fn code(value: i8) -> i32 {
     if value < 100 { i32::from(value & 1) } else { value.into() }
 }
 
-/// The values in use: a header of 8 doubles, whose first holds the number of knots in its last 40 bits, and 4 for each.
-fn used(state: &[f64]) -> &[f64] {
+/// A number of tangential directions; small ones are valid.
+fn directions_of(value: i8) -> i32 {
+    if value < 100 { 1 + i32::from(value & 1) } else { value.into() }
+}
+
+/// The values in use: for one direction a header of 8 doubles, whose first holds the number of knots in its last 40 bits, and 4 for
+/// each; for two the shortest state.
+fn used(directions: i32, state: &[f64]) -> &[f64] {
     let knots = (state[0].to_bits() & 0xff_ffff_ffff) as usize;
-    state.get(..8 + 4 * knots).unwrap_or(state)
+    let length = if directions == 1 { 8 + 4 * knots } else { mslip_element_state_length(2, 0) };
+    state.get(..length).unwrap_or(state)
+}
+
+/// Continues a path of displacements of c components by random steps of one width; the normal component mostly stays.
+fn walk(path: &mut Vec<f64>, seed: u8, c: usize, [shift, normal]: [f64; 2]) {
+    let mut state = u32::from(seed);
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) * 2f64.powi(-23) - 1.0
+    };
+    let width = shift * 2f64.powi(1 - i32::from(seed % 8));
+    for _ in 0..WALK {
+        for k in 1..=c {
+            let before = path.len().checked_sub(c).map(|i| path[i]);
+            let (change, stays) = (random(), random() > -0.5);
+            path.push(match before {
+                Some(before) if k < c => before + width * change,
+                Some(before) if stays => before,
+                _ if k < c => 0.0,
+                _ => normal * change.abs(),
+            });
+        }
+    }
+}
+
+/// Calls a batch, and each item alone if all memory is valid: the status is that of the first item that is rejected.
+fn batch<const K: usize>(
+    [valid, predictable, safe]: [bool; 3],
+    omitted: u8,
+    slots: &[Option<usize>],
+    lengths: [usize; K],
+    together: impl Fn([*mut f64; K]) -> i32,
+    alone: impl Fn(usize, usize, [*mut f64; K]) -> i32,
+) {
+    let single = |(i, slot): (usize, &Option<usize>)| {
+        let mut outputs = lengths.map(|length| vec![UNTOUCHED; length]);
+        let pointers = outputs.each_mut().map(Vec::as_mut_ptr);
+        (slot.map_or(MSLIP_OK, |slot| alone(i, slot, pointers)), outputs)
+    };
+    let singles: Vec<_> = if valid { slots.iter().enumerate().map(single).collect() } else { Vec::new() };
+    let expected = singles.iter().map(|(code, _)| *code).find(|code| *code != MSLIP_OK).unwrap_or(MSLIP_OK);
+    let expected = predictable.then_some(expected);
+    let all = run(safe, omitted, lengths.map(|length| slots.len() * length), |outputs| {
+        predicted(expected, together(outputs))
+    });
+    for (output, k) in all.iter().flatten().zip(0..) {
+        for (item, (_, single)) in output.chunks(lengths[k]).zip(&singles) {
+            assert!(same(item, &single[k]), "output {k}: {item:?}, alone {:?}", single[k]);
+        }
+    }
+}
+
+/// A status, which must be the expected one.
+fn predicted(expected: Option<i32>, status: i32) -> i32 {
+    assert!(expected.is_none_or(|expected| expected == status), "status {status}, not {expected:?}");
+    status
 }
 
 impl Memory {
@@ -139,7 +213,7 @@ impl Memory {
         let fields =
             [e.composite_modulus, e.normal_force, e.half_width, e.approach, e.normal_stiffness, e.tangential_stiffness];
         all!(fields, |value| value > 0.0 && value.is_finite());
-        assert!(not_negative(e.friction_coefficient) && (e.directions, e.normal_input) == (1, normal_input));
+        assert!(not_negative(e.friction_coefficient) && (e.directions, e.normal_input) == (directions, normal_input));
         self.elements[slot * SIZE..][..SIZE].copy_from_slice(&element);
         self.valid[slot] = true;
         self.states[slot].foreign = true;
@@ -151,7 +225,7 @@ impl Memory {
         let answer =
             status(true, || unsafe { mslip_element_state_init(directions, with_fault(length, fault), pointer) });
         assert!(answer == MSLIP_OK || untouched(&values), "a rejected state has been modified");
-        self.states[slot] = State { values, valid: answer == MSLIP_OK, foreign: false };
+        self.states[slot] = State { values, directions, valid: answer == MSLIP_OK, foreign: false };
     }
 
     fn workspace_init(&mut self, [directions, rule]: [i32; 2], [harmonics, samples]: [usize; 2], fault: Fault) {
@@ -169,6 +243,7 @@ impl Memory {
             assert!(untouched(&values), "a rejected workspace has been modified");
         }
         (self.workspace, self.valid_workspace) = (values, answer == MSLIP_OK);
+        self.workspace_directions = if self.valid_workspace { directions } else { 1 };
         self.coefficients = 2 * harmonics + 1;
     }
 
@@ -195,27 +270,35 @@ impl Memory {
                 change(&mut self.workspace);
                 self.valid_workspace = false;
                 let header = self.workspace.as_ptr();
-                let (mut harmonics, mut samples) = (0, 0);
+                let (mut directions, mut harmonics, mut samples) = (1, 0, 0);
                 let size = unsafe {
-                    mslip_element_workspace_size(header, null_mut(), &mut harmonics, &mut samples, null_mut())
+                    mslip_element_workspace_size(header, &mut directions, &mut harmonics, &mut samples, null_mut())
                 };
-                let length = mslip_element_workspace_length(1, harmonics, samples, MSLIP_UNIFORM_SAMPLING);
+                let length = mslip_element_workspace_length(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING);
                 if size == MSLIP_OK && length > self.workspace.len() {
                     self.workspace = before;
                 } else {
-                    self.coefficients = 2 * harmonics + 1;
+                    (self.workspace_directions, self.coefficients) = (directions, 2 * harmonics + 1);
                 }
             }
         }
     }
 
+    fn element(&self, slot: usize) -> *const mslip_element {
+        self.elements[slot * SIZE..].as_ptr().cast()
+    }
+
     fn perform(&mut self, call: &Call) {
         let Call { fault, omitted, .. } = *call;
+        let faultless = matches!(fault, Fault::None | Fault::NoneAgain);
         let slot = call.element as usize % ELEMENTS;
-        let own: *const mslip_element = self.elements[slot * SIZE..].as_ptr().cast();
+        let own = self.element(slot);
         let e = unsafe { &*own };
         let element = if fault == Fault::NullElement { null() } else { own };
         let valid = self.valid[slot];
+        // Buffers for a corrupted element suffice for two directions.
+        let components = |valid: bool, directions: i32| if valid { directions as usize + 1 } else { 3 };
+        let c = components(valid, e.directions);
         let positive = |value: f64| if value > 0.0 && value < 1e150 { value } else { 1e-6 };
         let shift = positive(e.approach * e.friction_coefficient.min(1e3));
         let normal = positive(if e.normal_input == MSLIP_NORMAL_FORCE { e.normal_force } else { e.approach });
@@ -225,56 +308,82 @@ impl Memory {
             Function::Tractions => [positive(e.half_width); 2],
             _ => [shift, normal],
         };
-        let values: Vec<f64> = (0..).zip(&call.values).map(|(i, v)| self.numbers.one(*v, scales[i % 2])).collect();
+        let normal_at = |i: usize| i % c == c - 1;
+        let mut values: Vec<f64> =
+            (0..).zip(&call.values).map(|(i, v)| self.numbers.one(*v, scales[usize::from(normal_at(i))])).collect();
+        if let (Function::Path, Some(seed)) = (call.function, call.active) {
+            values.truncate(values.len() / c * c);
+            walk(&mut values, seed, c, [shift, normal]);
+        }
         let count = values.len();
-        let steps = count / 2;
+        let steps = count / c;
         let input = |values: &[f64]| if fault == Fault::NullInput { null() } else { values.as_ptr() };
         let x = input(&values);
 
-        let State { values: state, valid: valid_state, foreign } = self.states[slot].clone();
+        let State { values: state, directions: state_directions, valid: valid_state, foreign } =
+            self.states[slot].clone();
         let length = with_fault(state.len(), fault);
         let valid_history = valid && valid_state && !foreign;
         let old = if fault == Fault::NullState { null() } else { state.as_ptr() };
         let workspace = if fault == Fault::NullWorkspace { null_mut() } else { self.workspace.as_mut_ptr() };
-        let m = 2 * self.coefficients;
+        // The status if a state is that of another number of directions.
+        let other_directions = |valid: bool, directions: i32| {
+            let short = state.len() < mslip_element_state_length(directions, 0);
+            let error = if short { Error::StateTooShort } else { Error::BadDirections };
+            (faultless && valid && valid_state && directions != state_directions).then_some(error.code())
+        };
+        let workspace_directions = self.workspace_directions;
+        let wc = components(true, workspace_directions);
+        let m = wc * self.coefficients;
         let coefficients = |items: usize| -> Vec<f64> {
             let at = |i: usize| values.get(i % count.max(1)).copied().unwrap_or(0.0);
-            (0..items * m).map(|i| at(2 * (i % self.coefficients) + usize::from(i % m >= self.coefficients))).collect()
+            (0..items * m).map(|i| at(wc * (i % self.coefficients) + i % m / self.coefficients)).collect()
         };
         let coulomb = |force: &[f64]| {
-            for force in force.as_chunks::<2>().0 {
+            for force in force.chunks(c) {
+                let (normal, tangential) = (force[c - 1], force[..c - 1].iter().copied().fold(0.0, f64::hypot));
                 // The force is a sum over pieces of the diagram, which may belong to larger loads.
-                let limit = e.friction_coefficient * (force[1] + 1e-13 * e.normal_force.max(force[1]));
-                assert!(force[1] >= 0.0 && force[0].abs() <= limit, "{force:?}");
+                let limit = e.friction_coefficient * (normal + 1e-13 * e.normal_force.max(normal));
+                assert!(normal >= 0.0 && tangential <= limit, "{force:?}");
             }
         };
 
         match call.function {
             Function::Init(choice, directions, normal_input) => {
-                let directions = if directions < 100 { 1 } else { directions.into() };
+                let directions = directions_of(directions);
                 self.init(slot, choice, directions, code(normal_input));
             }
             Function::Corrupt(place, bit) => self.corrupt(call, place, bit),
             Function::StateInit(directions, length) => {
-                let directions = if directions < 100 { 1 } else { directions.into() };
+                let directions = directions_of(directions);
                 let length = length as usize;
-                let length = if length < 192 { mslip_element_state_length(1, length % 12) } else { length % 36 };
+                let length = match length {
+                    ..128 => mslip_element_state_length(directions, length % 12),
+                    // Longer than a state of two directions.
+                    128..192 => mslip_element_state_length(1, length),
+                    _ => length % 36,
+                };
                 self.state_init(slot, directions, length, fault);
             }
             Function::WorkspaceInit(directions, harmonics, samples, rule) => {
-                let directions = if directions < 100 { 1 } else { directions.into() };
+                let directions = directions_of(directions);
                 let rule = if rule < 100 { MSLIP_UNIFORM_SAMPLING } else { rule.into() };
                 self.workspace_init([directions, rule], [harmonics as usize % 7, samples.into()], fault);
             }
             Function::Checks => {
                 let checked = status(true, || unsafe { mslip_element_check(element) });
                 assert!(!valid || element.is_null() || checked == MSLIP_OK, "the check rejects an element");
-                let checked = status(true, || unsafe { mslip_element_state_check(1, length, old) });
-                let comparable = valid_history && fault == Fault::None;
-                assert!(!comparable || checked == MSLIP_OK, "the check rejects {state:?}");
-                let error = |[error]: [*mut f64; 1]| unsafe { mslip_element_state_error(1, length, old, error) };
-                if let Some([error]) = run(valid_history, omitted, [1], error) {
-                    all!(error, not_negative);
+                for directions in [1, 2] {
+                    let other = other_directions(valid_history, directions);
+                    let checked = status(true, || unsafe { mslip_element_state_check(directions, length, old) });
+                    let expected = (valid_history && faultless).then(|| other.unwrap_or(MSLIP_OK));
+                    predicted(expected, checked);
+                    let error = |[error]: [*mut f64; 1]| {
+                        predicted(other, unsafe { mslip_element_state_error(directions, length, old, error) })
+                    };
+                    if let Some([error]) = run(valid_history, omitted, [1], error) {
+                        all!(error, not_negative);
+                    }
                 }
             }
             Function::NormalForce => {
@@ -300,14 +409,16 @@ impl Memory {
                 }
                 let steps = if is_path { steps } else { 1 };
                 let n = with_fault(steps, fault);
+                let other = other_directions(valid, e.directions);
                 let step = |old: *const f64, new: *mut f64, [f, k, d]: [*mut f64; 3]| unsafe {
-                    if is_path {
+                    let status = if is_path {
                         mslip_element_path(element, length, old, n, x, new, f, k, d)
                     } else {
                         mslip_element_update(element, length, old, x, new, f, k, d)
-                    }
+                    };
+                    predicted(other, status)
                 };
-                let lengths = [state.len(), 2 * steps, 4 * steps, steps];
+                let lengths = [state.len(), c * steps, c * c * steps, steps];
                 let result = run(valid_history, omitted, lengths, |[new, f, k, d]| step(old, new, [f, k, d]));
                 assert!(same(&state, &self.states[slot].values), "the old state was modified");
                 // In place.
@@ -319,28 +430,33 @@ impl Memory {
                     step(pointer, pointer, outputs)
                 });
                 assert!(result.is_some() == repeated.is_some());
+                let accepted = result.is_some() || !valid_history;
+                assert!(accepted || same(&in_place, &state), "a rejected call has modified the state");
                 if let (Some([new, force, tangent, dissipated]), Some(repeated)) = (&result, &repeated) {
                     coulomb(force);
                     all!(tangent, f64::is_finite);
                     all!(dissipated, not_negative);
+                    let used = |state| used(e.directions, state);
                     assert!(same(used(&in_place), used(new)), "in place {in_place:?}, elsewhere {new:?}");
                     for (elsewhere, in_place) in [force, tangent, dissipated].into_iter().zip(repeated) {
                         assert!(same(elsewhere, in_place), "in place {in_place:?}, elsewhere {elsewhere:?}");
                     }
                     // Step by step.
                     let mut stepwise = state.clone();
-                    let s = stepwise.as_mut_ptr();
+                    let (s, none) = (stepwise.as_mut_ptr(), null_mut());
                     for i in 0..steps {
-                        let (mut f, mut k, mut d) = ([UNTOUCHED; 2], [UNTOUCHED; 4], [UNTOUCHED]);
-                        let (x, none) = (&raw const values[2 * i], null_mut());
-                        let (pf, pk, pd) = (f.as_mut_ptr(), k.as_mut_ptr(), d.as_mut_ptr());
+                        let mut outputs = [c, c * c, 1].map(|length| vec![UNTOUCHED; length]);
+                        let [f, k, d] = outputs.each_mut().map(Vec::as_mut_ptr);
+                        let x = &raw const values[c * i];
                         unsafe {
-                            assert_eq!(mslip_element_update(own, state.len(), s, x, none, pf, pk, pd), MSLIP_OK);
-                            assert!(same(&force[2 * i..][..2], &f) && same(&tangent[4 * i..][..4], &k));
-                            assert!(same(&dissipated[i..][..1], &d), "{dissipated:?} {i} {d:?}");
-                            assert_eq!(mslip_element_update(own, state.len(), s, x, s, pf, none, none), MSLIP_OK);
+                            assert_eq!(mslip_element_update(own, state.len(), s, x, none, f, k, d), MSLIP_OK);
+                            for (all, one) in [force, tangent, dissipated].into_iter().zip(&outputs) {
+                                assert!(same(&all[i * one.len()..][..one.len()], one), "step {i}: {all:?}, {one:?}");
+                            }
+                            assert_eq!(mslip_element_update(own, state.len(), s, x, s, f, none, none), MSLIP_OK);
+                            assert_eq!(mslip_element_state_check(e.directions, state.len(), s), MSLIP_OK, "step {i}");
                         }
-                        assert!(same(&force[2 * i..][..2], &f));
+                        assert!(same(&force[c * i..][..c], &outputs[0]));
                     }
                     assert!(same(used(&stepwise), used(new)), "stepwise {stepwise:?}, at once {new:?}");
                 }
@@ -348,8 +464,13 @@ impl Memory {
             }
             Function::Tractions => {
                 let n = with_fault(count, fault);
-                let tractions =
-                    |[p, q]: [*mut f64; 2]| unsafe { mslip_element_tractions(element, length, old, n, x, p, q) };
+                let expected = match other_directions(valid, 1) {
+                    _ if valid && faultless && e.directions == 2 => Some(Error::NotAvailable.code()),
+                    other => other,
+                };
+                let tractions = |[p, q]: [*mut f64; 2]| {
+                    predicted(expected, unsafe { mslip_element_tractions(element, length, old, n, x, p, q) })
+                };
                 if let Some([pressure, shear]) = run(valid_history, omitted, [count; 2], tractions) {
                     all!(pressure, not_negative);
                     all!(shear, f64::is_finite);
@@ -357,12 +478,14 @@ impl Memory {
             }
             Function::HarmonicForce => {
                 let displacement = coefficients(1);
+                let valid = valid && self.valid_workspace;
+                let other = valid && faultless && e.directions != workspace_directions;
+                let expected = other.then_some(Error::BadDirections.code());
                 let harmonic = |[f, j, d]: [*mut f64; 3]| unsafe {
-                    mslip_element_harmonic_force(element, workspace, input(&displacement), f, j, d)
+                    let u = input(&displacement);
+                    predicted(expected, mslip_element_harmonic_force(element, workspace, u, f, j, d))
                 };
-                if let Some([force, jacobian, dissipated]) =
-                    run(valid && self.valid_workspace, omitted, [m, m * m, 1], harmonic)
-                {
+                if let Some([force, jacobian, dissipated]) = run(valid, omitted, [m, m * m, 1], harmonic) {
                     all!(force, f64::is_finite);
                     all!(jacobian, f64::is_finite);
                     all!(dissipated, not_negative);
@@ -370,7 +493,7 @@ impl Memory {
             }
             Function::BatchUpdate | Function::BatchHarmonicForce => {
                 let is_update = matches!(call.function, Function::BatchUpdate);
-                let items = if is_update { steps } else { steps % 4 };
+                let items = if is_update { count / 3 } else { count / 3 % 4 };
                 let slot_of =
                     |i: i8| if i.unsigned_abs() < 120 { i32::from(i).rem_euclid(3) } else { i32::from(i) / 30 };
                 let index: Option<Vec<i32>> =
@@ -389,53 +512,46 @@ impl Memory {
                 let first: *const mslip_element = self.elements.as_ptr().cast();
                 let p = if element.is_null() { null() } else { first };
                 let n = with_fault(items, fault);
-                let single = |slot: usize| -> *const mslip_element { self.elements[slot * SIZE..].as_ptr().cast() };
-                let none = null_mut();
+                // An item alone; its element must be one and have the directions of the others.
+                let single = |slot: usize, directions: i32, call: &dyn Fn(*const mslip_element) -> i32| {
+                    if slot >= ELEMENTS {
+                        return Error::BadIndex.code();
+                    }
+                    let one = self.element(slot);
+                    if unsafe { &*one }.directions == directions { call(one) } else { Error::BadDirections.code() }
+                };
                 if is_update {
                     let states = state.repeat(items);
                     let old = if old.is_null() { null() } else { states.as_ptr() };
                     let width = state.len();
+                    let first = slots.iter().flatten().next().filter(|slot| **slot < ELEMENTS);
+                    let directions = first.map_or(1, |slot| unsafe { &*self.element(*slot) }.directions);
+                    let c = components(all_valid, directions);
                     let update = |[new, f, k, d]: [*mut f64; 4]| unsafe {
                         mslip_batch_element_update(n, ELEMENTS, p, pi, pa, width, old, x, new, f, k, d)
                     };
-                    let lengths = [items * width, 2 * items, 4 * items, items];
-                    let safe = all_valid && valid_state && !foreign;
-                    if let Some([new, force, tangent, dissipated]) = run(safe, omitted, lengths, update) {
-                        for (i, slot) in slots.iter().enumerate() {
-                            let mut alone = vec![UNTOUCHED; width];
-                            let (mut f, mut k, mut d) = ([UNTOUCHED; 2], [UNTOUCHED; 4], [UNTOUCHED]);
-                            if let Some(slot) = slot {
-                                let (x, s) = (&raw const values[2 * i], alone.as_mut_ptr());
-                                let (pf, pk, pd) = (f.as_mut_ptr(), k.as_mut_ptr(), d.as_mut_ptr());
-                                let answer = unsafe {
-                                    mslip_element_update(single(*slot), width, state.as_ptr(), x, s, pf, pk, pd)
-                                };
-                                assert_eq!(answer, MSLIP_OK);
-                            }
-                            assert!(same(&new[i * width..][..width], &alone));
-                            assert!(same(&force[2 * i..][..2], &f) && same(&tangent[4 * i..][..4], &k));
-                            assert!(same(&dissipated[i..][..1], &d));
-                        }
-                    }
+                    let alone = |i: usize, slot: usize, [new, f, k, d]: [*mut f64; 4]| {
+                        single(slot, directions, &|one| unsafe {
+                            mslip_element_update(one, width, state.as_ptr(), &raw const values[c * i], new, f, k, d)
+                        })
+                    };
+                    let valid = all_valid && valid_state;
+                    let validity = [valid, valid && faultless, valid && !foreign];
+                    batch(validity, omitted, &slots, [width, c, c * c, 1], update, alone);
                 } else {
                     let displacement = coefficients(items);
                     let harmonic = |[f, j, d]: [*mut f64; 3]| unsafe {
                         let u = input(&displacement);
                         mslip_batch_element_harmonic_force(n, ELEMENTS, p, pi, pa, workspace, u, f, j, d)
                     };
-                    let lengths = [items * m, items * m * m, items];
-                    if let Some([force, ..]) = run(all_valid && self.valid_workspace, omitted, lengths, harmonic) {
-                        for (i, slot) in slots.iter().enumerate() {
-                            let mut alone = vec![UNTOUCHED; m];
-                            if let Some(slot) = slot {
-                                let (u, f) = (displacement[i * m..].as_ptr(), alone.as_mut_ptr());
-                                let answer =
-                                    unsafe { mslip_element_harmonic_force(single(*slot), workspace, u, f, none, none) };
-                                assert_eq!(answer, MSLIP_OK);
-                            }
-                            assert!(same(&force[i * m..][..m], &alone));
-                        }
-                    }
+                    let own_workspace = self.workspace.as_ptr().cast_mut();
+                    let alone = |i: usize, slot: usize, [f, j, d]: [*mut f64; 3]| {
+                        single(slot, workspace_directions, &|one| unsafe {
+                            mslip_element_harmonic_force(one, own_workspace, displacement[i * m..].as_ptr(), f, j, d)
+                        })
+                    };
+                    let valid = all_valid && self.valid_workspace;
+                    batch([valid, valid && faultless, valid], omitted, &slots, [m, m * m, 1], harmonic, alone);
                 }
             }
             Function::Lengths(directions, pieces, samples, rule) => {
