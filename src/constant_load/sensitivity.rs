@@ -209,6 +209,7 @@ pub(crate) mod tests {
                 let small = f64::abs(part).min(1.0);
                 for (parameter, (difference, scale)) in found.iter().enumerate() {
                     let error = (difference[0] - exact[parameter]) / scale / small;
+                    // One-sided differences have an error of h/2 = 5e-6 times the second derivative.
                     assert!(
                         error.abs() < 1e-4,
                         "{:?} {part} {parameter}: {error:e} {} {}",
