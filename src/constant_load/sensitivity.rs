@@ -18,7 +18,7 @@
 //! E* dT/dE* = [τ Λ - s λ + ρ] / K_c
 //! ```
 //!
-//! No term is a difference of larger ones, so that small displacements lose nothing. σ is 0 for `MSLIP_CENTRE_POINT`. For an ellipse
+//! No term is a difference of larger ones, so small displacements keep their accuracy. σ is 0 for `MSLIP_CENTRE_POINT`. For an ellipse
 //! of bodies with given shapes b scales as (NR/E*)^(1/3), and all is elementary in the size c/b.
 
 use crate::constant_load::contact::{Contact, check_displacement};
