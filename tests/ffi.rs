@@ -720,6 +720,14 @@ fn batches() {
     }
 }
 
+static SPHERE: EllipticParameters = EllipticParameters {
+    semi_axis_x: 1e-4,
+    semi_axis_y: 1e-4,
+    normal_force: 100.0,
+    friction_coefficient: 0.3,
+    material: [STEEL; 2],
+};
+
 /// A slightly flattened element by approach, and a sphere by normal force, both with one direction; a sphere by approach with two.
 /// Initialised once, which takes minutes under Miri.
 fn elements() -> [Memory<mslip_element>; 3] {
@@ -732,21 +740,14 @@ fn elements() -> [Memory<mslip_element>; 3] {
     };
     let elements = INITIALISED.get_or_init(|| {
         let rounded = flat(1e-4, 0.02);
-        let sphere = EllipticParameters {
-            semi_axis_x: 1e-4,
-            semi_axis_y: 1e-4,
-            normal_force: 100.0,
-            friction_coefficient: 0.3,
-            material: [STEEL; 2],
-        };
         [
             initialised(&|element| unsafe { mslip_element_init(&raw const rounded, 1, MSLIP_APPROACH, element) }),
             initialised(&|element| unsafe {
-                mslip_element_init_elliptic(&raw const sphere, 1, MSLIP_NORMAL_FORCE, element)
+                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_NORMAL_FORCE, element)
             }),
             // The springs of both directions take too long under Miri: without friction there are none.
             initialised(&|element| unsafe {
-                let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..sphere };
+                let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
                 mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element)
             }),
         ]
@@ -999,15 +1000,8 @@ fn element_update_and_path() {
 /// Slip with springs, with all outputs.
 #[test]
 fn slip_in_two_directions() {
-    let sphere = EllipticParameters {
-        semi_axis_x: 1e-4,
-        semi_axis_y: 1e-4,
-        normal_force: 100.0,
-        friction_coefficient: 0.3,
-        material: [STEEL; 2],
-    };
     let element = Memory::<mslip_element>::new(1);
-    assert_eq!(unsafe { mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element.start) }, MSLIP_OK);
+    assert_eq!(unsafe { mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_APPROACH, element.start) }, MSLIP_OK);
     let (state, [u, w]) = (open_state(2, 0), units(&element));
     let (n, s) = (state.length, state.start);
     let path = Memory::of([0.0, 0.0, w, 0.3 * u, 0.1 * u, w, 0.6 * u, -0.4 * u, 0.8 * w]);

@@ -152,7 +152,8 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
     let positive = memory.reach.iter().chain(&memory.pressure).all(|value| *value >= 0.0);
     let loads = header.load > 0.0 && header.shift > 0.0;
-    if within && positive && loads { Ok(()) } else { Err(Error::BadState) }
+    let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
+    if within && positive && loads && held { Ok(()) } else { Err(Error::BadState) }
 }
 
 /// A bound on the error of the force \[N\] from merging pieces of the diagram on a line; 0 otherwise.
