@@ -101,7 +101,7 @@ audit:
 ## accuracy: every output against multi-precision, an hour of processor time; POINTS=1e6 for less than the 1e7 of each
 accuracy:
 	@tools/dependencies.sh accuracy
-	$(CARGO) run --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package accuracy -- \
+	$(CARGO) run --locked --package accuracy -- \
 		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
 
 ## instructions: count the instructions of each call and check the relations between the counts
@@ -117,9 +117,9 @@ bench: all
 ## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims
 figures:
 	@tools/dependencies.sh figures
-	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package paper
+	$(CARGO) run --quiet --locked --package paper
 	verification/paper/draw.sh
-	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package validation
+	$(CARGO) run --quiet --locked --package validation
 	verification/validation/draw.sh
 	tools/identification.sh
 
@@ -131,7 +131,7 @@ host: all
 ## stress: adversarial histories, for some minutes; ARGUMENTS="--only bank --seed 2 --scale 0.1"
 stress:
 	@tools/dependencies.sh accuracy
-	$(CARGO) run --quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification --package stress -- $(ARGUMENTS)
+	$(CARGO) run --quiet --locked --package stress -- $(ARGUMENTS)
 
 ## fuzz: fuzz the C interface with TIME= seconds for each of three targets, JOBS= processes at once
 fuzz:
@@ -162,7 +162,7 @@ recipes:
 
 ## clean: remove everything that was built
 clean:
-	rm -rf dist target verification/fuzz/target
+	rm -rf dist target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C benches clean
 	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build examples/nlvib/build

@@ -1,6 +1,6 @@
 #!/bin/sh
 # audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with
-# deny.toml, for each workspace of this repository. cargo-deny is installed into target/tools where there is none,
+# deny.toml. cargo-deny is installed into target/tools where there is none,
 # which takes minutes.
 set -eu
 
@@ -19,11 +19,8 @@ if cargo-deny fetch db > /dev/null 2>&1; then
 else
     echo 'The database of advisories cannot be reached: advisories and withdrawn versions are NOT checked.'
 fi
-for manifest in Cargo.toml benches/instructions/Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
-    grep -q '^\[workspace\]' "$manifest" || continue # a member is checked with its workspace
-    for subject in $subjects; do
-        check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --locked --config deny.toml check "$subject"
-    done
+for subject in $subjects; do
+    check "$subject" cargo-deny --workspace --locked --config deny.toml check "$subject"
 done
 
 counts

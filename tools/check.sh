@@ -16,21 +16,15 @@ uninstall() {
     cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
 }
 
-verification="--quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification"
-
-# shellcheck disable=SC2086  # flags are a list
 rust() {
-    for manifest in Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
-        step "formatting: $manifest" "$CARGO" fmt --all --manifest-path "$manifest" --check
-    done
-    step 'lints: library, tests, command line' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
-    step 'lints: verification' "$CARGO" clippy $verification --workspace --all-targets -- -D warnings
+    step 'formatting' "$CARGO" fmt --all --check
+    step 'lints: Rust' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
-    step 'accuracy, 1e5 points' "$CARGO" run $verification --package accuracy -- --points 1e5
-    step 'stress: adversarial histories' "$CARGO" run $verification --package stress -- --scale 0.01
-    step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --release --locked --test bounded_memory
+    step 'accuracy, 1e5 points' "$CARGO" run --quiet --locked --package accuracy -- --points 1e5
+    step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
+    step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test bounded_memory
     step 'references of the interfaces' tools/docs.sh
     step 'audit' tools/audit.sh
     step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all

@@ -27,7 +27,7 @@ export RUSTC_BOOTSTRAP=1 # AddressSanitizer is part of stable Rust, its option i
 RUSTFLAGS='--cfg fuzzing -Zsanitizer=address -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4
     -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table
     -Cllvm-args=-simplifycfg-branch-fold-threshold=0' \
-    $CARGO build --quiet --release --locked --manifest-path verification/fuzz/Cargo.toml --target "$host"
+    $CARGO build --quiet --profile fuzz --locked --package microslip-fuzz --target "$host"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -36,7 +36,7 @@ export ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16
 passed=0
 failed=0
 for target; do
-    program=verification/fuzz/target/$host/release/$target
+    program=target/$host/fuzz/$target
     archive=verification/fuzz/seeds/$target.tar.gz
     corpus=verification/fuzz/corpus/$target
     seeds=$work/$target

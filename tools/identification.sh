@@ -4,8 +4,8 @@ set -eu
 cd "$(dirname "$0")/.."
 : "${CARGO:=cargo}"
 
-"$CARGO" build --quiet --release --locked --package microslip-cli --target-dir target
-program=$PWD/target/release/microslip
+"$CARGO" build --quiet --locked --package microslip-cli
+program=$PWD/target/debug/microslip
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 picture=$PWD/docs/figures/identification.svg

@@ -37,9 +37,7 @@ check 'CHANGELOG.md has this version' grep -q "^## \[$version\]" CHANGELOG.md
 # The README's two commands, from the tarball.
 check 'tarball: make demo without a network' offline make -C "$tree" demo
 crates_are_there() {
-    for manifest in Cargo.toml verification/Cargo.toml; do
-        (cd "$tree" && offline "$CARGO" metadata --locked --format-version 1 --manifest-path "$manifest") || return 1
-    done
+    (cd "$tree" && offline "$CARGO" metadata --locked --format-version 1)
 }
 check 'tarball: the crates of make test' crates_are_there
 reproducible() {

@@ -19,7 +19,7 @@ name=$(basename "$to" .tar.gz)
 git archive --prefix="$name/" HEAD | tar -x -C "$work"
 cd "$work/$name"
 mkdir .cargo
-"$CARGO" vendor --locked --sync verification/Cargo.toml vendor 2> "$work/log" > .cargo/config.toml || { cat "$work/log" >&2; exit 1; }
+"$CARGO" vendor --locked vendor 2> "$work/log" > .cargo/config.toml || { cat "$work/log" >&2; exit 1; }
 # Of crates that are compiled for other systems only, cargo reads no more than the manifest: their sources are half of the bytes.
 for crate in vendor/windows* vendor/web-sys* vendor/js-sys* vendor/wasm* vendor/winapi*; do
     [ -d "$crate" ] || continue

@@ -4,7 +4,8 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-verification="--quiet --release --locked --manifest-path verification/Cargo.toml --target-dir target/verification"
+# One compilation of the library serves all tests and tools, another one is the installed archive.
+workspace='--locked --workspace --exclude instructions --exclude microslip-fuzz'
 strict='-Wall -Wextra -Wpedantic -Werror -O1'
 
 snippet() {
@@ -14,10 +15,32 @@ snippet() {
     esac && (cd "$work" && ./snippet)
 }
 
-library() {
-    step 'library: tests in Rust, C, C++ and Fortran' env MICROSLIP_PREFIX="$prefix" "$CARGO" test --release --locked --no-fail-fast
+installed() {
+    step 'library: build, install, move' install_and_move
+}
+
+# shellcheck disable=SC2086  # a list
+compile() {
+    "$CARGO" build $workspace && "$CARGO" test $workspace --no-run
+}
+compiled() {
+    step 'tools and tests: compiled' compile
+}
+
+# shellcheck disable=SC2086  # a list
+rust() {
+    step 'tests in Rust; C, C++ and Fortran drivers' env MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --no-fail-fast
+}
+
+programs() {
     step 'archive: symbols and sections' tools/symbols.sh "$prefix"
+    step 'accuracy: short' target/debug/accuracy --check
+    step 'stress: short' target/debug/stress --scale 0.003
+    step 'paper: figures and claims' target/debug/paper --check
+    step 'validation: boundary elements, measurements' target/debug/validation --check
+    step 'C header and Fortran module: generated from the source' target/debug/xtask header --check
     step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
+    step 'Python: wheel, interface and reference tables' tools/python.sh
     step 'documents: links' tools/links.sh
     for document in README.md docs/*.md; do
         name=$(basename "$document" .md)
@@ -28,20 +51,7 @@ library() {
     done
 }
 
-# shellcheck disable=SC2086  # flags are a list
-others() {
-    step 'reference against the tables' "$CARGO" test $verification --workspace
-    step 'accuracy: short' "$CARGO" run $verification --package accuracy -- --check
-    step 'stress: short' "$CARGO" run $verification --package stress -- --scale 0.003
-    step 'paper: figures and claims' "$CARGO" run $verification --package paper -- --check
-    step 'validation: boundary elements, measurements' "$CARGO" run $verification --package validation -- --check
-    step 'command line' env CARGO_PROFILE_DEV_DEBUG=0 "$CARGO" test --locked --package microslip-cli
-    step 'identification of measured loops' "$CARGO" test --release --locked --package microslip-fit
-    step 'Python: wheel, interface and reference tables' tools/python.sh
-    step 'C header and Fortran module: generated from the source' "$CARGO" run --quiet --locked --package xtask -- header --check
-}
-
 step 'packages' tools/dependencies.sh test
-step 'library: build, install, move' install_and_move
-together library others
+together installed compiled
+together rust programs
 summary

@@ -15,7 +15,6 @@ mkdir -p "$output"
 rm -f "$output/relations"
 export GUNGRAUN_HOME="$output" GUNGRAUN_RUNNER="$tools/bin/gungraun-runner"
 status=0
-"$CARGO" bench --quiet --locked --manifest-path benches/instructions/Cargo.toml --target-dir target/instructions -- \
-    --nosummary "$@" || status=1
+"$CARGO" bench --quiet --locked --profile dev --package instructions -- --nosummary "$@" || status=1
 cat "$output/relations" || echo '0 passed, 1 failed'
 exit "$status"
