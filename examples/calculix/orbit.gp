@@ -13,24 +13,16 @@ set size ratio -1
 set key top left reverse Left samplen 2
 set samples 200
 
-do for [extension in 'svg png'] {
-  if (extension eq 'svg') {
-    set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'
-  } else {
-    set terminal pngcairo size 1.6*wide, 1.6*high background rgb 'white' font 'Helvetica,14' \
-      fontscale 1.6 linewidth 1.6 pointscale 1.6
-  }
-  set output sprintf('results/orbit.%s', extension)
-  set multiplot layout 1, 2 margins 0.075, 0.985, 0.13, 0.92 spacing 0.09
-  set title 'two turns of the load'
-  set xlabel 'displacement v along the blade (µm)' offset 0, 0.3
-  set ylabel 'displacement u across the blade (µm)' offset 0.8, 0
-  plot [-3.5:0.5] [-2:2] 'results/orbit.csv' using (1e3*$6):(1e3*$5) with linespoints ls 1 title 'CalculiX'
-  set title 'tangential over normal force'
-  set xlabel 'T_y/N along the blade' offset 0, 0.3
-  set ylabel 'T_x/N across the blade' offset 0.8, 0
-  plot [-0.6:0.6] [-0.6:0.6] 'results/orbit.csv' using ($9/$10):($8/$10) with linespoints ls 1 title 'CalculiX', \
-       [t=0:2*pi] '+' using (0.5*cos(t)):(0.5*sin(t)) with lines ls 2 title 'μ'
-  unset multiplot
-  unset output
-}
+set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'
+set output 'results/orbit.svg'
+set multiplot layout 1, 2 margins 0.075, 0.985, 0.13, 0.92 spacing 0.09
+set title 'two turns of the load'
+set xlabel 'displacement v along the blade (µm)' offset 0, 0.3
+set ylabel 'displacement u across the blade (µm)' offset 0.8, 0
+plot [-3.5:0.5] [-2:2] 'results/orbit.csv' using (1e3*$6):(1e3*$5) with linespoints ls 1 title 'CalculiX'
+set title 'tangential over normal force'
+set xlabel 'T_y/N along the blade' offset 0, 0.3
+set ylabel 'T_x/N across the blade' offset 0.8, 0
+plot [-0.6:0.6] [-0.6:0.6] 'results/orbit.csv' using ($9/$10):($8/$10) with linespoints ls 1 title 'CalculiX', \
+     [t=0:2*pi] '+' using (0.5*cos(t)):(0.5*sin(t)) with lines ls 2 title 'μ'
+unset multiplot
