@@ -4,6 +4,8 @@ import shutil
 import sys
 
 if not shutil.which("cargo"):
-    sys.exit("microslip is built by cargo, which is not on PATH: install Rust 1.88 or later (https://rustup.rs), or install a wheel.")
+    sys.exit(
+        "microslip is built by cargo, which is not on PATH: install Rust 1.88 or later (https://rustup.rs), or install a wheel."
+    )
 
-from maturin import *  # noqa: E402, F403
+from maturin import *  # noqa: F403

@@ -159,7 +159,7 @@ class ElementArray(_LawArray[Element]):
 
     def __init__(self, elements: Iterable[Element]) -> None:
         super().__init__(elements, "elements")
-        if len({element.directions for element in self}) > 1:
+        if len({self._c[i].directions for i in range(len(self))}) > 1:
             raise Error(Status.BAD_DIRECTIONS)
 
     @property

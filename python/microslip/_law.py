@@ -86,7 +86,7 @@ class _Law(PlainData):
         kind = f"mslip{shape}_parameters"
         parameters = ffi.new(f"{kind} *")
         getattr(lib, f"{kind}_default")(parameters)
-        for name in given.keys() & {name for name, _ in ffi.typeof(kind).fields}:
+        for name in [name for name, _ in ffi.typeof(kind).fields if name in given]:
             value = given[name]
             checked = choice(value, name, REFERENCES) if name == "displacement_reference" else number(value, name)
             setattr(parameters, name, checked)
@@ -111,19 +111,18 @@ class _Law(PlainData):
     def _update(self, state: Any, displacement: ArrayLike, out: Any) -> tuple[Values, Values, Values, Any]:
         """Force, tangent in the order of C, energy and new state of a step or a path."""
         shape = self._components
-        length, old = instance(state, self._state, "state")._arguments()
+        old = instance(state, self._state, "state")._doubles()
         displacement = doubles(displacement, "displacement", shape, (None, *shape))
-        target = None if out is None else writable(instance(out, self._state, "out").array, "out", state.array, "state")
+        target = None if out is None else writable(instance(out, self._state, "out").array, "out", old, "state")
         # The library writes the used part only: the rest is that of the old state, so that equal steps make equal doubles.
-        new = state.array.copy()
+        new = old.copy()
         steps = displacement.shape[: displacement.ndim - len(shape)]
         outputs = [np.empty(steps + shape), np.empty(steps + shape + shape), np.empty(steps)]
-        arguments = pointer(new), *map(pointer, outputs)
+        head, tail = (self._c, old.size, pointer(old)), map(pointer, (new, *outputs))
         if steps:
-            check(getattr(lib, f"mslip_{self._path}")(self._c, length, old, *steps, pointer(displacement), *arguments))
+            check(getattr(lib, f"mslip_{self._path}")(*head, *steps, pointer(displacement), *tail))
         else:
-            one = pointer(displacement) if shape else float(displacement)
-            check(getattr(lib, f"mslip_{self._step}")(self._c, length, old, one, *arguments))
+            check(getattr(lib, f"mslip_{self._step}")(*head, pointer(displacement) if shape else float(displacement), *tail))
         if target is None:
             out = state._with(new)
         else:
@@ -218,6 +217,9 @@ class _LawArray(Value, Generic[L]):
         n = len(displacement)
         old = doubles(states, "states", (n, None))
         new = old.copy() if out is None else writable(out, "out", old, "states")
+        for name, other in (("states", old), ("displacement", displacement)):
+            if out is not None and new is not other and np.may_share_memory(new, other):
+                raise ValueError(f"out must not overlap {name}")
         force, tangent, dissipated = np.zeros((n, *shape)), np.zeros((n, *shape, *shape)), np.zeros(n)
         arrays = map(pointer, (old, displacement, new, force, tangent, dissipated))
         check(getattr(lib, f"mslip_batch_{self._item._step}")(*self._head(n, index, active), old.shape[1], *arrays))
@@ -232,7 +234,9 @@ class _LawArray(Value, Generic[L]):
         index: ArrayLike | None = None,
         active: ArrayLike | None = None,
     ) -> HarmonicForce:
-        """The harmonic forces of n items: all arrays are those of one item after n."""
+        """The harmonic forces of n items: displacement and force (n, 2H+1), of elements (n, m, 2H+1), jacobian (n, size, size) for
+        `size` coefficients of an item, dissipated (n).
+        """
         shape = instance(workspace, self._item._workspace, "workspace")._shape
         displacement = doubles(displacement, "displacement", (None, *shape))
         head = self._head(len(displacement), index, active)

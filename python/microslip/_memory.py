@@ -29,9 +29,12 @@ class _History(PlainData):
     def _call(self, name: str, *more: Any) -> None:
         check(getattr(lib, f"{self._calls}_{name}")(*self._head, *self._arguments(), *more))
 
+    def _doubles(self) -> Array:
+        """The array as the library reads it, whatever was done to its form."""
+        return doubles(self._array, "array")
+
     def _arguments(self) -> tuple[int, Any]:
-        """Length and pointer of the doubles."""
-        array = doubles(self._array, "array")
+        array = self._doubles()
         return array.size, pointer(array)
 
     def _with(self, array: Array) -> Any:
@@ -41,7 +44,7 @@ class _History(PlainData):
 
     @property
     def array(self) -> Array:
-        """The doubles, which restart files may contain: they are validated whenever they are used."""
+        """The doubles."""
         return self._array
 
     @property

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import enum
 import inspect
 import os
 import re
 import threading
+import warnings
 
 import microslip
 import numpy as np
@@ -216,6 +218,27 @@ def test_read_only_states_are_not_written(one, tmp_path):
     rows = np.load(tmp_path / "restart.npy", mmap_mode="r")
     with pytest.raises(ValueError, match="read-only"):
         (contacts if one is contact else elements).update(rows, [to, to], out=rows)
+
+
+def test_outputs_that_overlap_inputs_are_rejected():
+    memory = np.zeros((3, contacts.states().shape[1]))
+    memory[:] = contacts.states(1)
+    with pytest.raises(ValueError, match="out must not overlap states"):
+        contacts.update(memory[:2], [SLIP, SLIP], out=memory[1:])
+    with pytest.raises(ValueError, match="out must not overlap displacement"):
+        contacts.update(contacts.states(), memory[1, :2], out=memory[1:])
+    assert (memory == contacts.states(1)).all()
+
+
+def test_states_are_safe_whatever_is_done_to_their_arrays():
+    for name, value in [("dtype", ">f8"), ("dtype", "f4"), ("shape", (-1, 1))]:
+        one = microslip.State()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # NumPy may advise another way
+            setattr(one.array, name, value)
+        for call in (lambda: contact.update(one, 1e-7), lambda: contact.update(microslip.State(), 1e-7, out=one)):  # noqa: B023
+            with contextlib.suppress(ValueError):
+                call()
 
 
 def test_fields_of_workspaces_can_only_be_read():
