@@ -43,11 +43,11 @@ def fit(
     `value`, `lower`, `upper` (95 % confidence) and `status`; `law` and `spring_slider.misfit` with the misfits; the sentences
     `verdict` and `warnings`; `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """
-    problem = {
-        "contact": _contact(contact),
-        "loops": _loops(loops),
-        "options": {"shape": SHAPES[choice(shape, "shape", SHAPES)], **_numbers({} if fixed is None else fixed, "fixed")},
-    }
+    options = _numbers({} if fixed is None else _mapping(fixed, "fixed"), "fixed")
+    if "shape" in options:
+        raise FitError("shape is an argument of its own, not a key of fixed")
+    options["shape"] = SHAPES[choice(shape, "shape", SHAPES)]
+    problem = {"contact": _contact(contact), "loops": _loops(loops), "options": options}
     text = json.dumps(problem, allow_nan=False)
     answer = ffi.new("char **")
     status = lib.microslip_python_fit(text.encode(), answer)
@@ -68,19 +68,24 @@ def _finite(values: Any, name: str, *shapes: Shape) -> Any:
     return array.tolist()
 
 
-def _numbers(given: Mapping[str, Any], name: str) -> dict[str, Any]:
+def _mapping(given: Any, name: str) -> dict[Any, Any]:
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{name} must be a mapping, not {type(given).__name__}")
+    return dict(given)
+
+
+def _numbers(given: dict[Any, Any], name: str) -> dict[str, Any]:
     """Numbers by their keys, which the fit checks."""
-    return {str(key): _finite(value, f"{key} of {name}", ()) for key, value in instance(given, Mapping, name).items()}  # type: ignore[type-abstract]
+    return {str(key): _finite(value, f"{key} of {name}", ()) for key, value in given.items()}
 
 
 def _contact(contact: Mapping[str, Any]) -> dict[str, Any]:
     """The keys and values of a parameter file."""
-    given = dict(instance(contact, Mapping, "contact"))  # type: ignore[type-abstract]
+    given = _mapping(contact, "contact")
     keys: dict[str, Any] = {}
-    if "displacement_reference" in given:
-        keys["displacement_reference"] = REFERENCES[
-            choice(given.pop("displacement_reference"), "displacement_reference", REFERENCES)
-        ]
+    name = "displacement_reference"
+    if name in given:
+        keys[name] = REFERENCES[choice(given.pop(name), name, REFERENCES)]
     names = [name for name in ("young_modulus", "poisson_ratio") if name in given]
     pairs = {name: np.broadcast_to(_finite(given.pop(name), f"{name} of contact", (), (2,)), 2) for name in names}
     keys["material"] = [{name: float(values[body]) for name, values in pairs.items()} for body in (0, 1)]

@@ -101,6 +101,7 @@ def without(name):
         ("loops.0. must be a pair", {"loops": LOOP[0]}),
         ("displacement of loops.0. must be an array", {"loops": [(LOOP[0].reshape(2, -1), LOOP[1])]}),
         ("shape must be 'flat_half_width'", {"shape": "radius"}),
+        ("shape is an argument", {"fixed": {"shape": 0}}),
     ],
 )
 def test_errors_name_the_argument(message, arguments):
