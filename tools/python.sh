@@ -1,7 +1,8 @@
 #!/bin/sh
 # python.sh [all]: build the wheel of the Python package, and test it installed in a clean environment. `all` tests it also by the
 # oldest and the newest other Python that are found, and tests types, format, adapters, examples and the programs of the documents.
-# PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools.
+# PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools: among them Zig, whose linker makes wheels for
+# any Linux with glibc 2.17 or later (manylinux2014).
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -21,13 +22,28 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 tools() {
-    "$tools/bin/maturin" --version 2> /dev/null ||
-        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.7,<2' 'cffi>=1.15'; }
+    "$tools/bin/python" -c 'import ziglang' 2> /dev/null ||
+        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
 }
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
-        (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated maturin build --release --out "$wheels") &&
-        ls "$wheels/microslip-$version-py3-none-"*.whl
+        (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated \
+            maturin build --release --zig --compatibility manylinux2014 --out "$wheels") &&
+        "$PYTHON" -m zipfile -e "$wheels/microslip-$version-py3-none-manylinux"*.whl "$work/wheel"
+}
+# The newest symbol version of glibc that the library needs.
+glibc() {
+    newest=$(objdump -T "$work/wheel/microslip/_native/"*.so | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -n 1)
+    [ "$(printf '%s\n' "$newest" GLIBC_2.17 | sort -V | tail -n 1)" = GLIBC_2.17 ]
+}
+licences() {
+    tools/notices.sh check && for file in LICENSE-APACHE LICENSE-MIT THIRD-PARTY.md; do
+        cmp "$file" "$work/wheel/microslip-$version.dist-info/licenses/$file" || return
+    done
+}
+# Without cargo, pip fetches no Rust but says what is missing.
+without_cargo() {
+    ! PATH="$work/python/bin" pip install ./python > "$work/pip" 2>&1 && grep 'microslip is built by cargo' "$work/pip"
 }
 # environment DIRECTORY PYTHON PACKAGE...: a clean one with the wheel.
 environment() {
@@ -51,13 +67,17 @@ tests() {
 # core DIRECTORY: the tests that need nothing but the wheel.
 core() {
     tests "tests, $("$1/bin/python" --version)" "$1" \
-        "$package"/tests/test_interface.py "$package"/tests/test_tables.py "$package"/tests/test_fit.py
+        "$package"/tests/test_interface.py "$package"/tests/test_arguments.py "$package"/tests/test_tables.py \
+        "$package"/tests/test_fit.py
 }
 
 check 'build tools' tools
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }
+check 'the wheel needs glibc 2.17 at most' glibc
+check 'licences in the wheel' licences
 check "clean environment" environment "$work/python" "$PYTHON"
+check 'pip install ./python without cargo' without_cargo
 core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
 

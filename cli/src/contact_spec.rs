@@ -182,17 +182,11 @@ impl ContactArgs {
     /// Checks that the parameters of exactly one shape are given.
     fn check_presence(&self) -> Result<()> {
         let numbers = self.numbers();
-        let is_given = |(_, values): &(&str, Vec<f64>)| !values.is_empty();
-        let other = if self.is_elliptic() { 0..3 } else { 3..5 };
-        if numbers[other.clone()].iter().any(is_given) || (self.is_elliptic() && self.displacement_reference.is_some())
-        {
-            return input(
-                "parameters of two shapes: flat_half_width, edge_radius, length and displacement_reference define a flat \
-                 or a cylinder, semi_axis_x and semi_axis_y an ellipse",
-            );
-        }
-        let missing = numbers.iter().enumerate().filter(|(i, number)| !other.contains(i) && !is_given(number));
-        let names: Vec<_> = missing.map(|(_, (name, _))| *name).collect();
+        let is_given = |name: &str| match name {
+            "displacement_reference" => self.displacement_reference.is_some(),
+            name => numbers.iter().any(|(given, values)| *given == name && !values.is_empty()),
+        };
+        let names = microslip_fit::missing_parameters(is_given).map_err(|error| CliError::Input(error.to_string()))?;
         if names.is_empty() {
             return Ok(());
         }

@@ -3,11 +3,11 @@
 use crate::error::{Error, error};
 use serde::{Deserialize, Serialize};
 
-/// The contact, by the names of a parameter file. What is fitted is only a start value here.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The contact. Fitted parameters are only start values here. It is read from the keys of a parameter file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "ParameterFile")]
 pub struct Contact {
     /// Geometry of the contact.
-    #[serde(flatten)]
     pub geometry: Geometry,
     /// Normal force > 0 \[N\]: of the ratio a/b, of the semi-axes, and of measurements that have none.
     pub normal_force: f64,
@@ -18,8 +18,7 @@ pub struct Contact {
 }
 
 /// Geometry of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Geometry {
     /// Flat with rounded edges; a cylinder if the flat has no width.
     Flat {
@@ -30,7 +29,6 @@ pub enum Geometry {
         /// Length L > 0 \[m\].
         length: f64,
         /// Reference of the displacement.
-        #[serde(default)]
         displacement_reference: DisplacementReference,
     },
     /// Elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -43,7 +41,7 @@ pub enum Geometry {
 }
 
 /// Reference of the displacement of a flat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DisplacementReference {
     /// The centre of the contact, under a line of uniform traction.
@@ -54,12 +52,109 @@ pub enum DisplacementReference {
 }
 
 /// Elastic constants of a body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Young's modulus E > 0 \[Pa\].
     pub young_modulus: f64,
     /// Poisson's ratio, 0 <= nu <= 0.5 \[-\].
     pub poisson_ratio: f64,
+}
+
+/// The keys of a parameter file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParameterFile {
+    flat_half_width: Option<f64>,
+    edge_radius: Option<f64>,
+    length: Option<f64>,
+    semi_axis_x: Option<f64>,
+    semi_axis_y: Option<f64>,
+    normal_force: Option<f64>,
+    friction_coefficient: Option<f64>,
+    displacement_reference: Option<DisplacementReference>,
+    #[serde(default)]
+    material: Vec<MaterialTable>,
+}
+
+/// A table `[[material]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialTable {
+    young_modulus: Option<f64>,
+    poisson_ratio: Option<f64>,
+}
+
+impl TryFrom<ParameterFile> for Contact {
+    type Error = Error;
+
+    fn try_from(file: ParameterFile) -> Result<Contact, Error> {
+        let of_both = |value: fn(&MaterialTable) -> Option<f64>| match &file.material[..] {
+            [both] => value(both).map(|value| [value; 2]),
+            [first, second] => value(first).zip(value(second)).map(|(first, second)| [first, second]),
+            _ => None,
+        };
+        let [young_modulus, poisson_ratio] = [of_both(|body| body.young_modulus), of_both(|body| body.poisson_ratio)];
+        let given = [
+            ("flat_half_width", file.flat_half_width.is_some()),
+            ("edge_radius", file.edge_radius.is_some()),
+            ("length", file.length.is_some()),
+            ("displacement_reference", file.displacement_reference.is_some()),
+            ("semi_axis_x", file.semi_axis_x.is_some()),
+            ("semi_axis_y", file.semi_axis_y.is_some()),
+            ("normal_force", file.normal_force.is_some()),
+            ("friction_coefficient", file.friction_coefficient.is_some()),
+            ("young_modulus", young_modulus.is_some()),
+            ("poisson_ratio", poisson_ratio.is_some()),
+        ];
+        let missing = missing_parameters(|name| given.contains(&(name, true)))?;
+        if !missing.is_empty() {
+            return error(format!("missing parameters: {}", missing.join(", ")));
+        }
+        // None is missing.
+        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let friction_coefficient = number(file.friction_coefficient);
+        // The law is evaluated for a coefficient of 1, so this one is not checked there.
+        if !(friction_coefficient.is_finite() && friction_coefficient >= 0.0) {
+            return error(format!("{}, not {friction_coefficient:e}", microslip::Error::BadFrictionCoefficient));
+        }
+        let geometry = if file.semi_axis_x.is_some() {
+            Geometry::Ellipse { semi_axis_x: number(file.semi_axis_x), semi_axis_y: number(file.semi_axis_y) }
+        } else {
+            Geometry::Flat {
+                flat_half_width: number(file.flat_half_width),
+                edge_radius: number(file.edge_radius),
+                length: number(file.length),
+                displacement_reference: file.displacement_reference.unwrap_or_default(),
+            }
+        };
+        let [moduli, ratios] = [young_modulus, poisson_ratio].map(|values| values.unwrap_or([f64::NAN; 2]));
+        let body = |i: usize| Material { young_modulus: moduli[i], poisson_ratio: ratios[i] };
+        Ok(Contact {
+            geometry,
+            normal_force: number(file.normal_force),
+            friction_coefficient,
+            material: [0, 1].map(body),
+        })
+    }
+}
+
+/// Names of the parameters that a contact needs beside the given ones, which are to be those of one shape.
+///
+/// # Errors
+/// A message if parameters of two shapes are given.
+pub fn missing_parameters(is_given: impl Fn(&str) -> bool) -> Result<Vec<&'static str>, Error> {
+    const FLAT: [&str; 3] = ["flat_half_width", "edge_radius", "length"];
+    const ELLIPSE: [&str; 2] = ["semi_axis_x", "semi_axis_y"];
+    const COMMON: [&str; 4] = ["normal_force", "friction_coefficient", "young_modulus", "poisson_ratio"];
+    let is_ellipse = ELLIPSE.into_iter().any(&is_given);
+    if is_ellipse && (FLAT.into_iter().any(&is_given) || is_given("displacement_reference")) {
+        return error(
+            "parameters of two shapes: flat_half_width, edge_radius, length and displacement_reference define a flat or a \
+             cylinder, semi_axis_x and semi_axis_y an ellipse",
+        );
+    }
+    let shape = if is_ellipse { &ELLIPSE[..] } else { &FLAT[..] };
+    Ok(shape.iter().chain(&COMMON).copied().filter(|name| !is_given(name)).collect())
 }
 
 /// A record of displacement and tangential force, with at least one cycle.

@@ -16,6 +16,7 @@ mod verdict;
 pub use error::Error;
 pub use input::{
     Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter,
+    missing_parameters,
 };
 pub use report::{Estimate, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status};
 
@@ -113,7 +114,9 @@ struct Problem {
 /// # Errors
 /// As [`fit`], and a message if the text is not such an object.
 pub fn fit_json(problem: &str) -> Result<String, Error> {
-    let invalid = |reason: serde_json::Error| Error(reason.to_string());
+    // The place in the text, which no user has seen, is left out.
+    let invalid =
+        |reason: serde_json::Error| Error(reason.to_string().split(" at line ").next().unwrap_or("").to_owned());
     let Problem { contact, loops, options } = serde_json::from_str(problem).map_err(invalid)?;
     serde_json::to_string(&fit(&contact, &loops, &options)?).map_err(invalid)
 }

@@ -32,6 +32,14 @@ pub(crate) fn check(loops: &[Loop], contact: &[f64], friction: f64, compliance: 
             1.0 / softest
         ));
     }
+    // After a reversal a loop is stiffer than its chord.
+    let chord = loops.iter().map(|one| one.amplitude / one.height()).fold(0.0, f64::max);
+    if compliance > STIFFER * chord {
+        return error(format!(
+            "the compliances, {compliance:.3e} together, are {:.1e} times those of the loops: is a fixed one in another unit?",
+            compliance / chord
+        ));
+    }
     if softest < SOFTER * compliance {
         warnings.push(format!(
             "the contact alone is {:.1e} times stiffer than the loops: rig and bodies dominate, unless the displacement is in \

@@ -4,9 +4,10 @@
 one consistent set of units; the text names SI. A positive displacement gives a positive force. Harmonics are coefficients
 [c0, cos1, sin1, ..., cosH, sinH]; Jacobians are jacobian[i, j] = d force_i / d displacement_j.
 
-Arrays of float64 that are contiguous are read where they are; other real numbers are converted, anything else is a TypeError. A
-call that the library rejects raises `Error` with its status code, and has changed nothing. Any thread may call any function; only
-a `State` that is advanced in place must not be used by two threads at once.
+Arrays of float64 that are contiguous are read where they are; other real numbers are converted, anything else is a TypeError, a
+wrong shape or value a ValueError; both name the argument. A call that the library rejects raises `Error` with its status code.
+After any error nothing has changed. Any thread may call any function; only a `State` that is advanced in place must not be used by
+two threads at once.
 """
 
 from ._contact import (

@@ -1,9 +1,11 @@
-"""What all calls of the C interface have in common: status codes, arrays, plain data."""
+"""Status codes, and the arguments and values of all calls: one check for each kind of argument, which names it in messages."""
 
 from __future__ import annotations
 
+import operator
+import reprlib
 from enum import IntEnum
-from typing import Any, Generic, TypeVar, cast, overload
+from typing import Any, Generic, TypeVar, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import ffi, lib
 
 Array = NDArray[np.float64]
+Pair = Union[float, tuple[float, float]]  # a property of the material: of both bodies, or of each
+Constant = Union[int, str]  # a constant of the C interface, by its number or its word
+Shape = tuple[Union[int, None], ...]
 Values = Any  # float64 of the shape of an argument; a NumPy scalar if that is one number, as of NumPy's own functions
+
+
+# Constants by their words; the place is the number.
+REFERENCES = ("centre_point", "rigid_strip")
+RULES = ("uniform_sampling", "event_driven")
+NORMAL_INPUTS = ("approach", "normal_force")
 
 
 class Status(IntEnum):
@@ -80,7 +91,7 @@ class Error(ValueError):
 
 def status_text(status: int) -> str:
     """Message of a status code."""
-    text: bytes = ffi.string(lib.mslip_status_text(status))
+    text: bytes = ffi.string(lib.mslip_status_text(integer(status, "status")))
     return text.decode()
 
 
@@ -89,34 +100,133 @@ def check(status: int) -> None:
         raise Error(status)
 
 
-def doubles(values: ArrayLike, name: str, shape: tuple[int | None, ...] | None = None) -> Array:
-    """`values` as a contiguous array of float64: itself if it is one, otherwise a converted copy.
+T = TypeVar("T")
 
-    `shape`, if given, is the required one; None stands for any length.
-    """
-    array = np.asarray(values)
-    if array.dtype != np.float64 or not (array.flags.c_contiguous and array.flags.aligned):
-        if array.dtype.kind not in "fiu":
-            raise TypeError(f"{name} must be real numbers, not {array.dtype}")
-        array = np.require(array, np.float64, ("C", "A"))
-    if shape is not None and not (array.ndim == len(shape) and all(n in (None, m) for m, n in zip(array.shape, shape))):
-        required = ", ".join("n" if n is None else str(n) for n in shape)
-        raise ValueError(f"{name} must have the shape ({required}), not {array.shape}")
+
+def instance(value: object, kind: type[T], name: str) -> T:
+    """`value`, which must be of this type."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be of type {kind.__name__}, not {type(value).__name__}")
+    return value
+
+
+def items(values: Any, kind: type[T], name: str) -> list[T]:
+    """The items of an iterable, which must be of this type."""
+    try:
+        values = list(values)
+    except TypeError:
+        raise TypeError(f"{name} must be an iterable, not {type(values).__name__}") from None
+    return [instance(value, kind, f"{name}[{i}]") for i, value in enumerate(values)]
+
+
+def boolean(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, not {reprlib.repr(value)}")
+    return bool(value)
+
+
+def integer(value: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
+    """An integer, of NumPy too, in a range that all counts and indices of the C interface hold."""
+    try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be an integer, not {type(value).__name__}") from None
+    if not low <= number <= high:
+        raise ValueError(f"{name} must be between {low} and {high}, not {number}")
+    return number
+
+
+def choice(value: Any, name: str, words: tuple[str, ...]) -> int:
+    """The number of a constant that is given by its number or its word."""
+    if isinstance(value, str) and value in words:
+        return words.index(value)
+    try:
+        return integer(value, name, 0, len(words) - 1)
+    except (TypeError, ValueError) as reason:
+        options = " or ".join(f"{word!r} ({i})" for i, word in enumerate(words))
+        kind = ValueError if isinstance(value, str) else type(reason)
+        raise kind(f"{name} must be {options}, not {reprlib.repr(value)}") from None
+
+
+def _masked(values: Any) -> bool:
+    if not isinstance(values, (list, tuple)):
+        return isinstance(values, np.ma.MaskedArray)
+    kinds = set(map(type, values))
+    return any(issubclass(kind, (np.ma.MaskedArray, list, tuple)) for kind in kinds) and any(map(_masked, values))
+
+
+def _array(values: Any, name: str, kinds: str, allowed: str) -> NDArray[Any]:
+    """`values` as an array of one of these kinds of number."""
+    if type(values) is not np.ndarray:
+        if _masked(values):
+            raise TypeError(f"{name} must not be masked: leave the masked values out, or fill them")
+        try:
+            array = np.asarray(values)
+        except (TypeError, ValueError, OverflowError) as reason:
+            raise ValueError(f"{name} must be {allowed}: {reason}") from None
+    else:
+        array = values
+    if array.dtype.kind not in kinds and array.shape != (0,):
+        raise TypeError(f"{name} must be {allowed}, not {array.dtype if array.ndim else type(values).__name__}")
     return array
 
 
-def flags(values: ArrayLike | None, name: str, n: int, kinds: str) -> NDArray[np.int32] | None:
+def _described(shape: Shape) -> str:
+    return "an array of shape " + str(tuple("n" if n is None else n for n in shape)).replace("'", "") if shape else "a number"
+
+
+def doubles(values: ArrayLike, name: str, *shapes: Shape) -> Array:
+    """`values` as a contiguous array of float64: itself if it is one, otherwise a converted copy.
+
+    It must have one of the `shapes`, if any are given; None stands for any length.
+    """
+    array = _array(values, name, "fiu", "real numbers")
+    if array.dtype != np.float64 or not (array.flags.c_contiguous and array.flags.aligned):
+        with np.errstate(all="ignore"):  # too large a number is infinite
+            array = np.require(array, np.float64, ("C", "A"))
+    if shapes and array.shape not in shapes:
+        if not any(len(s) == array.ndim and all(n in (None, m) for n, m in zip(s, array.shape)) for s in shapes):
+            raise ValueError(f"{name} must be {' or '.join(map(_described, shapes))}, not {_described(array.shape)}")
+    return array
+
+
+def number(value: Any, name: str) -> float:
+    return float(value) if type(value) is float else float(doubles(value, name, ()))
+
+
+def pair(value: Any, name: str) -> list[float]:
+    """A property of the material of both bodies, from one number or two."""
+    values = doubles(value, name, (), (2,)).tolist()
+    return values if isinstance(values, list) else [values, values]
+
+
+def flags(values: ArrayLike | None, name: str, n: int, kinds: str, allowed: str) -> NDArray[np.int32] | None:
     """`values` as n int32, or None."""
     if values is None:
         return None
-    array = np.asarray(values)
-    if array.dtype.kind not in kinds:
-        raise TypeError(f"{name} must be of type {' or '.join(kinds)}, not {array.dtype}")
+    array = _array(values, name, kinds, allowed)
     if array.shape != (n,):
-        raise ValueError(f"{name} must have the shape ({n},), not {array.shape}")
+        raise ValueError(f"{name} must be {_described((n,))}, not {_described(array.shape)}")
     if array.size and not -(2**31) <= int(array.min()) <= int(array.max()) < 2**31:
         raise Error(Status.BAD_INDEX)
     return np.require(array, np.int32, ("C", "A"))
+
+
+def writable(array: Any, name: str, model: Array, of: str) -> Array:
+    """An output that the caller provides, with the shape of an input."""
+    instance(array, np.ndarray, name)
+    if array.dtype != np.float64 or array.shape != model.shape or not array.flags.carray:
+        read_only = "" if array.flags.writeable else ", which is read-only"
+        raise ValueError(f"{name} must be a contiguous, writable array of float64 of shape {model.shape} as {of}{read_only}")
+    return cast(Array, array)
+
+
+def binary(data: Any, name: str) -> bytes:
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise TypeError(f"{name} must be bytes, not {type(data).__name__}")
+    return bytes(data)
 
 
 _DOUBLES = ffi.typeof("double[]")
@@ -130,14 +240,15 @@ def pointer(array: NDArray[Any] | None) -> Any:
     return ffi.from_buffer(_DOUBLES if array.dtype == np.float64 else _FLAGS, array)
 
 
-def like(array: Array, count: int) -> list[Array]:
-    """Uninitialised outputs of the shape of an input."""
-    return [np.empty(array.shape) for _ in range(count)]
+R = TypeVar("R", bound=tuple[Any, ...])
 
 
-def values(arrays: list[Array]) -> list[Values]:
-    """NumPy scalars instead of arrays without a dimension."""
-    return [array[()] for array in arrays]
+def elementwise(result: type[R], call: Any, head: tuple[Any, ...], values: ArrayLike, name: str) -> R:
+    """The outputs of a function of many numbers, each of their shape; a NumPy scalar if they are one number."""
+    array = doubles(values, name)
+    out = [np.empty(array.shape) for _ in result._fields]  # type: ignore[attr-defined]
+    check(call(*head, array.size, *map(pointer, (array, *out))))
+    return result(*(one[()] for one in out))
 
 
 def transposed(buffer: Array) -> Array:
@@ -145,12 +256,28 @@ def transposed(buffer: Array) -> Array:
     return buffer.swapaxes(-1, -2)
 
 
-class PlainData:
+class Value:
+    """An object that equals those of its type with the same key."""
+
+    def _key(self) -> Any:
+        raise NotImplementedError
+
+    def __eq__(self, other: object) -> bool:
+        return self._key() == other._key() if type(other) is type(self) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._key()))
+
+
+class PlainData(Value):
     """Memory of the C interface that is pickled, and validated in full when it is read."""
 
     def __bytes__(self) -> bytes:
         """The memory as it may be stored in a file or sent in a message; read it by `from_bytes`."""
         raise NotImplementedError
+
+    def _key(self) -> Any:
+        return bytes(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).from_bytes, (bytes(self),)
@@ -160,32 +287,8 @@ class PlainData:
         raise NotImplementedError
 
 
-class Struct(PlainData):
-    """A contact or an element: initialised once, then only read."""
-
-    _type: str
-    _c: Any
-
-    def __bytes__(self) -> bytes:
-        return bytes(ffi.buffer(self._c))
-
-    @classmethod
-    def from_bytes(cls, data: bytes) -> Any:
-        """The object of these bytes, validated in full; raises `Error` if it is invalid."""
-        new = cls.__new__(cls)
-        new._c = ffi.new(f"{cls._type} *")
-        if len(data) != ffi.sizeof(cls._type):
-            raise ValueError(f"a {cls.__name__} has {ffi.sizeof(cls._type)} bytes, not {len(data)}")
-        ffi.memmove(new._c, data, len(data))
-        check(getattr(lib, f"{cls._type}_check")(new._c))
-        return new
-
-
-T = TypeVar("T")
-
-
 class Field(Generic[T]):
-    """A field of a struct, to be read."""
+    """A value that can only be read: a field of `_values`."""
 
     def __init__(self, doc: str) -> None:
         self.__doc__ = doc
@@ -196,49 +299,9 @@ class Field(Generic[T]):
     @overload
     def __get__(self, instance: None, owner: type) -> Field[T]: ...
     @overload
-    def __get__(self, instance: Struct, owner: type) -> T: ...
-    def __get__(self, instance: Struct | None, owner: type) -> Field[T] | T:
-        return self if instance is None else cast(T, getattr(instance._c, self._name))
+    def __get__(self, instance: Any, owner: type) -> T: ...
+    def __get__(self, instance: Any, owner: type) -> Field[T] | T:
+        return self if instance is None else cast(T, getattr(instance._values, self._name))
 
-    def __set__(self, instance: Struct, value: object) -> None:
+    def __set__(self, instance: Any, value: object) -> None:
         raise AttributeError(f"{self._name} can only be read")
-
-
-def pair(value: float | tuple[float, float]) -> list[float]:
-    """A property of the material of both bodies, from one number or two."""
-    return [float(v) for v in np.broadcast_to(np.asarray(value, dtype=np.float64), 2)]
-
-
-def flat_parameters(
-    flat_half_width: float,
-    edge_radius: float,
-    length: float,
-    normal_force: float,
-    friction_coefficient: float,
-    young_modulus: float | tuple[float, float],
-    poisson_ratio: float | tuple[float, float],
-    displacement_reference: int,
-) -> Any:
-    p = ffi.new("mslip_parameters *")
-    lib.mslip_parameters_default(p)
-    p.flat_half_width, p.edge_radius, p.length = flat_half_width, edge_radius, length
-    p.normal_force, p.friction_coefficient = normal_force, friction_coefficient
-    p.displacement_reference = displacement_reference
-    p.material = list(zip(pair(young_modulus), pair(poisson_ratio)))
-    return p
-
-
-def elliptic_parameters(
-    semi_axis_x: float,
-    semi_axis_y: float,
-    normal_force: float,
-    friction_coefficient: float,
-    young_modulus: float | tuple[float, float],
-    poisson_ratio: float | tuple[float, float],
-) -> Any:
-    p = ffi.new("mslip_elliptic_parameters *")
-    lib.mslip_elliptic_parameters_default(p)
-    p.semi_axis_x, p.semi_axis_y = semi_axis_x, semi_axis_y
-    p.normal_force, p.friction_coefficient = normal_force, friction_coefficient
-    p.material = list(zip(pair(young_modulus), pair(poisson_ratio)))
-    return p

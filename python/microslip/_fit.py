@@ -7,11 +7,15 @@ from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from ._core import doubles, ffi, lib, pair
+from ._core import REFERENCES, Shape, choice, doubles, ffi, instance, items, lib
 
-REFERENCES = ("centre_point", "rigid_strip")
+SHAPES = ("flat_half_width", "edge_radius", "fixed")
+# The shapes of what a loop has; the fit rejects other keys.
+_LIST: list[Shape] = [(None,)]
+COLUMNS = {"displacement": _LIST, "force": _LIST, "time": _LIST, "normal_force": [(), *_LIST]}
 
 
 class FitError(ValueError):
@@ -39,22 +43,12 @@ def fit(
     `value`, `lower`, `upper` (95 % confidence) and `status`; `law` and `spring_slider.misfit` with the misfits; the sentences
     `verdict` and `warnings`; `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """
-    given = dict(contact)
-    reference = REFERENCES[given.pop("displacement_reference", 0)]
-    materials = zip(pair(given.pop("young_modulus")), pair(given.pop("poisson_ratio")))
-    problem = {
-        "contact": {
-            **{name: float(value) for name, value in given.items()},
-            "material": [{"young_modulus": modulus, "poisson_ratio": ratio} for modulus, ratio in materials],
-            "displacement_reference": reference,
-        },
-        "loops": [_loop(loop) for loop in loops],
-        "options": {"shape": shape, **{name: float(value) for name, value in (fixed or {}).items()}},
-    }
-    try:
-        text = json.dumps(problem, allow_nan=False)
-    except ValueError:
-        raise FitError("all numbers must be finite") from None
+    options = _numbers({} if fixed is None else _mapping(fixed, "fixed"), "fixed")
+    if "shape" in options:
+        raise FitError("shape is an argument of its own, not a key of fixed")
+    options["shape"] = SHAPES[choice(shape, "shape", SHAPES)]
+    problem = {"contact": _contact(contact), "loops": _loops(loops), "options": options}
+    text = json.dumps(problem, allow_nan=False)
     answer = ffi.new("char **")
     status = lib.microslip_python_fit(text.encode(), answer)
     try:
@@ -66,9 +60,56 @@ def fit(
     return json.loads(text, object_hook=_namespace)
 
 
-def _loop(loop: tuple[ArrayLike, ArrayLike] | Mapping[str, Any]) -> dict[str, Any]:
-    named = dict(loop) if isinstance(loop, Mapping) else dict(zip(("displacement", "force"), loop))
-    return {key: value if isinstance(value, str) else doubles(value, key).tolist() for key, value in named.items()}
+def _finite(values: Any, name: str, *shapes: Shape) -> Any:
+    """A number, or a list of numbers."""
+    array = doubles(values, name, *shapes)
+    if not np.isfinite(array).all():
+        raise FitError(f"{name} must be finite")
+    return array.tolist()
+
+
+def _mapping(given: Any, name: str) -> dict[Any, Any]:
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{name} must be a mapping, not {type(given).__name__}")
+    return dict(given)
+
+
+def _numbers(given: dict[Any, Any], name: str) -> dict[str, Any]:
+    """Numbers by their keys, which the fit checks."""
+    return {str(key): _finite(value, f"{key} of {name}", ()) for key, value in given.items()}
+
+
+def _contact(contact: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys and values of a parameter file."""
+    given = _mapping(contact, "contact")
+    keys: dict[str, Any] = {}
+    name = "displacement_reference"
+    if name in given:
+        keys[name] = REFERENCES[choice(given.pop(name), name, REFERENCES)]
+    names = [name for name in ("young_modulus", "poisson_ratio") if name in given]
+    pairs = {name: np.broadcast_to(_finite(given.pop(name), f"{name} of contact", (), (2,)), 2) for name in names}
+    keys["material"] = [{name: float(values[body]) for name, values in pairs.items()} for body in (0, 1)]
+    return keys | _numbers(given, "contact")
+
+
+def _loops(loops: Iterable[Any]) -> list[dict[str, Any]]:
+    return [_loop(loop, f"loops[{i}]") for i, loop in enumerate(items(loops, object, "loops"))]
+
+
+def _loop(loop: Any, name: str) -> dict[str, Any]:
+    if not isinstance(loop, Mapping):
+        try:
+            displacement, force = loop
+        except (TypeError, ValueError):
+            raise ValueError(f"{name} must be a pair of displacement and force, or a mapping") from None
+        loop = {"displacement": displacement, "force": force}
+    keys = {}
+    for key, value in loop.items():
+        if key == "name":
+            keys[key] = instance(value, str, f"name of {name}").encode(errors="replace").decode()
+        else:
+            keys[str(key)] = _finite(value, f"{key} of {name}", *COLUMNS.get(key, ()))
+    return keys
 
 
 def _namespace(values: dict[str, Any]) -> SimpleNamespace:

@@ -2,104 +2,171 @@
 
 from __future__ import annotations
 
+import os
 import threading
+import weakref
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from ._core import Array, PlainData, check, ffi, lib, pointer
+from ._core import RULES, Array, Constant, Field, PlainData, Value, binary, check, choice, doubles, ffi, integer, lib, pointer
 
 
 class _History(PlainData):
-    """An array of doubles with the load history of a contact or an element."""
+    """A load history in an array of doubles; `_head` are the arguments of all calls before it."""
 
-    array: Array
+    _calls: str
+    _head: tuple[int, ...]
+    _array: Array
+    __hash__ = None  # type: ignore[assignment] # it changes
+
+    def __init__(self, head: tuple[int, ...], capacity: int) -> None:
+        self._head = head
+        self._array = np.zeros(getattr(lib, f"{self._calls}_length")(*head, capacity))
+        self._call("init")
+
+    def _call(self, name: str, *more: Any) -> None:
+        check(getattr(lib, f"{self._calls}_{name}")(*self._head, *self._arguments(), *more))
+
+    def _doubles(self) -> Array:
+        """The array as the library reads it, whatever was done to its form."""
+        return doubles(self._array, "array")
+
+    def _arguments(self) -> tuple[int, Any]:
+        array = self._doubles()
+        return array.size, pointer(array)
+
+    def _with(self, array: Array) -> Any:
+        new = type(self).__new__(type(self))
+        new._head, new._array = self._head, array
+        return new
+
+    @property
+    def array(self) -> Array:
+        """The doubles."""
+        return self._array
+
+    @property
+    def force_error(self) -> float:
+        """Bound on the error [N] of the force due to merged reversals or pieces: 0 if none was merged since gross slip."""
+        error = ffi.new("double *")
+        self._call("error", error)
+        return float(error[0])
 
     def copy(self) -> Any:
         """An independent state with the same load history."""
-        new = type(self).__new__(type(self))
-        new.__dict__.update(self.__dict__, array=self.array.copy())
-        return new
+        return self._with(self._array.copy())
+
+    def _key(self) -> Any:
+        return self._head, bytes(self)
 
     def __bytes__(self) -> bytes:
-        return self.array.tobytes()
+        return self._array.tobytes()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).from_bytes, (bytes(self), *self._head)
+
+    @classmethod
+    def _read(cls, data: bytes, *head: int) -> Any:
+        data = binary(data, "data")
+        if len(data) % 8:
+            raise ValueError(f"data of a {cls.__name__} must be a number of doubles, not {len(data)} bytes")
+        state = cls.__new__(cls)
+        state._head, state._array = head, np.frombuffer(data, dtype=np.float64).copy()
+        state._call("check")
+        return state
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {len(self.array)} doubles>"
-
-
-def _from_bytes(data: bytes) -> Array:
-    return np.frombuffer(data, dtype=np.float64).copy()
+        return f"<{type(self).__name__} of {self._array.size} doubles>"
 
 
 class State(_History):
     """Load history of a contact under a constant normal force: unloaded at first.
 
     A state holds `reversals` nested reversals of the displacement exactly; those in excess are merged, with the error bound
-    `force_error`. `array` are its doubles.
+    `force_error`. `array` are its doubles. Equal states have equal doubles.
     """
 
+    _calls = "mslip_state"
+
     def __init__(self, reversals: int = 32) -> None:
-        self.array = np.zeros(lib.mslip_state_length(reversals))
-        check(lib.mslip_state_init(len(self.array), pointer(self.array)))
+        super().__init__((), integer(reversals, "reversals"))
 
     @classmethod
     def from_bytes(cls, data: bytes) -> State:
         """The state of these bytes, validated in full; raises `Error` if it is invalid."""
-        state = cls.__new__(cls)
-        state.array = _from_bytes(data)
-        check(lib.mslip_state_check(len(state.array), pointer(state.array)))
-        return state
-
-    @property
-    def force_error(self) -> float:
-        """Bound on the error [N] of the force due to merged reversals: 0 if none was merged since the last gross slip."""
-        error = ffi.new("double *")
-        check(lib.mslip_state_error(len(self.array), pointer(self.array), error))
-        return float(error[0])
+        return cls._read(data)
 
 
 class ElementState(_History):
     """Load history of an element with 1 or 2 tangential `directions`: open at first, at zero displacement.
 
     With one direction it holds `pieces` pieces of the memory diagram exactly; those in excess are merged, with the error bound
-    `force_error`. With two directions its length is fixed. `array` are its doubles.
+    `force_error`. With two directions its length is fixed. `array` are its doubles. Equal states have equal doubles.
     """
 
-    def __init__(self, directions: int = 1, pieces: int = 32) -> None:
-        self.directions = directions
-        self.array = np.zeros(lib.mslip_element_state_length(directions, pieces))
-        check(lib.mslip_element_state_init(directions, len(self.array), pointer(self.array)))
+    _calls = "mslip_element_state"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return ElementState.from_bytes, (bytes(self), self.directions)
+    def __init__(self, directions: int = 1, pieces: int = 32) -> None:
+        super().__init__((integer(directions, "directions"),), integer(pieces, "pieces"))
+
+    @property
+    def directions(self) -> int:
+        """Number of tangential directions, 1 or 2."""
+        return self._head[0]
 
     @classmethod
     def from_bytes(cls, data: bytes, directions: int = 1) -> ElementState:
         """The state of these bytes, validated in full; raises `Error` if it is invalid."""
-        state = cls.__new__(cls)
-        state.directions, state.array = directions, _from_bytes(data)
-        check(lib.mslip_element_state_check(directions, len(state.array), pointer(state.array)))
-        return state
-
-    @property
-    def force_error(self) -> float:
-        """Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since gross slip."""
-        error = ffi.new("double *")
-        check(lib.mslip_element_state_error(self.directions, len(self.array), pointer(self.array), error))
-        return float(error[0])
+        return cls._read(data, integer(directions, "directions"))
 
 
-class _Workspace:
-    """Tables and scratch memory of harmonic forces. Calls with one workspace wait for each other: use one per thread."""
+# By identity: equal workspaces are different memory.
+_workspaces: weakref.WeakValueDictionary[int, _Workspace] = weakref.WeakValueDictionary()
 
-    def __init__(self, length: int) -> None:
-        self.array = np.zeros(length)
-        self._pointer = pointer(self.array)
-        self.lock = threading.Lock()
+
+def _unlock() -> None:
+    """A thread that computes during a fork does not exist in the child."""
+    for workspace in _workspaces.values():
+        workspace._lock = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_unlock)
+
+
+class _Workspace(Value):
+    """Tables and scratch memory; `_values` are the fields, `_shape` is that of the coefficients."""
+
+    _calls: str
+    _shape: tuple[int, ...]
+    harmonics = Field[int]("Number of harmonics H >= 1.")
+    samples = Field[int]("Number of samples > 2H per period.")
+    rule = Field[int]("UNIFORM_SAMPLING or EVENT_DRIVEN.")
+
+    def __init__(self, **given: Any) -> None:
+        rule = choice(given.pop("rule"), "rule", RULES)
+        arguments = (*(integer(value, name) for name, value in given.items()), rule)
+        length = getattr(lib, f"{self._calls}_length")(*arguments)
+        self._memory = ffi.new("double[]", length)
+        check(getattr(lib, f"{self._calls}_init")(*arguments, length, self._memory))
+        out = [ffi.new("int32_t *" if name in ("directions", "rule") else "size_t *") for name in (*given, "rule")]
+        check(getattr(lib, f"{self._calls}_size")(self._memory, *out))
+        self._values = SimpleNamespace(**{name: int(value[0]) for name, value in zip((*given, "rule"), out)})
+        self._shape = (2 * self.harmonics + 1,)
+        self._lock = threading.Lock()
+        _workspaces[id(self)] = self
+
+    def _key(self) -> Any:
+        return tuple(vars(self._values).values())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._key()
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}{self.__reduce__()[1]}"
+        shown = {**vars(self._values), "rule": RULES[self.rule]}
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in shown.items())})"
 
 
 class Workspace(_Workspace):
@@ -110,16 +177,10 @@ class Workspace(_Workspace):
     workspace wait for each other: use one per thread.
     """
 
-    def __init__(self, harmonics: int, samples: int, rule: int = 0) -> None:
-        super().__init__(lib.mslip_harmonic_workspace_length(harmonics, samples, rule))
-        check(lib.mslip_harmonic_workspace_init(harmonics, samples, rule, len(self.array), self._pointer))
-        sizes = ffi.new("size_t[2]")
-        flag = ffi.new("int32_t *")
-        check(lib.mslip_harmonic_workspace_size(self._pointer, sizes, sizes + 1, flag))
-        self.harmonics, self.samples, self.rule = int(sizes[0]), int(sizes[1]), int(flag[0])
+    _calls = "mslip_harmonic_workspace"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Workspace, (self.harmonics, self.samples, self.rule)
+    def __init__(self, harmonics: int, samples: int, rule: Constant = 0) -> None:
+        super().__init__(harmonics=harmonics, samples=samples, rule=rule)
 
 
 class ElementWorkspace(_Workspace):
@@ -129,14 +190,9 @@ class ElementWorkspace(_Workspace):
     use one per thread.
     """
 
-    def __init__(self, directions: int, harmonics: int, samples: int, rule: int = 0) -> None:
-        super().__init__(lib.mslip_element_workspace_length(directions, harmonics, samples, rule))
-        check(lib.mslip_element_workspace_init(directions, harmonics, samples, rule, len(self.array), self._pointer))
-        sizes = ffi.new("size_t[2]")
-        flags = ffi.new("int32_t[2]")
-        check(lib.mslip_element_workspace_size(self._pointer, flags, sizes, sizes + 1, flags + 1))
-        self.directions, self.rule = int(flags[0]), int(flags[1])
-        self.harmonics, self.samples = int(sizes[0]), int(sizes[1])
+    _calls = "mslip_element_workspace"
+    directions = Field[int]("Number of tangential directions, 1 or 2.")
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return ElementWorkspace, (self.directions, self.harmonics, self.samples, self.rule)
+    def __init__(self, directions: int, harmonics: int, samples: int, rule: Constant = 0) -> None:
+        super().__init__(directions=directions, harmonics=harmonics, samples=samples, rule=rule)
+        self._shape = (self.directions + 1, *self._shape)

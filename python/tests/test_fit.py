@@ -62,12 +62,58 @@ def test_named_loops_and_ellipses():
     assert report.loops[0].name.startswith("first")
 
 
-def test_errors():
-    with pytest.raises(microslip.FitError, match="no measured loops"):
-        microslip.fit([], TRUTH)
-    with pytest.raises(microslip.FitError, match="unknown field"):
-        microslip.fit(loops(), TRUTH, fixed={"stiffness": 1.0})
-    with pytest.raises(microslip.FitError, match="finite"):
-        microslip.fit([([0.0, np.nan], [0.0, 1.0])], TRUTH)
-    with pytest.raises(TypeError, match="force must be real numbers"):
-        microslip.fit([([0.0, 1.0], ["a", "b"])], TRUTH)
+LOOP = next(loops())
+
+
+def without(name):
+    return {key: value for key, value in TRUTH.items() if key != name}
+
+
+@pytest.mark.parametrize(
+    ("message", "arguments"),
+    [
+        ("no measured loops", {"loops": []}),
+        ("missing parameters: length", {"contact": without("length")}),
+        ("missing parameters: young_modulus", {"contact": without("young_modulus")}),
+        ("unknown field `bogus`", {"contact": TRUTH | {"bogus": 1}}),
+        ("unknown field `stiffness`", {"fixed": {"stiffness": 1.0}}),
+        ("unknown field `normalforce`", {"loops": [{"displacement": LOOP[0], "force": LOOP[1], "normalforce": 3.0}]}),
+        ("parameters of two shapes", {"contact": TRUTH | {"semi_axis_x": 1e-3, "semi_axis_y": 1e-3}}),
+        ("friction_coefficient must be finite and >= 0", {"contact": TRUTH | {"friction_coefficient": -1}}),
+        ("length must be finite and > 0", {"contact": TRUTH | {"length": 0}}),
+        ("each poisson_ratio", {"contact": TRUTH | {"poisson_ratio": (0.3, 0.6)}}),
+        ("normal force", {"contact": TRUTH | {"normal_force": 0}}),
+        ("in another unit", {"fixed": {"contact_compliance": 1e300}}),
+        ("in another unit", {"fixed": {"series_compliance": 1.0}}),
+        ("friction coefficient", {"fixed": {"friction_coefficient": 0}}),
+        *[
+            ("displacement_reference must be 'centre_point'", {"contact": TRUTH | {"displacement_reference": wrong}})
+            for wrong in (-1, -2, 2, True, 1.0, "strip", None)
+        ],
+        ("length of contact must be real numbers", {"contact": TRUTH | {"length": "20"}}),
+        ("length of contact must be finite", {"contact": TRUTH | {"length": np.inf}}),
+        ("young_modulus of contact must be", {"contact": TRUTH | {"young_modulus": (1, 2, 3)}}),
+        ("friction_coefficient of fixed must be", {"fixed": {"friction_coefficient": None}}),
+        ("force of loops.0. must be finite", {"loops": [(LOOP[0], np.full(160, np.nan))]}),
+        ("force of loops.1. must be real numbers", {"loops": [LOOP, ([0.0, 1.0], ["a", "b"])]}),
+        ("force of loops.0. must not be masked", {"loops": [(LOOP[0], np.ma.array(LOOP[1]))]}),
+        ("loops.0. must be a pair", {"loops": [(*LOOP, LOOP[1])]}),
+        ("loops.0. must be a pair", {"loops": LOOP[0]}),
+        ("displacement of loops.0. must be an array", {"loops": [(LOOP[0].reshape(2, -1), LOOP[1])]}),
+        ("shape must be 'flat_half_width'", {"shape": "radius"}),
+        ("shape is an argument", {"fixed": {"shape": 0}}),
+    ],
+)
+def test_errors_name_the_argument(message, arguments):
+    with pytest.raises((ValueError, TypeError), match=message):
+        microslip.fit(**{"loops": [LOOP], "contact": TRUTH} | arguments)
+
+
+def test_constants_are_given_by_number_or_word():
+    one, other = (
+        microslip.fit([LOOP], TRUTH | {"displacement_reference": reference}) for reference in (microslip.RIGID_STRIP, "rigid_strip")
+    )
+    assert one.contact_toml == other.contact_toml
+    assert "rigid_strip" in one.contact_toml
+    with_surrogate = {"displacement": LOOP[0], "force": LOOP[1], "name": "a\0\ud800b"}
+    assert microslip.fit([with_surrogate], TRUTH).loops[0].name.startswith("a")

@@ -10,7 +10,7 @@ import threading
 import microslip
 import numpy as np
 import pytest
-from microslip import _contact, _core, _element, _memory
+from microslip import _contact, _core, _element, _law, _memory
 from numpy.testing import assert_allclose
 from tables import REPOSITORY
 
@@ -128,7 +128,7 @@ def test_every_function_of_the_header_is_called(monkeypatch):
     declared = set(re.findall(r"^\w.*?\bmslip_(\w+)\(", HEADER, flags=re.MULTILINE))
     assert declared == set(CALLS)
     recorder = Recorder(_core.lib)
-    for module in (_core, _contact, _element, _memory):
+    for module in (_core, _contact, _element, _law, _memory):
         monkeypatch.setattr(module, "lib", recorder)
     for name, call in CALLS.items():
         recorder.called.clear()
@@ -181,29 +181,6 @@ def test_errors():
     with pytest.raises(microslip.Error):
         contact.update(state, [1e-7, np.inf], out=state)
     assert bytes(state) == before
-
-
-@pytest.mark.parametrize("wrong", [1j, "1e-7", None, True, [1e-7, None]])
-def test_what_is_no_real_number_is_a_type_error(wrong):
-    with pytest.raises(TypeError, match="displacement must be real numbers"):
-        contact.monotonic_force(wrong)
-
-
-def test_wrong_shapes_are_value_errors():
-    for call in [
-        lambda: contact.harmonic_force(workspace, np.zeros(7)),
-        lambda: contact.update(microslip.State(), np.zeros((2, 2))),
-        lambda: contact.update(microslip.State(4), 0, out=microslip.State(5)),
-        lambda: element.update(microslip.ElementState(), [0, 0, 0]),
-        lambda: element.harmonic_force(element_workspace, ELEMENT_HARMONICS.T),
-        lambda: contacts.update(contacts.states(), [0.0]),
-        lambda: contacts.update(contacts.states(), [0.0, 0.0], out=np.zeros((2, 7))),
-        lambda: contacts.complex_stiffness(np.zeros(3)),
-        lambda: contacts.complex_stiffness(np.zeros(3), index=[0, 1]),
-        lambda: microslip.Contact.from_bytes(b"short"),
-    ]:
-        with pytest.raises(ValueError, match=r"shape|dimension|doubles|array|index|bytes"):
-            call()
 
 
 def test_arrays_are_used_as_they_are_or_converted():
@@ -347,13 +324,13 @@ def test_plain_data_is_pickled_and_checked():
             assert other is not value
             assert bytes(other) == bytes(value)
     assert reloaded(pressed(2)).directions == 2
-    assert (reloaded(table).array == table.array).all()
+    assert reloaded(table) == table
     assert [bytes(c) for c in reloaded(contacts)] == [bytes(c) for c in contacts]
     assert [bytes(c) for c in reloaded(elements)] == [bytes(c) for c in elements]
     assert (
         contact.harmonic_force(reloaded(workspace), HARMONICS).dissipated == contact.harmonic_force(workspace, HARMONICS).dissipated
     )
-    assert repr(reloaded(element_workspace)) == "ElementWorkspace(1, 2, 64, 0)"
+    assert reloaded(element_workspace) == element_workspace
     # One wrong byte in the stored copy.
     for value, status in [
         (contact, microslip.Status.BAD_CONTACT),
