@@ -22,7 +22,7 @@ fi
 for manifest in Cargo.toml benches/instructions/Cargo.toml verification/Cargo.toml verification/fuzz/Cargo.toml; do
     grep -q '^\[workspace\]' "$manifest" || continue # a member is checked with its workspace
     for subject in $subjects; do
-        check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --locked --config deny.toml check "$subject"
+        check "$manifest: $subject" cargo-deny --manifest-path "$manifest" --workspace --locked --config deny.toml check "$subject"
     done
 done
 
