@@ -78,7 +78,7 @@ parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
-## test: the daily tests, in Rust, C, C++ and Fortran: at most four minutes, installation of packages included
+## test: the regular tests, in Rust, C, C++ and Fortran: some minutes
 test:
 	tools/test.sh
 

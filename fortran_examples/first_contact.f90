@@ -13,7 +13,8 @@ program first_contact
   integer(mslip_int) :: status
 
   p = mslip_parameters(flat_half_width=0.5e-3_wp, edge_radius=3.0e-3_wp, length=20.0e-3_wp, normal_force=800.0_wp, &
-    friction_coefficient=0.5_wp, material=[mslip_material(2.0e11_wp, 0.3_wp), mslip_material(2.0e11_wp, 0.3_wp)])
+    friction_coefficient=0.5_wp, material=[mslip_material(2.0e11_wp, 0.3_wp), mslip_material(2.0e11_wp, 0.3_wp)], &
+    displacement_reference=MSLIP_RIGID_STRIP)
   allocate (workspace(mslip_harmonic_workspace_length(harmonics, samples)))
 
   ! Once for each contact, then any of the other calls. Every call returns a status.

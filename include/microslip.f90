@@ -1324,7 +1324,7 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:)  !! 2H+1 coefficients of the force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
       !! (2H+1, 2H+1): derivatives of the force coefficients with respect to the displacement coefficients [N/m]; exact for
-      !! uniform sampling, and event-driven as accurate as the force.
+      !! uniform sampling; event-driven, its error is larger than that of the force.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
 
     integer(mslip_size) :: m

@@ -8,11 +8,12 @@ cd "$(dirname "$0")/.."
 workspace='--locked --workspace --exclude instructions --exclude microslip-fuzz'
 strict='-Wall -Wextra -Wpedantic -Werror -O1'
 
+# A program of a document prints its result in the document.
 snippet() {
     case $1 in
         *.c) build "$CC -std=c99 $strict" "$1" "$work/snippet" ;;
         *.f90) build "$FC -J $work $prefix/include/microslip.f90" "$1" "$work/snippet" ;;
-    esac && (cd "$work" && ./snippet)
+    esac && "$work/snippet" > "$work/snippet.txt" && diff "${1%.*}.txt" "$work/snippet.txt"
 }
 
 installed() {
@@ -45,7 +46,7 @@ programs() {
     for document in README.md docs/*.md; do
         name=$(basename "$document" .md)
         tools/snippets.sh "$document" "$work/snippets/$name"
-        for file in "$work/snippets/$name"/*; do
+        for file in "$work/snippets/$name"/*.c "$work/snippets/$name"/*.f90; do
             [ ! -e "$file" ] || step "$name: $(basename "$file")" snippet "$file"
         done
     done

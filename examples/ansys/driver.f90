@@ -85,6 +85,7 @@ program driver
   type(mslip_element) :: element
   integer(mslip_int) :: status
 
+  call check('state variables: start and finish of a point fit into an element', 2*contact_variables(2) <= 840)
   do directions = 1, 2
     call new_element(MSLIP_APPROACH, element, status)
     call check_status('directions', status, MSLIP_OK)
@@ -103,7 +104,7 @@ contains
 
     associate (p => properties)
       call mslip_element_init(mslip_parameters(p(1), p(2), p(3), p(4), p(5), [mslip_material(p(6), p(7)), &
-        mslip_material(p(8), p(9))], MSLIP_CENTRE_POINT, 0), directions, normal_input, element, status)
+        mslip_material(p(8), p(9))], MSLIP_RIGID_STRIP, 0), directions, normal_input, element, status)
     end associate
   end subroutine new_element
 

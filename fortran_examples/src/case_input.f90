@@ -187,7 +187,7 @@ contains
 
       law = ' '
       second_direction = with_friction
-      displacement_reference = 'centre point'
+      displacement_reference = 'rigid strip'
       count = 1
       load_varied = .true.
       angle = 0.0_wp

@@ -1,4 +1,4 @@
-"""The Python programs of the documents and the examples run."""
+"""The Python programs of the documents and the examples run, and print what the documents say."""
 
 from __future__ import annotations
 
@@ -12,9 +12,13 @@ from tables import REPOSITORY
 
 EXAMPLES = REPOSITORY / "python" / "examples"
 PROGRAMS = [
-    pytest.param(program, id=f"{document}-{i}")
+    pytest.param(*program, id=f"{document}-{i}")
     for document in ["README.md", "python/README.md"]
-    for i, program in enumerate(re.findall(r"^```python\n(.*?)^```", (REPOSITORY / document).read_text(), re.MULTILINE | re.DOTALL))
+    for i, program in enumerate(
+        re.findall(
+            r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```)?", (REPOSITORY / document).read_text(), re.MULTILINE | re.DOTALL
+        )
+    )
 ]
 
 
@@ -25,9 +29,11 @@ def run(*command, directory):
     return result.stdout
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_programs_of_the_documents(program, tmp_path):
-    assert run("-c", program, directory=tmp_path)
+@pytest.mark.parametrize(("program", "output"), PROGRAMS)
+def test_programs_of_the_documents(program, output, tmp_path):
+    printed = run("-c", program, directory=tmp_path)
+    assert printed
+    assert output in ("", printed)
 
 
 def test_pictures(tmp_path):
