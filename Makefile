@@ -141,7 +141,7 @@ fuzz:
 ## python: build the Python wheel into target/python and test it
 python:
 	@tools/dependencies.sh python
-	tools/python.sh
+	tools/python.sh all
 
 ## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
 header:

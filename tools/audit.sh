@@ -1,7 +1,6 @@
 #!/bin/sh
-# audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with
-# deny.toml. cargo-deny is installed into target/tools where there is none,
-# which takes minutes.
+# audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with deny.toml.
+# If cargo-deny is missing, it is installed into target/tools, which takes minutes.
 set -eu
 
 cd "$(dirname "$0")/.."

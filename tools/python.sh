@@ -1,6 +1,7 @@
 #!/bin/sh
-# python.sh [all]: build the wheel of the Python package, and test it installed in a clean environment. `all` tests it also by the
-# oldest and the newest other Python that are found, and tests types, format, adapters, examples and the programs of the documents.
+# python.sh [all]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel to be
+# published, tests it also by the oldest and the newest other Python that are found, and tests types, format, adapters, examples
+# and the programs of the documents.
 # PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools: among them Zig, whose linker makes wheels for
 # any Linux with glibc 2.17 or later (manylinux2014).
 set -eu
@@ -21,6 +22,9 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 # A wheel is built from the crates of Cargo.lock without a network, in a namespace without one if the system permits that.
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
+# The daily tests share the compilation of the other ones; the wheel to be published is the one of `all`.
+build='--profile dev'
+[ "${1:-}" != all ] || build='--release --zig --compatibility manylinux2014'
 tools() {
     "$tools/bin/python" -c 'import ziglang' 2> /dev/null ||
         { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
@@ -28,8 +32,8 @@ tools() {
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
         (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated \
-            maturin build --release --zig --compatibility manylinux2014 --out "$wheels") &&
-        "$PYTHON" -m zipfile -e "$wheels/microslip-$version-py3-none-manylinux"*.whl "$work/wheel"
+            maturin build $build --out "$wheels") &&
+        "$PYTHON" -m zipfile -e "$wheels/microslip-$version-py3-none-"*.whl "$work/wheel"
 }
 # The newest symbol version of glibc that the library needs.
 glibc() {
@@ -74,12 +78,12 @@ core() {
 check 'build tools' tools
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }
-check 'the wheel needs glibc 2.17 at most' glibc
 check 'licences in the wheel' licences
 check "clean environment" environment "$work/python" "$PYTHON"
 check 'pip install ./python without cargo' without_cargo
 core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
+check 'the wheel needs glibc 2.17 at most' glibc
 
 # The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
 others() {
