@@ -257,34 +257,16 @@ def transposed(buffer: Array) -> Array:
 
 
 class Value:
-    """An object that equals those of its type with the same key."""
+    """An object that equals those of its type with the same key: by default the memory that is stored in files or sent."""
 
     def _key(self) -> Any:
-        raise NotImplementedError
+        return bytes(self)  # type: ignore[call-overload]
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if type(other) is type(self) else NotImplemented
 
     def __hash__(self) -> int:
         return hash((type(self), self._key()))
-
-
-class PlainData(Value):
-    """Memory of the C interface that is pickled, and validated in full when it is read."""
-
-    def __bytes__(self) -> bytes:
-        """The memory as it may be stored in a file or sent in a message; read it by `from_bytes`."""
-        raise NotImplementedError
-
-    def _key(self) -> Any:
-        return bytes(self)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self).from_bytes, (bytes(self),)
-
-    @classmethod
-    def from_bytes(cls, data: bytes) -> Any:
-        raise NotImplementedError
 
 
 class Field(Generic[T]):

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ._core import (
     REFERENCES,
     Array,
-    PlainData,
     Value,
     Values,
     binary,
@@ -52,7 +51,7 @@ class HarmonicForce(NamedTuple):
     dissipated: Values
 
 
-class _Law(PlainData):
+class _Law(Value):
     """A contact or an element: initialised once, then only read.
 
     `_components` is the shape of a displacement and of a force; `_step`, `_path` and `_harmonic` are names of the functions of a
@@ -96,7 +95,11 @@ class _Law(PlainData):
         return self
 
     def __bytes__(self) -> bytes:
+        """The memory as it may be stored in a file or sent in a message; read it by `from_bytes`."""
         return bytes(ffi.buffer(self._c))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).from_bytes, (bytes(self),)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Any:

@@ -10,15 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from ._core import RULES, Array, Constant, Field, PlainData, Value, binary, check, choice, doubles, ffi, integer, lib, pointer
+from ._core import RULES, Array, Constant, Field, Value, binary, check, choice, doubles, ffi, integer, lib, pointer
 
 
-class _History(PlainData):
+class _History(Value):
     """A load history in an array of doubles; `_head` are the arguments of all calls before it."""
 
     _calls: str
     _head: tuple[int, ...]
     _array: Array
+    from_bytes: Any
     __hash__ = None  # type: ignore[assignment] # it changes
 
     def __init__(self, head: tuple[int, ...], capacity: int) -> None:
@@ -62,6 +63,7 @@ class _History(PlainData):
         return self._head, bytes(self)
 
     def __bytes__(self) -> bytes:
+        """The memory as it may be stored in a file or sent in a message; read it by `from_bytes`."""
         return self._array.tobytes()
 
     def __reduce__(self) -> tuple[Any, ...]:

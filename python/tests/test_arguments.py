@@ -13,7 +13,10 @@ import warnings
 import microslip
 import numpy as np
 import pytest
+from microslip import _contact, _core, _element, _law, _memory
+from tables import REPOSITORY
 
+HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
 FLAT = {
     "flat_half_width": 0.5e-3,
     "edge_radius": 3e-3,
@@ -79,7 +82,7 @@ def valid():
         "Element.from_bytes": {"data": bytes(element)},
         "Element.normal_force_at": {"approach": [1e-6]},
         "Element.approach_at": {"normal_force": [100.0]},
-        "Element.update": {"state": element_state, "displacement": [0, 1e-6], "out": element_out},
+        "Element.update": {"state": element_state, "displacement": [[0, 1e-6]], "out": element_out},
         "Element.tractions": {"state": element_state, "x": [0.0]},
         "Element.harmonic_force": {"workspace": element_workspace, "displacement": np.zeros((2, 3)), "jacobian": False},
         "ElementState": {"directions": 1, "pieces": 8},
@@ -141,6 +144,30 @@ def test_every_public_function_is_walked():
     for name, arguments in valid().items():
         assert list(arguments) == list(inspect.signature(PUBLIC[name]).parameters)
         PUBLIC[name](**arguments)
+
+
+class Recorder:
+    def __init__(self, lib):
+        self.lib, self.called = lib, set()
+
+    def __getattr__(self, name):
+        self.called.add(name)
+        return getattr(self.lib, name)
+
+
+def test_every_function_of_the_header_is_called(monkeypatch):
+    declared = set(re.findall(r"^\w.*?\b(mslip_\w+)\(", HEADER, flags=re.MULTILINE))
+    recorder = Recorder(_core.lib)
+    for module in (_core, _contact, _element, _law, _memory):
+        monkeypatch.setattr(module, "lib", recorder)
+    for name, arguments in valid().items():
+        PUBLIC[name](**arguments)
+    # The variants of arguments; the rest are constants of the package.
+    assert contact.update(state, 1e-7).state.force_error == 0
+    assert element.update(element_state, [0, 1e-6]).state.force_error == 0
+    contact.tractions(state, 0.0)
+    contact.complex_stiffness(1e-7)
+    assert recorder.called == declared - {"mslip_version", "mslip_abi_version"}
 
 
 @pytest.mark.parametrize("name", PUBLIC)

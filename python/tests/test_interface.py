@@ -10,7 +10,7 @@ import threading
 import microslip
 import numpy as np
 import pytest
-from microslip import _contact, _core, _element, _law, _memory
+from microslip import _core
 from numpy.testing import assert_allclose
 from tables import REPOSITORY
 
@@ -54,86 +54,6 @@ def pressed(directions=1):
 
 def reloaded(value):
     return pickle.loads(pickle.dumps(value))
-
-
-# A call that runs each function. The first two are constants of the package, read when it is imported.
-CALLS = {
-    "version": lambda: _core.lib.mslip_version(),
-    "abi_version": lambda: _core.lib.mslip_abi_version(),
-    "status_text": lambda: microslip.status_text(1),
-    "parameters_default": lambda: microslip.Contact(**FLAT),
-    "elliptic_parameters_default": lambda: microslip.Contact.elliptic(**ELLIPSE),
-    "contact_init": lambda: microslip.Contact(**FLAT),
-    "contact_init_elliptic": lambda: microslip.Contact.elliptic(**ELLIPSE),
-    "contact_check": lambda: reloaded(contact),
-    "tractions": lambda: contact.tractions(100, 0.0),
-    "slip": lambda: contact.slip(100, 0.0),
-    "monotonic_displacement": lambda: contact.monotonic_displacement(100),
-    "monotonic_force": lambda: contact.monotonic_force(1e-7),
-    "monotonic_sensitivity": lambda: contact.monotonic_sensitivity(1e-7),
-    "harmonic_sensitivity": lambda: contact.harmonic_sensitivity(workspace, HARMONICS),
-    "state_length": lambda: microslip.State(),
-    "state_init": lambda: microslip.State(),
-    "state_check": lambda: reloaded(microslip.State()),
-    "state_error": lambda: microslip.State().force_error,
-    "masing_update": lambda: contact.update(microslip.State(), 1e-7),
-    "masing_path": lambda: contact.update(microslip.State(), [1e-7]),
-    "masing_tractions": lambda: contact.tractions(microslip.State(), 0.0),
-    "hysteresis_loop": lambda: contact.hysteresis_loop(1e-7),
-    "dissipated_energy": lambda: contact.dissipated_energy(100),
-    "complex_stiffness": lambda: contact.complex_stiffness(1e-7),
-    "stiffness_table_length": lambda: microslip.StiffnessTable(contact),
-    "stiffness_table_init": lambda: microslip.StiffnessTable(contact),
-    "complex_stiffness_tabulated": lambda: contact.complex_stiffness(1e-7, table),
-    "jenkins_equivalent": lambda: contact.jenkins_equivalent(1e-7),
-    "iwan_equivalent": lambda: contact.iwan_equivalent(4),
-    "harmonic_workspace_length": lambda: microslip.Workspace(1, 8),
-    "harmonic_workspace_init": lambda: microslip.Workspace(1, 8),
-    "harmonic_workspace_size": lambda: microslip.Workspace(1, 8),
-    "element_workspace_length": lambda: microslip.ElementWorkspace(1, 1, 8),
-    "element_workspace_init": lambda: microslip.ElementWorkspace(1, 1, 8),
-    "element_workspace_size": lambda: microslip.ElementWorkspace(1, 1, 8),
-    "element_harmonic_force": lambda: element.harmonic_force(element_workspace, ELEMENT_HARMONICS),
-    "harmonic_force": lambda: contact.harmonic_force(workspace, HARMONICS),
-    "element_init": lambda: microslip.Element(**FLAT),
-    "element_init_elliptic": lambda: microslip.Element.elliptic(**ELLIPSE),
-    "element_check": lambda: reloaded(element),
-    "normal_force": lambda: element.normal_force_at(1e-6),
-    "normal_approach": lambda: element.approach_at(100),
-    "element_state_length": lambda: microslip.ElementState(2),
-    "element_state_init": lambda: microslip.ElementState(2),
-    "element_state_check": lambda: reloaded(pressed(2)),
-    "element_state_error": lambda: pressed().force_error,
-    "element_update": lambda: element.update(pressed(), [0, 1e-6]),
-    "element_path": lambda: element.update(pressed(), [[0, 1e-6]]),
-    "element_tractions": lambda: element.tractions(pressed(), 0.0),
-    "batch_complex_stiffness": lambda: contacts.complex_stiffness([1e-7]),
-    "batch_masing_update": lambda: contacts.update(contacts.states(), [1e-7, 2e-7]),
-    "batch_harmonic_force": lambda: contacts.harmonic_force(workspace, [HARMONICS]),
-    "batch_element_update": lambda: elements.update(elements.states(), [[0, 1e-6], [0, 2e-6]]),
-    "batch_element_harmonic_force": lambda: elements.harmonic_force(element_workspace, [ELEMENT_HARMONICS]),
-}
-
-
-class Recorder:
-    def __init__(self, lib):
-        self.lib, self.called = lib, []
-
-    def __getattr__(self, name):
-        self.called.append(name)
-        return getattr(self.lib, name)
-
-
-def test_every_function_of_the_header_is_called(monkeypatch):
-    declared = set(re.findall(r"^\w.*?\bmslip_(\w+)\(", HEADER, flags=re.MULTILINE))
-    assert declared == set(CALLS)
-    recorder = Recorder(_core.lib)
-    for module in (_core, _contact, _element, _law, _memory):
-        monkeypatch.setattr(module, "lib", recorder)
-    for name, call in CALLS.items():
-        recorder.called.clear()
-        call()
-        assert f"mslip_{name}" in recorder.called
 
 
 def test_status_codes_and_constants_are_those_of_the_header():
