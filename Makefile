@@ -7,7 +7,7 @@ INSTALL ?= install
 SHARED ?=
 
 version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-sources := $(shell find src -name '*.rs') Cargo.toml Cargo.lock
+sources := $(shell find src -type f) Cargo.toml Cargo.lock
 archive := target/release/libmicroslip.a
 shared := lib/libmicroslip.so.$(shell sed -n 's/^\#define MSLIP_ABI_VERSION //p' include/microslip.h)
 pcdir := lib/pkgconfig

@@ -5,7 +5,6 @@
 #![allow(unsafe_code, non_camel_case_types)]
 
 mod pointers;
-mod simd_dispatch;
 
 mod contact;
 mod history;

@@ -137,7 +137,6 @@ impl<'a> Workspace<'a> {
 ///
 /// # Errors
 /// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
-#[inline(always)]
 pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,

@@ -16,6 +16,7 @@ pub mod parameters;
 mod law;
 mod numerics;
 mod range;
+mod simd;
 mod tag;
 
 pub mod shape;

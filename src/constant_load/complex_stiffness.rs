@@ -35,6 +35,7 @@ use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
 use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
 use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
+use crate::simd::dispatch;
 use core::array::from_fn;
 use core::f64::consts::PI;
 
@@ -170,6 +171,12 @@ impl ComplexStiffness<'_> {
     /// K' and its derivative.
     #[inline(always)]
     pub(crate) fn real_with_derivative(&self) -> (f64, f64) {
+        let stiffness = self;
+        dispatch!(ComplexStiffness::real_kernel, stiffness: &ComplexStiffness => (f64, f64))
+    }
+
+    #[inline(always)]
+    fn real_kernel(&self) -> (f64, f64) {
         let (contact, amplitude) = (self.contact, self.amplitude_not_zero());
         if self.is_linear() {
             return (contact.initial_stiffness, self.initial_slopes().0);
@@ -248,6 +255,12 @@ impl ComplexStiffness<'_> {
     /// K'' and its derivative.
     #[inline(always)]
     pub(crate) fn imaginary_with_derivative(&self) -> (f64, f64) {
+        let stiffness = self;
+        dispatch!(ComplexStiffness::imaginary_kernel, stiffness: &ComplexStiffness => (f64, f64))
+    }
+
+    #[inline(always)]
+    fn imaginary_kernel(&self) -> (f64, f64) {
         if self.is_linear() {
             let slope = self.initial_slopes().1;
             return (self.amplitude * slope, slope);

@@ -8,6 +8,7 @@ use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
 use crate::law::{BEYOND, Response};
 use crate::shape::stick_zone::Complement;
+use crate::simd::dispatch;
 
 /// Evaluates force and stiffness on the monotonic curve.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +56,18 @@ impl Contact {
     /// Force and stiffness at displacements of either sign.
     #[inline(always)]
     pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+        let contact = self;
+        dispatch!(
+            Contact::responses_kernel,
+            contact: &Contact,
+            displacement: &[f64],
+            force: Option<&mut [f64]>,
+            stiffness: Option<&mut [f64]> => ()
+        );
+    }
+
+    #[inline(always)]
+    fn responses_kernel(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
         let evaluator = self.evaluator();
         let signed = |displacement: f64| {
             let Response { force, stiffness } = evaluator.at(displacement.abs());

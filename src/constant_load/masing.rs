@@ -9,6 +9,7 @@ use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transiti
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::law::{BEYOND, Evaluator, Point, Response};
+use crate::simd::dispatch;
 
 /// Evaluates force and stiffness on a branch without gross slip.
 #[derive(Debug, Clone, Copy)]
@@ -62,6 +63,29 @@ impl Evaluator for BranchEvaluator<'_> {
 
     #[inline(always)]
     fn along<const STIFFNESS: bool>(
+        &self,
+        count: usize,
+        displacement: &[f64],
+        scratch: [&mut [f64]; 2],
+        forces: &mut [f64],
+        stiffnesses: &mut [f64],
+    ) {
+        let evaluator = self;
+        dispatch!(
+            BranchEvaluator::along_kernel::<STIFFNESS>,
+            [const STIFFNESS: bool] evaluator: &BranchEvaluator,
+            count: usize,
+            displacement: &[f64],
+            scratch: [&mut [f64]; 2],
+            forces: &mut [f64],
+            stiffnesses: &mut [f64] => ()
+        );
+    }
+}
+
+impl BranchEvaluator<'_> {
+    #[inline(always)]
+    fn along_kernel<const STIFFNESS: bool>(
         &self,
         count: usize,
         displacement: &[f64],

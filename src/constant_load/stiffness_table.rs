@@ -32,13 +32,11 @@ use crate::constant_load::interpolant::CYCLE_WEIGHTS;
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
 use crate::shape::stick_zone::{Complement, StickZones};
+use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
-use operators::{
-    FAR_FIRST, FAR_ROOTS, FAR_SECOND, FIRST, Functionals, INNER_TAYLOR, OF_FIRST, OF_OTHERS, OUTER_ABOVE, OUTER_BELOW,
-    OUTER_FAR, OUTER_ROOT_MOMENT, OUTER_ROOT_MOMENTS, Operators, POINTS, POWERS, TAYLOR, TO_FIRST, TO_OTHERS, TOP,
-};
+use operators::{FIRST, Functionals, INNER_TAYLOR, OPERATORS, Operators, POINTS, TAYLOR, TOP};
 
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
@@ -141,6 +139,20 @@ impl Place {
     }
 }
 
+/// K', K'' and their derivatives, each if it is requested.
+pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
+
+#[inline(always)]
+fn write_values<const N: usize>(values: [[ValueAndSlope; 2]; N], first: usize, outputs: &mut StiffnessOutputs) {
+    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
+        for (output, value) in outputs.iter_mut().zip([real, imaginary, d_real, d_imaginary]) {
+            if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(first + i)) {
+                *place = value;
+            }
+        }
+    }
+}
+
 /// K' or K'' and its derivative with respect to the amplitude.
 type ValueAndSlope = (f64, f64);
 
@@ -161,7 +173,7 @@ impl StiffnessTable {
     };
 
     /// Initialises the table of the shape of a contact, in place.
-    #[inline(always)]
+    #[inline(never)]
     pub fn init(&mut self, contact: &Contact) {
         *self = StiffnessTable::EMPTY;
         self.shape = shape_of(contact);
@@ -206,18 +218,41 @@ impl StiffnessTable {
         })
     }
 
-    /// The same, what is requested known at run time.
+    /// Writes what is requested of K', K'' and their derivatives at amplitudes \[m\] of a contact with friction of this shape.
     #[inline(always)]
-    pub fn parts<const N: usize>(
+    pub fn write(&self, contact: &Contact, amplitude: &[f64], outputs: StiffnessOutputs) {
+        let table = self;
+        dispatch!(
+            StiffnessTable::write_kernel,
+            table: &StiffnessTable,
+            contact: &Contact,
+            amplitude: &[f64],
+            outputs: StiffnessOutputs => ()
+        );
+    }
+
+    #[inline(always)]
+    fn write_kernel(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
+        let requested = [outputs[0].is_some() || outputs[2].is_some(), outputs[1].is_some() || outputs[3].is_some()];
+        let (fours, rest) = amplitude.as_chunks::<4>();
+        for (i, four) in fours.iter().enumerate() {
+            write_values(self.parts(contact, four, requested), 4 * i, &mut outputs);
+        }
+        for (i, one) in rest.as_chunks::<1>().0.iter().enumerate() {
+            write_values(self.parts(contact, one, requested), 4 * fours.len() + i, &mut outputs);
+        }
+    }
+
+    #[inline(always)]
+    fn parts<const N: usize>(
         &self,
         contact: &Contact,
         amplitude: &[f64; N],
-        real: bool,
-        imaginary: bool,
+        requested: [bool; 2],
     ) -> [[ValueAndSlope; 2]; N] {
-        match (real, imaginary) {
-            (true, true) => self.at::<true, true, N>(contact, amplitude),
-            (true, false) => self.at::<true, false, N>(contact, amplitude),
+        match requested {
+            [true, true] => self.at::<true, true, N>(contact, amplitude),
+            [true, false] => self.at::<true, false, N>(contact, amplitude),
             _ => self.at::<false, true, N>(contact, amplitude),
         }
     }
@@ -280,38 +315,83 @@ impl StiffnessTable {
 
 /// Powers of z of the first terms of a Chebyshev series, without those at its end that are rounding errors: their derivatives would
 /// be n² times as large.
-#[inline(always)]
 fn powers<const N: usize, const R: usize>(series: &[f64; N]) -> Rows<R> {
     let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
     let mut sums = [0.0; FIRST];
-    for (coefficient, row) in series.iter().zip(middle_powers()).take(used.min(4 * R)) {
-        sums.iter_mut().zip(row).for_each(|(sum, power)| *sum += coefficient * power);
-    }
+    let used = series.get(..used.min(4 * R)).unwrap_or(&[]);
+    apply_columns(&mut sums, 1.0, middle_powers().as_flattened(), used, FIRST);
     let mut result = [[0.0; 4]; R];
     result.iter_mut().zip(sums.as_chunks().0).for_each(|(row, sum)| *row = *sum);
     result
 }
 
 /// Adds the first terms of a constant series times a factor.
-#[inline(always)]
-fn add<const M: usize, const N: usize>(series: &mut [f64; M], factor: f64, term: &[f64; N]) {
+#[inline(never)]
+fn add(series: &mut [f64], factor: f64, term: &[f64]) {
     series.iter_mut().zip(term).for_each(|(sum, term)| *sum += factor * term);
 }
 
 /// Adds an operator applied to inputs, times a factor.
+fn apply<const M: usize, const N: usize>(series: &mut [f64], factor: f64, operator: &[[f64; N]; M], inputs: &[f64; M]) {
+    apply_columns(series, factor, operator.as_flattened(), inputs, N);
+}
+
+/// One function for operators of all sizes; the rows of all are multiples of four.
 #[inline(always)]
-fn apply<const K: usize, const M: usize, const N: usize>(
-    series: &mut [f64; K],
-    factor: f64,
-    operator: &[[f64; N]; M],
-    inputs: &[f64; M],
-) {
-    operator.iter().zip(inputs).for_each(|(column, input)| add(series, factor * input, column));
+fn apply_columns(series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize) {
+    dispatch!(columns_kernel, series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize => ());
 }
 
 #[inline(always)]
-fn dot<const N: usize>(weights: &[f64; N], values: &[f64; N]) -> f64 {
+fn columns_kernel(series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize) {
+    let (strips, rest) = series.as_chunks_mut::<4>().0.as_chunks_mut::<4>();
+    let done = 4 * strips.len();
+    for (strip, sums) in strips.iter_mut().enumerate() {
+        add_columns(sums, 4 * strip, factor, operator, inputs, rows);
+    }
+    for (block, sums) in rest.as_chunks_mut::<1>().0.iter_mut().enumerate() {
+        add_columns(sums, done + block, factor, operator, inputs, rows);
+    }
+}
+
+/// Blocks of four rows, which stay in registers.
+#[inline(always)]
+fn add_columns<const BLOCKS: usize>(
+    sums: &mut [[f64; 4]; BLOCKS],
+    first: usize,
+    factor: f64,
+    operator: &[f64],
+    inputs: &[f64],
+    rows: usize,
+) {
+    let mut strip = *sums;
+    for (column, input) in operator.chunks_exact(rows.max(1)).zip(inputs) {
+        let scale = factor * input;
+        if let Some(terms) = column.as_chunks::<4>().0.get(first..).and_then(<[_]>::first_chunk::<BLOCKS>) {
+            for block in 0..BLOCKS {
+                strip[block] = plus(strip[block], scale, terms[block]);
+            }
+        }
+    }
+    *sums = strip;
+}
+
+/// Products of the rows of a matrix with the values.
+#[inline(always)]
+fn dots(matrix: &[f64], values: &[f64], products: &mut [f64]) {
+    dispatch!(dots_kernel, matrix: &[f64], values: &[f64], products: &mut [f64] => ());
+}
+
+#[inline(always)]
+fn dots_kernel(matrix: &[f64], values: &[f64], products: &mut [f64]) {
+    for (product, row) in products.iter_mut().zip(matrix.chunks_exact(values.len().max(1))) {
+        *product = dot(row, values);
+    }
+}
+
+#[inline(always)]
+fn dot(weights: &[f64], values: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     for (weights, values) in weights.as_chunks::<4>().0.iter().zip(values.as_chunks::<4>().0) {
         for lane in 0..4 {
@@ -401,30 +481,35 @@ impl<const N: usize> Input<N> {
         }
     }
 
-    #[inline(always)]
     fn moments(&self, functionals: &Functionals<N>) -> Moments {
         let Input { scale, root, phi, decrease } = self;
-        let (mut per_scale, mut power) = (*root, 1.0);
-        let roots = functionals.root_moments.each_ref().map(|weights| {
-            let term = per_scale * dot(weights, phi);
+        let mut moments = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; _]; 2] };
+        let [mut per_scale, mut power] = [*root, 1.0];
+        dots(functionals.root_moments.as_flattened(), phi, &mut moments.roots);
+        for product in &mut moments.roots {
+            *product *= per_scale;
             per_scale /= scale;
-            term
-        });
-        let powers = functionals.moments.each_ref().map(|weights| {
+        }
+        let [of_phi, of_decrease] = &mut moments.powers;
+        dots(functionals.moments.as_flattened(), phi, of_phi);
+        dots(functionals.moments.as_flattened(), decrease, of_decrease);
+        for (of_phi, of_decrease) in of_phi.iter_mut().zip(of_decrease) {
             power *= scale;
-            [power * dot(weights, phi), power * dot(weights, decrease)]
-        });
-        Moments { root: scale * root * dot(&functionals.root_moment, phi), roots, powers }
+            *of_phi *= power;
+            *of_decrease *= power;
+        }
+        moments.root = scale * root * dot(&functionals.root_moment, phi);
+        moments
     }
 }
 
 /// Integrals over a piece, of φ or for the last of φ and 1 - k.
 #[derive(Clone, Copy)]
 struct Moments {
-    /// Times `sqrt(ρ)`, `ρ^(-1/2-k)` and `ρ^k`.
+    /// Times `sqrt(ρ)` and `ρ^(-1/2-k)`, and both times `ρ^k`.
     root: f64,
     roots: [f64; TAYLOR],
-    powers: [[f64; 2]; INNER_TAYLOR],
+    powers: [[f64; INNER_TAYLOR]; 2],
 }
 
 /// `|binomial(1/2, k + 1)|`: coefficients of `1/(sqrt(s) + sqrt(s - e))` in `e^k s^(-1/2-k)`.
@@ -439,7 +524,6 @@ const DIFFERENCES: [f64; TAYLOR] = {
 };
 
 impl StiffnessTable {
-    #[inline(always)]
     fn fill(&mut self, contact: &Contact, curve: &Curve) {
         let Curve { secant, first, others } = curve;
         let n = from_fn::<f64, TERMS, _>(|n| n as f64);
@@ -451,42 +535,47 @@ impl StiffnessTable {
         self.inner = inner.each_ref().map(rows);
 
         // Those of the first piece, of the others, and of what remains, where the stiffness is constant.
-        let mut moments = [first.moments(&OF_FIRST); PIECES + 2];
-        moments.iter_mut().skip(1).zip(others).for_each(|(moments, other)| *moments = other.moments(&OF_OTHERS));
+        let mut moments = [first.moments(&OPERATORS.of_first); PIECES + 2];
+        moments
+            .iter_mut()
+            .skip(1)
+            .zip(others)
+            .for_each(|(moments, other)| *moments = other.moments(&OPERATORS.of_others));
         {
             let [.., rest] = &mut moments;
             let [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }] = others;
             let size = scale * (1.0 / 256.0);
-            *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; 2]; _] };
+            *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; _]; 2] };
             rest.roots[0] = 2.0 * size.sqrt() * phi;
-            rest.powers[0] = [size * phi, size * decrease];
+            (rest.powers[0][0], rest.powers[1][0]) = (size * phi, size * decrease);
         }
         // From the smallest piece on.
         let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| moments.iter().skip(from).rev().map(of).sum::<f64>();
-        let outer: [f64; TAYLOR] = OUTER_ROOT_MOMENTS.each_ref().map(|weights| dot(weights, &tangent));
-        self.moment = 8.0 / PI * (dot(&OUTER_ROOT_MOMENT, &tangent) + sum(0, &|of| of.root));
+        let mut outer = [0.0; TAYLOR];
+        dots(OPERATORS.outer_root_moments.as_flattened(), &tangent, &mut outer);
+        self.moment = 8.0 / PI * (dot(&OPERATORS.outer_root_moment, &tangent) + sum(0, &|of| of.root));
         self.slope_at_slip = 4.0 / PI * (outer[0] + sum(0, &|of| of.roots[0]));
-        let decrease = sum(0, &|of| of.powers[0][1]) - (1.0 - TOP) * secant.iter().skip(1).sum::<f64>();
+        let decrease = sum(0, &|of| of.powers[1][0]) - (1.0 - TOP) * secant.iter().skip(1).sum::<f64>();
         let slip_force = self.shape[0] / self.shape[1];
         self.slip_energy = contact.slip_energy / contact.slip_force / contact.slip_displacement * slip_force / PI;
         self.energy_slope_at_slip = 4.0 / PI * (1.0 - contact.stiffness_at_slip() - decrease);
         self.gross_slip_rate = 4.0 / PI * slip_force;
 
         let mut far = [0.0; TERMS];
-        apply(&mut far, 1.0, &OUTER_FAR, &tangent);
-        apply(&mut far, first.scale, &FAR_FIRST, &first.phi);
+        apply(&mut far, 1.0, &OPERATORS.far, &tangent);
+        apply(&mut far, first.scale, &OPERATORS.far_first, &first.phi);
         let [second, ..] = others;
-        apply(&mut far, second.scale, &FAR_SECOND, &second.phi);
-        for (k, series) in FAR_ROOTS.iter().enumerate() {
-            add(&mut far, sum(2, &|of| of.powers[k][0]), series);
+        apply(&mut far, second.scale, &OPERATORS.far_second, &second.phi);
+        for (k, series) in OPERATORS.far_roots.iter().enumerate() {
+            add(&mut far, sum(2, &|of| of.powers[0][k]), series);
         }
         self.far = rows(&Interpolant::of(far.map(|term| 8.0 / PI * term)).powers_from_end());
 
         let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
         let (mut below, mut above, energy) =
-            own_terms::<FIRST, FIRST>(first, second, &TO_FIRST, closer_than(0), decrease);
-        apply(&mut below, 1.0, &OUTER_BELOW, &tangent);
-        apply(&mut above, 1.0, &OUTER_ABOVE, &tangent);
+            own_terms::<FIRST, FIRST>(first, second, &OPERATORS.to_first, closer_than(0), decrease);
+        apply(&mut below, 1.0, &OPERATORS.outer_below, &tangent);
+        apply(&mut above, 1.0, &OPERATORS.outer_above, &tangent);
         self.below.set_first(8.0 / PI, &below);
         self.above.set_first(8.0 / PI, &above);
         self.energy.set_first(4.0 / PI, &energy);
@@ -502,22 +591,24 @@ impl StiffnessTable {
             })
         {
             let (mut below, mut above, energy) =
-                own_terms::<POINTS, { 4 * ROWS_ABOVE }>(own, before, &TO_OTHERS, closer_than(j), decrease);
+                own_terms::<POINTS, { 4 * ROWS_ABOVE }>(own, before, &OPERATORS.to_others, closer_than(j), decrease);
             match next {
                 None => {
-                    apply(&mut below, first.root, &OF_FIRST.below_next, &first.phi);
-                    apply(&mut above, first.root, &OF_FIRST.above_next, &first.phi);
+                    apply(&mut below, first.root, &OPERATORS.of_first.below_next, &first.phi);
+                    apply(&mut above, first.root, &OPERATORS.of_first.above_next, &first.phi);
                 }
                 Some(next) => {
-                    apply(&mut below, next.root, &OF_OTHERS.below_next, &next.phi);
-                    apply(&mut above, next.root, &OF_OTHERS.above_next, &next.phi);
+                    apply(&mut below, next.root, &OPERATORS.of_others.below_next, &next.phi);
+                    apply(&mut above, next.root, &OPERATORS.of_others.above_next, &next.phi);
                     if let Some(farther) = moments.get(j - 2) {
                         add(&mut distant, 1.0, &farther.roots);
                     }
                 }
             }
             let mut power = 1.0;
-            for ((k, series), (difference, sum)) in POWERS.iter().enumerate().zip(DIFFERENCES.iter().zip(&distant)) {
+            for ((k, series), (difference, sum)) in
+                OPERATORS.powers.iter().enumerate().zip(DIFFERENCES.iter().zip(&distant))
+            {
                 add(&mut below, difference * power * sum, series);
                 add(&mut above, if k % 2 == 0 { difference * power * sum } else { -difference * power * sum }, series);
                 power *= own.scale;
@@ -532,7 +623,6 @@ impl StiffnessTable {
 
 /// Series of G below and beyond gross slip and of R/4 on a piece: what the piece itself and all closer to gross slip give, and all of
 /// R/4.
-#[inline(always)]
 fn own_terms<const N: usize, const M: usize>(
     own: &Input<N>,
     before: &Input<POINTS>,
@@ -551,13 +641,13 @@ fn own_terms<const N: usize, const M: usize>(
     add(&mut above, -per_scale * sum(1, &|of| of.root), &operators.inverse);
     let mut binomial = 1.0 / own.root;
     for (k, series) in operators.inverse_roots.iter().enumerate() {
-        add(&mut above, binomial * sum(1, &|of| of.powers[k][0]), series);
+        add(&mut above, binomial * sum(1, &|of| of.powers[0][k]), series);
         binomial *= (0.5 - k as f64) / (k as f64 + 1.0) * per_scale;
     }
 
     apply(&mut energy, 1.0, &operators.mean, &own.decrease);
     apply(&mut energy, own.scale, &operators.energy, &own.decrease);
-    let [zeroth, first] = [0, 1].map(|k| sum(0, &|of| of.powers[k][1]));
+    let [zeroth, first] = [0, 1].map(|k| sum(0, &|of| of.powers[1][k]));
     add(&mut energy, per_scale * (zeroth - 2.0 * first), &operators.inverse);
     if let Some(constant) = energy.first_mut() {
         *constant += zeroth - total_decrease;

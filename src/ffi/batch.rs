@@ -2,7 +2,7 @@
 
 use super::cycle::write_complex_stiffness;
 use super::directions::{ElementLaw, with_law};
-use super::hbm::harmonic_force_dispatched;
+
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
 use super::{element, history, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
@@ -401,15 +401,7 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
             let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
             let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
             let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| hbm::check_coefficients(u));
-            harmonic_forces::<Contact, _>(
-                items,
-                &mut workspace,
-                one,
-                displacement,
-                outputs,
-                check,
-                harmonic_force_dispatched,
-            )
+            harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, hbm::harmonic_force)
         }
     };
     status(compute())

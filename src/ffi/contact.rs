@@ -2,7 +2,6 @@
 
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, input, item, output, outputs, set, status};
-use super::simd_dispatch::dispatch_simd;
 use crate::constant_load::contact::{Contact, check_displacement};
 use crate::constant_load::sensitivity::PARAMETERS;
 use crate::error::Error;
@@ -232,7 +231,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             (pointers::contact(contact)?, input(displacement, n)?, outputs?)
         };
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
-        responses(contact, displacement, force, stiffness);
+        contact.responses(displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
             for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
                 *c = contact.curve_at_displacement(displacement)?.stick_half_width();
@@ -271,7 +270,7 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
             (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?, sensitivity)
         };
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
-        responses(contact, displacement, force, None);
+        contact.responses(displacement, force, None);
         let columns = sensitivity.map(|sensitivity| sensitivity.as_chunks_mut().0).into_iter().flatten();
         for (column, &displacement) in columns.zip(displacement) {
             *column = contact.monotonic_sensitivity(displacement)?;
@@ -279,14 +278,4 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
         Ok(())
     };
     status(compute())
-}
-
-fn responses(contact: &Contact, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
-    dispatch_simd!(
-        Contact::responses,
-        contact: &Contact,
-        displacement: &[f64],
-        force: Option<&mut [f64]>,
-        stiffness: Option<&mut [f64]> => ()
-    );
 }

@@ -2,11 +2,10 @@
 
 use super::mslip_contact;
 use super::pointers::{self, input, output, outputs, set, status};
-use super::simd_dispatch::dispatch_simd;
-use crate::constant_load::complex_stiffness::{ComplexStiffness, NODES_OF_TABLE, check_amplitude};
+use crate::constant_load::complex_stiffness::{NODES_OF_TABLE, check_amplitude};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
-use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
+use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use libc::size_t;
 
@@ -124,15 +123,10 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
         // SAFETY: by the function's contract.
         let (contact, table) =
             unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
-        init_table(table.write(StiffnessTable::EMPTY), contact);
+        table.write(StiffnessTable::EMPTY).init(contact);
         Ok(())
     };
     status(init())
-}
-
-#[inline(never)]
-fn init_table(table: &mut StiffnessTable, contact: &Contact) {
-    dispatch_simd!(StiffnessTable::init, table: &mut StiffnessTable, contact: &Contact => ());
 }
 
 /// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
@@ -165,46 +159,12 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
         }
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
         if table.has_polynomials() && !contact.is_frictionless() {
-            write_tabulated(contact, table, amplitude, outputs);
+            table.write(contact, amplitude, outputs);
             return Ok(());
         }
         write_untabulated(contact, amplitude, outputs)
     };
     status(compute())
-}
-
-type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
-
-fn write_tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs) {
-    dispatch_simd!(
-        tabulated,
-        contact: &Contact, table: &StiffnessTable, amplitude: &[f64], outputs: StiffnessOutputs => ()
-    );
-}
-
-/// Complex stiffness from a table, the requested parts only.
-#[inline(always)]
-fn tabulated(contact: &Contact, table: &StiffnessTable, amplitude: &[f64], mut outputs: StiffnessOutputs) {
-    let real = outputs[0].is_some() || outputs[2].is_some();
-    let imaginary = outputs[1].is_some() || outputs[3].is_some();
-    let (fours, rest) = amplitude.as_chunks::<4>();
-    for (i, four) in fours.iter().enumerate() {
-        write_values(table.parts(contact, four, real, imaginary), 4 * i, &mut outputs);
-    }
-    for (i, one) in rest.as_chunks::<1>().0.iter().enumerate() {
-        write_values(table.parts(contact, one, real, imaginary), 4 * fours.len() + i, &mut outputs);
-    }
-}
-
-#[inline(always)]
-fn write_values<const N: usize>(values: [[(f64, f64); 2]; N], first: usize, outputs: &mut StiffnessOutputs) {
-    let [k_real, k_imag, dk_real, dk_imag] = outputs;
-    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
-        set(k_real, first + i, || real);
-        set(dk_real, first + i, || d_real);
-        set(k_imag, first + i, || imaginary);
-        set(dk_imag, first + i, || d_imaginary);
-    }
 }
 
 /// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
@@ -216,9 +176,9 @@ fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: Stiffnes
         nodes += contact.complex_stiffness(one)?.nodes();
         if real && nodes > NODES_OF_TABLE {
             let mut table = StiffnessTable::EMPTY;
-            init_table(&mut table, contact);
+            table.init(contact);
             if table.has_polynomials() {
-                write_tabulated(contact, &table, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
+                table.write(contact, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
             }
             break;
         }
@@ -234,7 +194,7 @@ pub(super) fn write_complex_stiffness(
     contact: &Contact,
     amplitude: f64,
     i: usize,
-    outputs: &mut [Option<&mut [f64]>; 4],
+    outputs: &mut StiffnessOutputs,
 ) -> Result<(), Error> {
     if outputs.iter().all(Option::is_none) {
         return Ok(());
@@ -246,24 +206,16 @@ pub(super) fn write_complex_stiffness(
     let stiffness = contact.complex_stiffness(amplitude)?;
     let [k_real, k_imag, dk_real, dk_imag] = outputs;
     if k_real.is_some() || dk_real.is_some() {
-        let (real, slope) = real_with_derivative(&stiffness);
+        let (real, slope) = stiffness.real_with_derivative();
         set(k_real, i, || real);
         set(dk_real, i, || slope);
     }
     if k_imag.is_some() || dk_imag.is_some() {
-        let (imaginary, slope) = imaginary_with_derivative(&stiffness);
+        let (imaginary, slope) = stiffness.imaginary_with_derivative();
         set(k_imag, i, || imaginary);
         set(dk_imag, i, || slope);
     }
     Ok(())
-}
-
-fn real_with_derivative(stiffness: &ComplexStiffness) -> (f64, f64) {
-    dispatch_simd!(ComplexStiffness::real_with_derivative, stiffness: &ComplexStiffness => (f64, f64))
-}
-
-fn imaginary_with_derivative(stiffness: &ComplexStiffness) -> (f64, f64) {
-    dispatch_simd!(ComplexStiffness::imaginary_with_derivative, stiffness: &ComplexStiffness => (f64, f64))
 }
 
 /// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip
@@ -325,41 +277,4 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         Ok(())
     };
     status(compute())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-
-    /// The tests are compiled for the baseline; the C interface dispatches.
-    #[test]
-    fn a_table_and_its_values_have_the_same_bits_for_all_processors() {
-        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<std::vec::Vec<_>>();
-        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let mut expected = StiffnessTable::EMPTY;
-            expected.init(&contact);
-            let in_c = mslip_contact::from(contact);
-            let mut table = [0.0; TABLE_LENGTH];
-            // SAFETY: arrays of the given lengths.
-            assert_eq!(unsafe { mslip_stiffness_table_init(&raw const in_c, TABLE_LENGTH, table.as_mut_ptr()) }, 0);
-            // SAFETY: a table consists of doubles.
-            let expected_values = unsafe { &*(&raw const expected).cast::<[f64; TABLE_LENGTH]>() };
-            assert_eq!(bits(&table), bits(expected_values));
-            let amplitude = [1e-3, 0.2, 0.399, 0.41, 0.75, 0.98, 0.9999, 1.0, 1.0001, 1.2, 1.7, 30.0]
-                .map(|part| part * contact.slip_displacement);
-            let [mut k_real, mut k_imag, mut dk_real, mut dk_imag] = [[0.0; 12]; 4];
-            let [a, b, c, d] = [&mut k_real, &mut k_imag, &mut dk_real, &mut dk_imag].map(|output| output.as_mut_ptr());
-            // SAFETY: arrays of the given lengths.
-            let status = unsafe {
-                mslip_complex_stiffness_tabulated(&raw const in_c, table.as_ptr(), 12, amplitude.as_ptr(), a, b, c, d)
-            };
-            assert_eq!(status, 0);
-            for (i, amplitude) in amplitude.into_iter().enumerate() {
-                let [[(real, d_real), (imaginary, d_imaginary)]] = expected.parts(&contact, &[amplitude], true, true);
-                let values = [k_real[i], k_imag[i], dk_real[i], dk_imag[i]];
-                assert_eq!(bits(&values), bits(&[real, imaginary, d_real, d_imaginary]), "{i}");
-            }
-        }
-    }
 }

@@ -1,6 +1,5 @@
 //! The laws of elements with one and with two tangential directions, as one trait: each function of the interface exists once.
 
-use super::simd_dispatch::dispatch_simd;
 use crate::error::Error;
 use crate::hbm::HarmonicOutput;
 use crate::tag::Kind;
@@ -8,103 +7,7 @@ use crate::varying_load::element::{Directions, Element};
 use crate::varying_load::harmonic_force;
 use crate::varying_load::path::{PathOutput, StepResult};
 use crate::varying_load::state;
-use crate::varying_load::two_directions::Requested;
-
-/// The law of two directions with a kernel for the present processor.
-pub(super) mod two_directions {
-    use super::dispatch_simd;
-    use crate::error::Error;
-    use crate::varying_load::element::Element;
-    use crate::varying_load::path::PathOutput;
-    use crate::varying_load::two_directions::edge::Pressed;
-    use crate::varying_load::two_directions::sensitivity::{self, MotionColumns, Taken};
-    use crate::varying_load::two_directions::springs::Both;
-    use crate::varying_load::two_directions::springs::Springs;
-    use crate::varying_load::two_directions::step::{self, Course, Memory, Motion, Outcome};
-    use crate::varying_load::two_directions::stick::{self, Stored, Stuck};
-    use crate::varying_load::two_directions::{self, Kernel};
-
-    pub(in crate::ffi) use two_directions::{
-        advance_checked, check_header, check_path, check_step, check_tag, copy_used, force_error, state_check,
-        state_init, state_length, trial,
-    };
-
-    pub const KERNEL: Kernel = Kernel { step, differentiate, stuck };
-
-    fn step(
-        springs: &Springs,
-        memory: &mut Memory,
-        motion: &Motion,
-        requested: [bool; 2],
-        course: &mut Course,
-    ) -> Outcome {
-        dispatch_simd!(
-            step::step,
-            springs: &Springs,
-            memory: &mut Memory,
-            motion: &Motion,
-            requested: [bool; 2],
-            course: &mut Course => Outcome
-        )
-    }
-
-    fn stuck(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
-        dispatch_simd!(
-            stick::stuck,
-            springs: &Springs,
-            memory: &Stored,
-            now: &Pressed,
-            offset: &Both<f64> => Option<Stuck>
-        )
-    }
-
-    fn differentiate(
-        taken: &Taken,
-        columns: &MotionColumns,
-        memory: &mut [f64],
-        scratch: &mut [f64],
-        force: Both<&mut [f64]>,
-    ) {
-        dispatch_simd!(
-            sensitivity::step,
-            taken: &Taken,
-            columns: &MotionColumns,
-            memory: &mut [f64],
-            scratch: &mut [f64],
-            force: Both<&mut [f64]> => ()
-        );
-    }
-
-    pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-        two_directions::path_by(element, state, path, output, KERNEL)
-    }
-
-    pub fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-        two_directions::path_in_copy(element, state, path, output, KERNEL)
-    }
-
-    /// The harmonic force with that kernel.
-    pub mod harmonic_force {
-        use crate::error::Error;
-        use crate::hbm::HarmonicOutput;
-        use crate::varying_load::element::Element;
-        use crate::varying_load::two_directions::harmonic_force;
-
-        pub use harmonic_force::{Workspace, workspace_extent, workspace_init, workspace_length, workspace_size};
-
-        #[inline(always)]
-        pub fn harmonic_force(
-            element: &Element,
-            workspace: &mut Workspace,
-            displacement: &[f64],
-            output: HarmonicOutput,
-        ) -> Result<(), Error> {
-            harmonic_force::harmonic_force(element, workspace, displacement, output, super::KERNEL)
-        }
-    }
-}
-
-use two_directions::harmonic_force as harmonic_force_2;
+use crate::varying_load::two_directions::{self, Requested, harmonic_force as harmonic_force_2};
 
 /// Result of a step of a law.
 type StepOf<L> = StepResult<<L as ElementLaw>::Vector, <L as ElementLaw>::Tangent>;
@@ -275,13 +178,7 @@ macro_rules! implement {
                 displacement: &[f64],
                 output: HarmonicOutput,
             ) -> Result<(), Error> {
-                dispatch_simd!(
-                    $harmonic_force::harmonic_force,
-                    element: &Element,
-                    workspace: &mut $harmonic_force::Workspace,
-                    displacement: &[f64],
-                    output: HarmonicOutput => Result<(), Error>
-                )
+                $harmonic_force::harmonic_force(element, workspace, displacement, output)
             }
         }
     };

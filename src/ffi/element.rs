@@ -1,6 +1,5 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::directions::two_directions::{self, KERNEL};
 use super::directions::{ElementLaw, OneDirection, with_law};
 use super::pointers::{
     self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status,
@@ -12,7 +11,7 @@ use crate::varying_load::element::{Directions, Element, NormalInput, NormalPoint
 use crate::varying_load::path::PathOutput;
 use crate::varying_load::state;
 use crate::varying_load::tractions::tractions;
-use crate::varying_load::two_directions::Requested;
+use crate::varying_load::two_directions::{self, Requested};
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -371,7 +370,7 @@ pub(super) unsafe fn update<L: ElementLaw>(
     state_new: *mut f64,
     [force, tangent, dissipated]: [*mut f64; 3],
 ) {
-    let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null(), kernel: KERNEL };
+    let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // SAFETY: by the function's contract; no reference to the old state is left when the new one, which may be the same memory, is
     // written.
     unsafe {

@@ -3,12 +3,10 @@
 use super::directions::{ElementLaw, with_law};
 use super::element::directions_of;
 use super::pointers::{self, check_alignment, input, memory, output, status};
-use super::simd_dispatch::dispatch_simd;
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
-use crate::constant_load::contact::Contact;
 use crate::constant_load::sensitivity::PARAMETERS;
 use crate::error::Error;
-use crate::hbm::{self, HarmonicOutput, Rule, Workspace};
+use crate::hbm::{self, HarmonicOutput, Rule};
 use crate::varying_load::element::{Directions, Element};
 use libc::size_t;
 
@@ -228,21 +226,6 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
     L::harmonic_force(element, &mut workspace, displacement, output)
 }
 
-pub(super) fn harmonic_force_dispatched(
-    contact: &Contact,
-    workspace: &mut Workspace,
-    displacement: &[f64],
-    output: HarmonicOutput,
-) -> Result<(), Error> {
-    dispatch_simd!(
-        hbm::harmonic_force,
-        contact: &Contact,
-        workspace: &mut Workspace,
-        displacement: &[f64],
-        output: HarmonicOutput => Result<(), Error>
-    )
-}
-
 /// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
 /// with the rule of the workspace. displacement \[m\] and force \[N\] are 2H+1 coefficients, \[c0, cos1, sin1, cos2, sin2, ...\];
 /// jacobian \[N/m\] is d force_i / d displacement_j, (2H+1) x (2H+1), column-major; dissipated \[J\] is the energy per period.
@@ -276,7 +259,7 @@ pub unsafe extern "C" fn mslip_harmonic_force(
         let (displacement, force, jacobian, dissipated) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
         let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
-        harmonic_force_dispatched(contact, &mut workspace, displacement, output)
+        hbm::harmonic_force(contact, &mut workspace, displacement, output)
     };
     status(compute())
 }
@@ -311,7 +294,7 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
         let (displacement, force, sensitivity) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
         let output = HarmonicOutput { force, jacobian: None, dissipated: None };
-        harmonic_force_dispatched(contact, &mut workspace, displacement, output)?;
+        hbm::harmonic_force(contact, &mut workspace, displacement, output)?;
         match sensitivity {
             Some(sensitivity) => hbm::harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
             None => Ok(()),

@@ -135,7 +135,6 @@ impl<'a> Workspace<'a> {
 }
 
 /// Computes the requested outputs.
-#[inline(always)]
 pub(super) fn harmonic_force<'w, L: Law>(
     law: impl FnOnce(&'w mut [Reversal], bool) -> L,
     workspace: &'w mut Workspace,
@@ -234,7 +233,6 @@ struct Period<'m, L> {
 
 impl<L: Law> Period<'_, L> {
     /// Integrates a constant displacement.
-    #[inline(always)]
     fn integrate_constant(&mut self, buffers: &mut Buffers, span: f64) {
         self.now = self.law.begin(self.motion.mean);
         let Integrals { force, stiffness, .. } = &mut buffers.integrals;
@@ -248,7 +246,6 @@ impl<L: Law> Period<'_, L> {
     }
 
     /// Integrates a period, or half of it, from the farthest of `count` reversals.
-    #[inline(always)]
     fn integrate(
         &mut self,
         buffers: &mut Buffers,
@@ -279,7 +276,6 @@ impl<L: Law> Period<'_, L> {
     }
 
     /// Integrates from one reversal of the motion to the next, along one branch and its continuations.
-    #[inline(always)]
     fn integrate_half_cycle(
         &mut self,
         buffers: &mut Buffers,
@@ -315,7 +311,6 @@ impl<L: Law> Period<'_, L> {
     }
 
     /// Makes an instant the newest reversal on the stack and stores its gradient.
-    #[inline(always)]
     fn reverse(&mut self, buffers: &mut Buffers, at: Instant, direction: f64) {
         let left = self.law.branch().depth;
         if self.sensitivity.is_some() {
@@ -348,7 +343,6 @@ impl<L: Law> Period<'_, L> {
     }
 
     /// Adds a segment of the present branch to the integrals, the Jacobian and the energy. `to_slip`: gross slip starts at its end.
-    #[inline(always)]
     fn integrate_segment(
         &mut self,
         buffers: &mut Buffers,

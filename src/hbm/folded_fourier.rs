@@ -9,6 +9,7 @@
 use super::fourier::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::error::Error;
+use crate::simd::dispatch;
 
 /// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
 pub(crate) fn sample_length(samples: usize) -> usize {
@@ -93,6 +94,12 @@ impl<'a> FoldedFourier<'a> {
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
     #[inline(always)]
     pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
+        let fourier = self;
+        dispatch!(FoldedFourier::synthesis_kernel, fourier: &FoldedFourier, coefficients: &[f64], values: &mut [f64] => ());
+    }
+
+    #[inline(always)]
+    pub fn synthesis_kernel(&self, coefficients: &[f64], values: &mut [f64]) {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
@@ -133,6 +140,12 @@ impl<'a> FoldedFourier<'a> {
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
+        let fourier = self;
+        dispatch!(FoldedFourier::sum_kernel, fourier: &mut FoldedFourier, values: &mut [f64], sums: &mut [f64] => ());
+    }
+
+    #[inline(always)]
+    pub fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
         continue_periodically(values, self.samples);
         self.fold(values);
         let (folded, totals) = self.scratch.split_at_mut_checked(self.folded).unwrap_or((&mut [], &mut []));

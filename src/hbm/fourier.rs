@@ -1,5 +1,6 @@
 //! Fourier synthesis on uniformly spaced samples, and normalisation of Fourier sums.
 
+use crate::simd::dispatch;
 use core::f64::consts::PI;
 
 /// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.
@@ -38,6 +39,11 @@ fn add_harmonic(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[
 /// half-wave symmetric: the number of samples is even, and only odd harmonics are present.
 #[inline(always)]
 pub(super) fn synthesise(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
+    dispatch!(synthesis, columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64] => bool)
+}
+
+#[inline(always)]
+fn synthesis(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
     let half = half.max(1);
     let folds = half < values.len();
     let Some((constant, pairs)) = coefficients.split_first() else { return false };

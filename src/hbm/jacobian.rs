@@ -9,6 +9,7 @@
 //! The first term is composed of the Fourier sums of k up to the order 2H.
 
 use super::fourier::{add_difference, clear_opposite_parity, normalise};
+use crate::simd::dispatch;
 
 /// Adds the term of a branch that leaves reversal r, `phi_sums ⊗ dT_r - stiffness_sums ⊗ φ_r`; all arguments are rows over the
 /// coefficients.
@@ -20,6 +21,18 @@ pub(super) fn add_reversal_term(
     phi_sums: &[f64],
     stiffness_sums: &[f64],
 ) {
+    dispatch!(
+        reversal_kernel,
+        jacobian: &mut [f64],
+        phi: &[f64],
+        gradient: &[f64],
+        phi_sums: &[f64],
+        stiffness_sums: &[f64] => ()
+    );
+}
+
+#[inline(always)]
+fn reversal_kernel(jacobian: &mut [f64], phi: &[f64], gradient: &[f64], phi_sums: &[f64], stiffness_sums: &[f64]) {
     let columns = jacobian.chunks_exact_mut(phi_sums.len().max(1));
     for ((column, &phi), &gradient) in columns.zip(phi).zip(gradient) {
         add_difference(column, gradient, phi_sums, phi, stiffness_sums);

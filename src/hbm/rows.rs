@@ -11,12 +11,12 @@ use core::f64::consts::PI;
 /// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
 pub(crate) fn row_blocks(harmonics: usize) -> usize {
     let blocks = (2 * harmonics + 1).div_ceil(4);
-    if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(4) }
+    if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(5) }
 }
 
 /// Blocks of a row that are gathered together, and kept in registers: all up to 5.
 fn strip_blocks(row_blocks: usize) -> usize {
-    if row_blocks <= 5 { row_blocks } else { 4 }
+    row_blocks.min(5)
 }
 
 /// A strip of a row.
@@ -50,14 +50,6 @@ pub(crate) fn fill_rows(table: &mut [f64], harmonics: usize, samples: usize) {
         let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
         scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
     });
-}
-
-/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
-/// not combine them in a vector.
-#[inline(always)]
-pub(crate) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
-    let ([a, b, c, d], [e, f, g, h]) = (target, row);
-    [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
 }
 
 #[inline(always)]
@@ -148,8 +140,7 @@ macro_rules! with_strips {
         match $row_blocks {
             1 => $object.$function::<1>($($argument),*),
             3 => $object.$function::<3>($($argument),*),
-            5 => $object.$function::<5>($($argument),*),
-            _ => $object.$function::<4>($($argument),*),
+            _ => $object.$function::<5>($($argument),*),
         }
     };
 }

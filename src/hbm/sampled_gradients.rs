@@ -10,6 +10,7 @@
 
 use super::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, with_strips};
 use super::workspace::Blocks;
+use crate::simd::dispatch;
 
 /// Doubles of a branch, and of a reversal on the stack, in the workspace.
 pub(super) const BRANCH: usize = 1;
@@ -82,6 +83,18 @@ impl SampledGradients<'_> {
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+        let gradients = self;
+        dispatch!(
+            SampledGradients::strips_kernel::<N>,
+            [const N: usize] gradients: &mut SampledGradients,
+            branches: &Branches,
+            farthest: usize,
+            stiffness: &[f64] => ()
+        );
+    }
+
+    #[inline(always)]
+    fn strips_kernel<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
         let SampledGradients { rows, entries, sums, outer } = self;
         let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
         for strip in 0..outer.strips::<N>() {

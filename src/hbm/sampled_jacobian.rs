@@ -7,9 +7,10 @@
 //! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (W_{p+q} - W_{p-q})/2
 //! ```
 
-use super::rows::{OuterProducts, plus, row_blocks};
+use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts, Size, padded};
 use crate::error::Error;
+use crate::simd::{dispatch, plus};
 
 /// Doubles for the pairs of the orders from -H to 2H.
 fn pairs_length(harmonics: usize) -> usize {
@@ -64,9 +65,58 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Writes `Σ w φ ⊗ φ` to the columns, normalised.
+    /// Writes `Σ w φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
     #[inline(always)]
-    pub fn write_sums<'c>(&mut self, columns: impl Iterator<Item = &'c mut [f64]>) {
+    pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
+        let assembly = self;
+        dispatch!(Assembly::sums_kernel, assembly: &mut Assembly, columns: &mut [f64], stride: usize, offset: usize => ());
+    }
+
+    /// Writes `Σ w φ ⊗ φ` and the outer products with the rows Y of an index to the first rows of the columns. Under half-wave symmetry
+    /// the products are those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
+    #[inline(always)]
+    pub fn write<const D: usize>(
+        &mut self,
+        outer: &OuterProducts<D>,
+        index: usize,
+        symmetry: Option<f64>,
+        columns: &mut [f64],
+        stride: usize,
+    ) {
+        let assembly = self;
+        dispatch!(
+            Assembly::kernel::<D>,
+            [const D: usize] assembly: &mut Assembly,
+            outer: &OuterProducts<D>,
+            index: usize,
+            symmetry: Option<f64>,
+            columns: &mut [f64],
+            stride: usize => ()
+        );
+    }
+
+    #[inline(always)]
+    fn kernel<const D: usize>(
+        &mut self,
+        outer: &OuterProducts<D>,
+        index: usize,
+        symmetry: Option<f64>,
+        columns: &mut [f64],
+        stride: usize,
+    ) {
+        self.sums_kernel(columns, stride, 0);
+        if !outer.is_empty() {
+            outer.products(index, self.products);
+            self.products_kernel(symmetry, columns, stride);
+        }
+    }
+
+    #[inline(always)]
+    fn sums_kernel(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
+        let length = self.size.coefficients();
+        let columns = columns
+            .chunks_exact_mut(stride.max(1))
+            .map(|column| column.get_mut(offset..offset + length).unwrap_or(&mut []));
         self.extend();
         let harmonics = self.size.harmonics;
         for (index, column) in columns.enumerate() {
@@ -91,19 +141,10 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Adds the outer products with the rows Y of an index. Under half-wave symmetry they are those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
-    pub fn add_products<'c, const D: usize>(
-        &mut self,
-        outer: &OuterProducts<D>,
-        index: usize,
-        symmetry: Option<f64>,
-        columns: impl Iterator<Item = &'c mut [f64]>,
-    ) {
-        if outer.is_empty() {
-            return;
-        }
-        outer.products(index, self.products);
+    fn products_kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
+        let rows = self.size.coefficients();
+        let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.get_mut(..rows).unwrap_or(&mut []));
         let weight = 1.0 / self.size.samples as f64;
         let length = row_blocks(self.size.harmonics).max(1);
         for (c, column) in columns.enumerate() {

@@ -7,6 +7,7 @@ use super::Requested;
 use super::motion::Motion;
 use crate::law::Evaluator;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
+use crate::simd::dispatch;
 use core::f64::consts::PI;
 
 /// Fewest blocks of four nodes on a segment.
@@ -113,7 +114,6 @@ impl Integrals<'_> {
     }
 
     /// Adds the integrals over a segment without gross slip; `force` and `segment_stiffness` only.
-    #[inline(always)]
     pub fn add(&mut self, evaluator: impl Evaluator, motion: &Motion, segment: Segment, requested: Requested) {
         let Requested { force, stiffness } = requested;
         let panels = segment.panels(self.nodes_per_period);
@@ -128,7 +128,7 @@ impl Integrals<'_> {
             let mut forces: Nodes = [[0.0; 4]; _];
             let mut stiffnesses = weights;
             let mut displacement: Nodes = [[0.0; 4]; _];
-            self.fill_basis(motion, orders, times, &mut displacement);
+            fill_basis(self.basis, motion, orders, times, &mut displacement);
             let nodes = displacement.iter().zip(&weights).take(rule.len());
             for ((forces, stiffnesses), (displacement, weights)) in
                 forces.iter_mut().zip(stiffnesses.iter_mut()).zip(nodes)
@@ -147,41 +147,58 @@ impl Integrals<'_> {
             }
         }
     }
+}
 
-    /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
-    #[inline(always)]
-    fn fill_basis(&mut self, motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-        let rows = self.basis.as_chunks_mut::<4>().0.as_chunks_mut::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
-        for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-            let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
-            for k in 0..4 {
-                (sine[k], cosine[k]) = times[k].sin_cos();
-            }
-            let (mut c, mut s) = (cosine, sine);
-            let mut u = [motion.mean; 4];
-            let mut pairs = motion.pairs.iter();
-            for row in rows.iter_mut().take(orders) {
-                let (cosines, sines) = row.split_at_mut(MAX_GAUSS_BLOCKS);
-                if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                    (*cosines, *sines) = (c, s);
-                }
-                if let Some(&[a, b]) = pairs.next() {
-                    for k in 0..4 {
-                        u[k] += a * c[k] + b * s[k];
-                    }
-                }
-                for k in 0..4 {
-                    (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
-                }
-            }
-            *displacement = u;
+/// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
+#[inline(always)]
+fn fill_basis(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
+    dispatch!(
+        basis_kernel,
+        basis: &mut [f64],
+        motion: &Motion,
+        orders: usize,
+        times: &[[f64; 4]],
+        displacement: &mut Nodes => ()
+    );
+}
+
+#[inline(always)]
+fn basis_kernel(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
+    let rows = basis.as_chunks_mut::<4>().0.as_chunks_mut::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
+    for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
+        let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            (sine[k], cosine[k]) = times[k].sin_cos();
         }
+        let (mut c, mut s) = (cosine, sine);
+        let mut u = [motion.mean; 4];
+        let mut pairs = motion.pairs.iter();
+        for row in rows.iter_mut().take(orders) {
+            let (cosines, sines) = row.split_at_mut(MAX_GAUSS_BLOCKS);
+            if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
+                (*cosines, *sines) = (c, s);
+            }
+            if let Some(&[a, b]) = pairs.next() {
+                for k in 0..4 {
+                    u[k] += a * c[k] + b * s[k];
+                }
+            }
+            for k in 0..4 {
+                (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
+            }
+        }
+        *displacement = u;
     }
 }
 
 /// Adds the weighted values at the nodes of a panel to Fourier sums.
 #[inline(always)]
 fn add_sums(sums: &mut [f64], basis: &[f64], values: &[[f64; 4]]) {
+    dispatch!(sums_kernel, sums: &mut [f64], basis: &[f64], values: &[[f64; 4]] => ());
+}
+
+#[inline(always)]
+fn sums_kernel(sums: &mut [f64], basis: &[f64], values: &[[f64; 4]]) {
     let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
     let Some((constant, pairs)) = sums.split_first_mut() else { return };
     let mut sum = [0.0; 4];

@@ -4,7 +4,6 @@
 //! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
 //! the stiffness, and `sampled_gradients` adds the terms of the reversals.
 
-use super::HarmonicOutput;
 use super::folded_fourier::{self, FoldedFourier, sample_length};
 use super::fourier::{angle, normalise};
 use super::motion::fill_phi;
@@ -13,8 +12,10 @@ use super::sampled_gradients::{BRANCH, Branches, ENTRY, SampledGradients};
 use super::sampled_jacobian::{self, Assembly};
 use super::sensitivity::{self, ReversalSensitivities};
 use super::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use super::{HarmonicOutput, Requested};
 use crate::error::Error;
 use crate::law::{BEYOND, BranchRange, Evaluator, Law, Point, Reversal};
+use crate::simd::dispatch;
 use crate::tag::Kind;
 
 /// Lengths of the parts of a workspace.
@@ -118,7 +119,6 @@ impl<'a> Workspace<'a> {
 }
 
 /// Computes the requested outputs.
-#[inline(always)]
 pub(super) fn harmonic_force<'w, L: Law>(
     law: impl FnOnce(&'w mut [Reversal], bool) -> L,
     workspace: &'w mut Workspace,
@@ -131,29 +131,21 @@ pub(super) fn harmonic_force<'w, L: Law>(
     let Order { count, farthest, half_wave_symmetric } = order;
     let length = order.length();
     let mut law = law(reversals, dissipated.is_some());
-    if jacobian.is_some() {
-        path.advance::<true, true, L>(&mut law, length);
-    } else if force.is_some() {
-        path.advance::<true, false, L>(&mut law, length);
-    } else {
-        path.advance::<false, false, L>(&mut law, length);
-    }
+    let requested = Requested { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
+    path.advance(&mut law, length, requested);
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
-        order.copy_to_period(path.force, -1.0, period);
-        fourier.sum(period, force);
+        order.sum(fourier, path.force, -1.0, period, force);
         normalise(force, 1.0 / count as f64);
     }
     if let Some(jacobian) = jacobian {
         gradients.gather(&path.branches, farthest, path.stiffness);
-        order.copy_to_period(path.stiffness, 1.0, period);
-        fourier.sum(period, assembly.sums);
+        order.sum(fourier, path.stiffness, 1.0, period, assembly.sums);
         let length = size.coefficients().max(1);
-        assembly.write_sums(jacobian.chunks_exact_mut(length));
         let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
-        assembly.add_products(&gradients.outer, 0, symmetry, jacobian.chunks_exact_mut(length));
+        assembly.write(&gradients.outer, 0, symmetry, jacobian, length);
     }
 }
 
@@ -187,7 +179,25 @@ pub(super) fn harmonic_sensitivity<'w, L: Law>(
 /// Samples a displacement, from the farthest sample on.
 #[inline(always)]
 fn sample(count: usize, fourier: &FoldedFourier, period: &mut [f64], path: &mut Path, displacement: &[f64]) -> Order {
-    fourier.synthesise(displacement, period);
+    dispatch!(
+        sample_kernel,
+        count: usize,
+        fourier: &FoldedFourier,
+        period: &mut [f64],
+        path: &mut Path,
+        displacement: &[f64] => Order
+    )
+}
+
+#[inline(always)]
+fn sample_kernel(
+    count: usize,
+    fourier: &FoldedFourier,
+    period: &mut [f64],
+    path: &mut Path,
+    displacement: &[f64],
+) -> Order {
+    fourier.synthesis_kernel(displacement, period);
     let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
     let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
     let mut order = Order { count, farthest: 0, half_wave_symmetric: count.is_multiple_of(2) && only_odd_orders };
@@ -214,10 +224,31 @@ impl Order {
         if self.half_wave_symmetric { self.count / 2 } else { self.count }
     }
 
-    /// Copies values of a path, which ends at the farthest sample, to the samples of the period. Under half-wave symmetry the path is
-    /// first completed by values of the given sign.
+    /// Fourier sums of the values of a path, which ends at the farthest sample; they are copied to the samples of the period. Under
+    /// half-wave symmetry the path is first completed by values of the given sign.
     #[inline(always)]
-    fn copy_to_period(&self, path: &mut [f64], sign: f64, period: &mut [f64]) {
+    fn sum(&self, fourier: &mut FoldedFourier, path: &mut [f64], sign: f64, period: &mut [f64], sums: &mut [f64]) {
+        let order = self;
+        dispatch!(
+            Order::sum_kernel,
+            order: &Order,
+            fourier: &mut FoldedFourier,
+            path: &mut [f64],
+            sign: f64,
+            period: &mut [f64],
+            sums: &mut [f64] => ()
+        );
+    }
+
+    #[inline(always)]
+    fn sum_kernel(
+        &self,
+        fourier: &mut FoldedFourier,
+        path: &mut [f64],
+        sign: f64,
+        period: &mut [f64],
+        sums: &mut [f64],
+    ) {
         let values = path.get_mut(1..=self.count).unwrap_or(&mut []);
         if self.half_wave_symmetric
             && let Some((first, second)) = values.split_at_mut_checked(self.count / 2)
@@ -225,6 +256,7 @@ impl Order {
             second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
         }
         rotate(values, self.count - 1 - self.farthest, period);
+        fourier.sum_kernel(period, sums);
     }
 }
 
@@ -247,7 +279,7 @@ fn path_length(samples: usize) -> usize {
 impl Path<'_> {
     /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
     #[inline(always)]
-    fn advance<const FORCE: bool, const STIFFNESS: bool, L: Law>(&mut self, law: &mut L, length: usize) {
+    fn advance<L: Law>(&mut self, law: &mut L, length: usize, requested: Requested) {
         let Path { displacement, force, stiffness, scratch, branches } = self;
         let mut from = Point { displacement: at(displacement, 0), force: 0.0 };
         let response = law.begin(from.displacement);
@@ -268,14 +300,20 @@ impl Path<'_> {
             if count > 1 {
                 law.account_for(entered, from.displacement);
             }
-            if FORCE && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..)) {
+            if requested.force
+                && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..))
+            {
                 if branch.gross_slip {
                     let slip_force = law.response(0.0).force;
                     force.iter_mut().take(count).for_each(|force| *force = slip_force);
                     stiffness.iter_mut().take(count).for_each(|stiffness| *stiffness = 0.0);
                 } else {
                     let [one, two] = scratch;
-                    law.evaluator().along::<STIFFNESS>(count, rest, [one, two], force, stiffness);
+                    if requested.stiffness {
+                        law.evaluator().along::<true>(count, rest, [one, two], force, stiffness);
+                    } else {
+                        law.evaluator().along::<false>(count, rest, [one, two], force, stiffness);
+                    }
                 }
                 from.force = at(force, count - 1);
             }

@@ -42,30 +42,9 @@ pub(crate) const fn exp(x: f64) -> f64 {
     sum
 }
 
-/// `sqrt(x)` of a normal number, or 0: Newton's method from half the exponent.
-pub(crate) const fn square_root(x: f64) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let mut root = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
-    let mut rounds = 0;
-    while rounds < 5 {
-        root = 0.5 * (root + x / root);
-        rounds += 1;
-    }
-    root
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn square_root_agrees_with_the_standard_library() {
-        for x in [0.0, 1e-300, 1e-9, 0.5, 1.0, 2.0, 3.7, 1e200f64] {
-            assert!((square_root(x) - x.sqrt()).abs() <= f64::EPSILON * x.sqrt(), "{x}");
-        }
-    }
 
     #[test]
     fn cosine_agrees_with_the_standard_library_beyond_two_periods() {

@@ -217,7 +217,6 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
 /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
 /// wide for its length.
-#[inline(always)]
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
@@ -244,8 +243,11 @@ pub fn harmonic_force(
         if needs_forces {
             let extent = path.evaluate(element, samples, part);
             let runs = path.runs(extent, part, samples.count);
-            tractions.evaluate(element, samples, path.cuts(extent), runs.clone(), jacobian.is_some());
-            if jacobian.is_some() {
+            let cut_shift = path.cuts(extent);
+            if jacobian.is_none() {
+                tractions.evaluate::<false>(element, samples, cut_shift, runs);
+            } else {
+                tractions.evaluate::<true>(element, samples, cut_shift, runs.clone());
                 let context = Context { element, samples, part };
                 let cuts = Cuts {
                     shifts: path.cut_shift,
@@ -269,24 +271,6 @@ pub fn harmonic_force(
         workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
     }
     Ok(())
-}
-
-/// The least and the largest value.
-#[inline(always)]
-fn range_of(values: &[f64]) -> (f64, f64) {
-    let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
-    for block in values.as_chunks::<4>().0 {
-        for k in 0..4 {
-            least[k] = if block[k] < least[k] { block[k] } else { least[k] };
-            largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
-        }
-    }
-    (least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max))
-}
-
-/// Rows of T in a column of the Jacobian.
-fn upper(column: &mut [f64], coefficients: usize) -> &mut [f64] {
-    column.get_mut(..coefficients).unwrap_or(&mut [])
 }
 
 /// Rows of N.
@@ -314,7 +298,6 @@ impl Workspace<'_> {
     ///
     /// # Errors
     /// `BadNormalForce`, `LengthTooShort`.
-    #[inline(always)]
     fn press(
         &mut self,
         element: &Element,
@@ -345,7 +328,7 @@ impl Workspace<'_> {
         let (mut least, mut largest) = (mean, mean);
         if !motion.constant {
             fourier.synthesise(input, samples.input);
-            (least, largest) = range_of(samples.input);
+            [least, largest] = samples.range_of_input();
         }
         if least < -rounding {
             return Err(Error::BadNormalForce);
@@ -372,7 +355,6 @@ impl Workspace<'_> {
         Ok(motion)
     }
 
-    #[inline(always)]
     fn write_force(
         &mut self,
         element: &Element,
@@ -407,7 +389,6 @@ impl Workspace<'_> {
         }
     }
 
-    #[inline(always)]
     fn write_jacobian(&mut self, element: &Element, motion: Motion, part: Option<&Part>, jacobian: &mut [f64]) {
         let Workspace { size, fourier, samples, sensitivity, assembly, .. } = self;
         let coefficients = size.coefficients();
@@ -420,10 +401,7 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly
-                    .write_sums(columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients)));
-                let columns = columns.chunks_exact_mut(2 * coefficients).map(|column| upper(column, coefficients));
-                assembly.add_products(&sensitivity.outer, index, symmetry, columns);
+                assembly.write(&sensitivity.outer, index, symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);
             }
@@ -431,18 +409,18 @@ impl Workspace<'_> {
                 lower(column, coefficients).fill(0.0);
             }
         }
-        let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
         if motion.open && element.by_approach() {
             return;
         }
         if motion.constant || !element.by_approach() {
             let slope = if element.by_approach() { samples.load_slope.first().copied().unwrap_or(0.0) } else { 1.0 };
+            let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
             for (index, column) in columns.enumerate() {
                 column.iter_mut().skip(index).take(1).for_each(|diagonal| *diagonal = slope);
             }
         } else {
             fourier.sum(samples.load_slope, assembly.sums);
-            assembly.write_sums(columns);
+            assembly.write_sums(by_input, 2 * coefficients, coefficients);
         }
     }
 }

@@ -42,7 +42,7 @@ use crate::varying_load::state;
 use edge::{Edge, Map, Pressed};
 use sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
 use slip::product;
-use springs::{Both, FINE, SPRINGS, Springs};
+use springs::{Both, FINE, SPRINGS};
 use step::{Course, Memory, Motion};
 use stick::{Stored, Stuck};
 
@@ -67,23 +67,6 @@ pub type Step = path::StepResult<[f64; 3], [f64; 9]>;
 pub(crate) struct Requested {
     pub tangent: bool,
     pub energy: bool,
-    pub kernel: Kernel,
-}
-
-/// [`sensitivity::step`].
-pub(crate) type Differentiate = for<'a> fn(&Taken<'a>, &MotionColumns<'a>, &mut [f64], &mut [f64], Both<&mut [f64]>);
-
-/// A step of springs and its derivatives, compiled for a kind of processor.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Kernel {
-    pub step: fn(&Springs, &mut Memory, &Motion, [bool; 2], &mut Course) -> step::Outcome,
-    pub differentiate: Differentiate,
-    pub stuck: fn(&Springs, &Stored, &Pressed, &Both<f64>) -> Option<Stuck>,
-}
-
-impl Kernel {
-    /// For any processor.
-    pub const BASELINE: Kernel = Kernel { step: step::step, differentiate: sensitivity::step, stuck: stick::stuck };
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
@@ -265,7 +248,7 @@ pub(crate) fn advance_checked(
                 let ([x, normal], [xx, _, xw, ww]) = (step.force, step.tangent);
                 // Of the third component, the diagram has no stiffness: that of the springs.
                 let yy = start.map_or(0.0, |(header, mut memory)| {
-                    let requested = Requested { tangent: true, energy: false, ..requested };
+                    let requested = Requested { tangent: true, energy: false };
                     advance_springs(element, &header, &mut memory, [u, v, input], requested).0.tangent[4]
                 });
                 return Step {
@@ -315,7 +298,7 @@ fn stick(element: &Element, state: &[f64], [u, v, input]: [f64; 3], requested: R
         return None;
     }
     let now = element.pressed_without_size(header.load, header.shift);
-    let stuck = (requested.kernel.stuck)(&element.springs, &stored(state)?, &now, &offset)?;
+    let stuck = stick::stuck(&element.springs, &stored(state)?, &now, &offset)?;
     let Stuck { stiffness: [k_x, k_y], .. } = stuck;
     let sum = [header.sum[0] + k_x * offset[0], header.sum[1] + k_y * offset[1]];
     if product(&sum, &sum) > now.load * now.load {
@@ -469,7 +452,7 @@ impl Passage {
             *memory = Memory::RELAXED;
         }
         let flags = [requested.energy, requested.tangent];
-        let outcome = (requested.kernel.step)(&element.springs, memory, &self.motion, flags, course);
+        let outcome = step::step(&element.springs, memory, &self.motion, flags, course);
         (step.force[0], step.force[1]) = (force_unit * outcome.force[0], force_unit * outcome.force[1]);
         step.dissipated = energy_unit * outcome.dissipated;
         step
@@ -505,21 +488,14 @@ fn advance_springs(
         && passage.closed
     {
         let old = if passage.was_closed { old } else { Memory::RELAXED };
-        tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
+        tangent(element, &passage, [&old, memory], &course, &mut step.tangent);
     }
     (step, Header { sum: course.sum, ..passage.to })
 }
 
 /// The tangent of a step of springs: its derivatives for the columns u, v, w.
 #[inline(never)]
-fn tangent(
-    element: &Element,
-    passage: &Passage,
-    memories: [&Memory; 2],
-    course: &Course,
-    kernel: Kernel,
-    tangent: &mut [f64; 9],
-) {
+fn tangent(element: &Element, passage: &Passage, memories: [&Memory; 2], course: &Course, tangent: &mut [f64; 9]) {
     let slopes = element.pressed_slopes(&passage.normal);
     let per_distance = passage.per_distance();
     let columns = MotionColumns {
@@ -532,7 +508,7 @@ fn tangent(
     let (mut rows, mut scratch) = ([0.0; 4 * ROWS], [0.0; 4 * SCRATCH]);
     let (mut x, mut y) = ([0.0; 4], [0.0; 4]);
     let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
-    (kernel.differentiate)(&taken, &columns, &mut rows, &mut scratch, [&mut x, &mut y]);
+    sensitivity::step(&taken, &columns, &mut rows, &mut scratch, [&mut x, &mut y]);
     let unit = element.friction_coefficient * element.normal_force;
     for column in 0..3 {
         tangent[3 * column] = unit * x[column];
@@ -547,12 +523,7 @@ fn tangent(
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     check_header(state)?;
     check_step(element, &displacement)?;
-    Ok(advance_checked(
-        element,
-        state,
-        displacement,
-        Requested { tangent: true, energy: true, kernel: Kernel::BASELINE },
-    ))
+    Ok(advance_checked(element, state, displacement, Requested { tangent: true, energy: true }))
 }
 
 /// Checks a path: three doubles per step.
@@ -568,35 +539,18 @@ pub(crate) fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
 /// # Errors
 /// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
 pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-    path_by(element, state, path, output, Kernel::BASELINE)
-}
-
-/// As [`path`], with a kernel.
-pub(crate) fn path_by(
-    element: &Element,
-    state: &mut [f64],
-    path: &[f64],
-    output: PathOutput,
-    kernel: Kernel,
-) -> Result<(), Error> {
     check_header(state)?;
     check_path(element, path)?;
-    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some(), kernel };
+    let requested = Requested { tangent: output.tangent.is_some(), energy: output.dissipated.is_some() };
     advance_along(path, output, |displacement| advance_checked(element, state, displacement, requested));
     Ok(())
 }
 
-/// As [`path_by`], from a copy of the state.
-pub(crate) fn path_in_copy(
-    element: &Element,
-    state: &[f64],
-    steps: &[f64],
-    output: PathOutput,
-    kernel: Kernel,
-) -> Result<(), Error> {
+/// As [`path`], from a copy of the state.
+pub(crate) fn path_in_copy(element: &Element, state: &[f64], steps: &[f64], output: PathOutput) -> Result<(), Error> {
     let mut copy = [0.0; LENGTH];
     copy_used(state, &mut copy);
-    path_by(element, &mut copy, steps, output, kernel)
+    path(element, &mut copy, steps, output)
 }
 
 /// Copies what is in use of a state whose header was checked to one that is as long.

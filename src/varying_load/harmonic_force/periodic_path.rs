@@ -220,7 +220,7 @@ impl PeriodicPath<'_> {
         Runs { encoded, first: part.start, packed: 0, samples }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> Extent {
         let mut stack = Stack { knots: self.knots, depth: 0 };
         stack.push(Knot::centre(0.0));
@@ -273,7 +273,7 @@ impl PeriodicPath<'_> {
     }
 }
 
-const EMPTY_RUN: Run =
+pub(super) const EMPTY_RUN: Run =
     Run { kind: Kind::Open, first: 0, count: 1, kept: 0, inner: Place::CENTRE, packed: 0, sign: 1.0, parameter: 0.0 };
 
 /// Samples that stick.

@@ -1,6 +1,7 @@
 //! Normal states and characteristic coordinates of the samples.
 
 use crate::hbm::folded_fourier::continue_periodically;
+use crate::simd::dispatch;
 use crate::varying_load::element::{Element, Normal};
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -67,9 +68,27 @@ impl Samples<'_> {
         self.stiffness.fill(normal.load_slope / normal.shift_slope);
     }
 
+    /// The least and the largest input.
+    pub fn range_of_input(&self) -> [f64; 2] {
+        let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
+        for block in self.input.as_chunks::<4>().0 {
+            for k in 0..4 {
+                least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+                largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
+            }
+        }
+        [least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max)]
+    }
+
     /// The normal states of all samples, with derivatives if requested.
     #[inline(always)]
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
+        let samples = self;
+        dispatch!(Samples::press_kernel::<SLOPES>, [const SLOPES: bool] samples: &mut Samples, element: &Element => ());
+    }
+
+    #[inline(always)]
+    fn press_kernel<const SLOPES: bool>(&mut self, element: &Element) {
         let blocks = self
             .input
             .as_chunks::<4>()
@@ -108,6 +127,12 @@ impl Samples<'_> {
     ///   At the sample where that is attained everything beyond is slip zone.
     #[inline(always)]
     pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
+        let samples = self;
+        dispatch!(Samples::entry_kernel, samples: &mut Samples, element: &Element, half_wave_symmetric: bool => Part)
+    }
+
+    #[inline(always)]
+    fn entry_kernel(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
         let mu = element.friction_coefficient;
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
         let mut least_input = [f64::MAX; 4];

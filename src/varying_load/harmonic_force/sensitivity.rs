@@ -18,8 +18,9 @@
 
 use crate::hbm::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
 use crate::hbm::workspace::Blocks;
+use crate::simd::dispatch;
 use crate::varying_load::element::Element;
-use crate::varying_load::harmonic_force::periodic_path::{Kind, Run, Runs, closing};
+use crate::varying_load::harmonic_force::periodic_path::{self, Kind, Run, Runs, closing};
 use crate::varying_load::harmonic_force::samples::{Part, Samples, at};
 
 /// Doubles of a piece in the workspace.
@@ -165,13 +166,25 @@ impl Context<'_> {
 
 impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
-    #[inline(always)]
+    #[inline(never)]
     pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
         with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
     }
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+        let sensitivity = self;
+        dispatch!(
+            Sensitivity::strips_kernel::<N>,
+            [const N: usize] sensitivity: &mut Sensitivity,
+            context: &Context,
+            cuts: &Cuts,
+            runs: &Runs => ()
+        );
+    }
+
+    #[inline(always)]
+    fn strips_kernel<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
         let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
         let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
         for strip in 0..outer.strips::<N>() {
@@ -211,7 +224,8 @@ impl<const N: usize> Gathering<'_, N> {
     fn gather(&mut self, runs: Runs, by_u: &mut [f64], by_input: &mut [f64]) {
         let Context { element, samples, .. } = *self.context;
         let mut now = 0;
-        for run in runs {
+        let end = Run { kind: Kind::Open, count: 0, ..periodic_path::EMPTY_RUN };
+        for run in runs.chain([end]) {
             let range = run.first..run.first + run.count;
             let last = range.end.saturating_sub(1);
             let kept = match run.kind {
@@ -270,7 +284,6 @@ impl<const N: usize> Gathering<'_, N> {
             }
             now += run.count;
         }
-        self.remove_beyond(0, now);
     }
 
     #[inline(always)]

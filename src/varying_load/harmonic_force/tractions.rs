@@ -1,5 +1,6 @@
 //! Tangential forces of the samples, run by run.
 
+use crate::simd::dispatch;
 use crate::varying_load::element::Element;
 use crate::varying_load::harmonic_force::periodic_path::{Kind, Place, Run, Runs};
 use crate::varying_load::harmonic_force::samples::{Samples, at};
@@ -47,21 +48,29 @@ impl Tractions<'_> {
         }
     }
 
-    /// Evaluates the forces of all runs, from the shifts at the boundaries.
+    /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.
     #[inline(always)]
-    pub fn evaluate(
+    pub fn evaluate<const SLOPES: bool>(
         &mut self,
         element: &Element,
         samples: &Samples,
         cut_shift: &[[f64; 4]],
         runs: Runs,
-        with_stiffness: bool,
     ) {
-        if with_stiffness {
-            self.evaluate_cuts::<true>(element, cut_shift);
-        } else {
-            self.evaluate_cuts::<false>(element, cut_shift);
-        }
+        let tractions = self;
+        dispatch!(
+            Tractions::kernel::<SLOPES>,
+            [const SLOPES: bool] tractions: &mut Tractions,
+            element: &Element,
+            samples: &Samples,
+            cut_shift: &[[f64; 4]],
+            runs: Runs => ()
+        );
+    }
+
+    #[inline(always)]
+    fn kernel<const SLOPES: bool>(&mut self, element: &Element, samples: &Samples, cut_shift: &[[f64; 4]], runs: Runs) {
+        self.evaluate_cuts::<SLOPES>(element, cut_shift);
         let friction_coefficient = element.friction_coefficient;
         for run in runs {
             let range = run.first..run.first + run.count;

@@ -11,9 +11,9 @@
 
 use super::columns::{row, row_mut};
 use super::edge::PressedSlopes;
-use super::sensitivity::{MotionColumns, ROWS, SCRATCH, Taken};
+use super::sensitivity::{self, MotionColumns, ROWS, SCRATCH, Taken};
 use super::step::{Course, Memory};
-use super::{Header, Kernel, Passage, Requested};
+use super::{Header, Passage, Requested};
 use crate::error::Error;
 use crate::hbm::check_coefficients;
 use crate::hbm::workspace::{HEADER, Parts, Size, TAGS, WorkspaceLayout, padded};
@@ -214,14 +214,12 @@ impl<'a> Workspace<'a> {
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
 /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
 /// too wide for its length.
-#[inline(always)]
 #[expect(clippy::too_many_lines, reason = "one period, in its order")]
-pub(crate) fn harmonic_force(
+pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
-    kernel: Kernel,
 ) -> Result<(), Error> {
     let (n, count) = (workspace.coefficients(), workspace.size.samples);
     let HarmonicOutput { mut force, mut jacobian, mut dissipated } = output;
@@ -240,7 +238,7 @@ pub(crate) fn harmonic_force(
         }
         (force, dissipated) = (None, None);
     }
-    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some(), kernel };
+    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
     if let Some(force) = &mut force {
         force.fill(0.0);
     }
@@ -261,7 +259,7 @@ pub(crate) fn harmonic_force(
     let frictionless = element.friction_coefficient == 0.0;
     if !frictionless {
         let press = Passage::new(element, &from, [0.0, 0.0, top[2]]);
-        press.advance(element, &mut memory, Requested { tangent: false, energy: false, kernel }, &mut course);
+        press.advance(element, &mut memory, Requested { tangent: false, energy: false }, &mut course);
         from = press.to;
     }
     let mut energy = 0.0;
@@ -285,16 +283,7 @@ pub(crate) fn harmonic_force(
                 if passage.closed {
                     // The first displacement begins at rest, not at a sample.
                     let start = if step == 0 { None } else { Some(before) };
-                    differentiate(
-                        element,
-                        workspace,
-                        &passage,
-                        [&old, &memory],
-                        &course,
-                        &from,
-                        [start, Some(index)],
-                        kernel,
-                    );
+                    differentiate(element, workspace, &passage, [&old, &memory], &course, &from, [start, Some(index)]);
                 } else {
                     workspace.motion.fill(0.0);
                 }
@@ -340,8 +329,6 @@ pub(crate) fn harmonic_force(
 }
 
 /// Derivatives of the memory and of the force at the end of a step between samples; those of the force are rows 8 and 9 of the motion.
-#[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "a step, its memories and what it is differentiated by")]
 fn differentiate(
     element: &Element,
     workspace: &mut Workspace,
@@ -350,7 +337,6 @@ fn differentiate(
     course: &Course,
     from: &Header,
     samples: [Option<usize>; 2],
-    kernel: Kernel,
 ) {
     let n = workspace.coefficients();
     let columns = padded(3 * n);
@@ -397,13 +383,12 @@ fn differentiate(
         before: [row(rows, columns, 6), row(rows, columns, 7)],
     };
     let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
-    (kernel.differentiate)(&taken, &motion, workspace.memory, workspace.scratch, [&mut *x, &mut *y]);
+    sensitivity::step(&taken, &motion, workspace.memory, workspace.scratch, [&mut *x, &mut *y]);
     let unit = element.friction_coefficient * element.normal_force;
     x.iter_mut().chain(y).for_each(|value| *value *= unit);
 }
 
 /// Force, energy and Jacobian of one direction, for a motion with v = 0; the Jacobian remains in the workspace.
-#[inline(always)]
 fn line(
     element: &Element,
     workspace: &mut Workspace,
@@ -433,7 +418,6 @@ fn line(
 }
 
 /// Replaces the Jacobian of u and the normal component by that of one direction; by symmetry they are independent of v.
-#[inline(always)]
 fn merge_line(workspace: &mut Workspace, jacobian: &mut [f64]) {
     let n = workspace.coefficients();
     let mut parts = Parts::of(workspace.line);
@@ -530,7 +514,7 @@ mod tests {
             jacobian: Some(&mut result.jacobian),
             dissipated: Some(&mut result.dissipated),
         };
-        harmonic_force(element, &mut workspace, motion, output, Kernel::BASELINE).unwrap();
+        harmonic_force(element, &mut workspace, motion, output).unwrap();
         result
     }
 

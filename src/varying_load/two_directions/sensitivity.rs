@@ -9,6 +9,7 @@ use super::slip::{DirectionSlopes, at, product, solve_columns};
 use super::springs::{Both, FINE, Row, SPRINGS, Springs};
 use super::step::{Course, Memory, Motion, Slipped};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
 /// Rows of the derivatives of a memory: springs, tractions, fine bank.
 const TRACTIONS: usize = 2 * SPRINGS;
@@ -105,6 +106,24 @@ impl EdgeSlopes {
 /// the force of both directions.
 #[inline(always)]
 pub(crate) fn step(
+    taken: &Taken,
+    columns: &MotionColumns,
+    memory: &mut [f64],
+    scratch: &mut [f64],
+    force: Both<&mut [f64]>,
+) {
+    dispatch!(
+        kernel,
+        taken: &Taken,
+        columns: &MotionColumns,
+        memory: &mut [f64],
+        scratch: &mut [f64],
+        force: Both<&mut [f64]> => ()
+    );
+}
+
+#[inline(always)]
+fn kernel(
     taken: &Taken,
     columns: &MotionColumns,
     memory: &mut [f64],

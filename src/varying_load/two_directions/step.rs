@@ -8,9 +8,11 @@ use super::fine::{self, FineEdge, FineRow};
 use super::slip::{Problem, Slip, at, product};
 use super::springs::{Both, Row, SPRINGS, Springs, dot};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
 /// Displacements of the springs, tractions over the pressure at the points, and the fine bank; reach and pressure of the edge.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
 pub(crate) struct Memory {
     pub springs: Both<Row>,
     pub tractions: Both<Row>,
@@ -42,6 +44,7 @@ pub(crate) struct Motion {
 }
 
 /// What a step leads through.
+#[repr(align(32))]
 pub(crate) struct Course {
     pub edge: Edge,
     pub fine: FineEdge,
@@ -90,8 +93,27 @@ pub(crate) struct Outcome {
     pub dissipated: f64,
 }
 
+/// Advances the memory. Requested are the energy, and what the derivatives of the step need.
 #[inline(always)]
 pub(crate) fn step(
+    springs: &Springs,
+    memory: &mut Memory,
+    motion: &Motion,
+    requested: [bool; 2],
+    course: &mut Course,
+) -> Outcome {
+    dispatch!(
+        kernel,
+        springs: &Springs,
+        memory: &mut Memory,
+        motion: &Motion,
+        requested: [bool; 2],
+        course: &mut Course => Outcome
+    )
+}
+
+#[inline(always)]
+fn kernel(
     springs: &Springs,
     memory: &mut Memory,
     motion: &Motion,

@@ -5,6 +5,7 @@ use super::fine::FineRow;
 use super::springs::{Both, FINE, Row, SPRINGS, Springs};
 use super::step::{Memory, ROUNDING};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
 /// The spring at the edge of each bank: its stiffness is that of all springs together, W.
 struct Edges {
@@ -79,6 +80,11 @@ impl<'a> Stored<'a> {
 /// The contact if nothing slips with the offset, from the memory without.
 #[inline(always)]
 pub(crate) fn stuck(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
+    dispatch!(kernel, springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64> => Option<Stuck>)
+}
+
+#[inline(always)]
+fn kernel(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
     let Edges { last, fine_last, step, fine_step } = Edges::new(springs, now);
     let per_step = [offset[0] / step[0], offset[1] / step[1]];
     let mut slips = false;
