@@ -96,7 +96,6 @@ pub struct Argument<'a> {
     pub required: bool,
     pub comment: &'a str,
     /// Name of the constant that is the status of an invalid value; empty if none is.
-    #[expect(dead_code, reason = "of the tables of calls")]
     pub status: &'a str,
 }
 
