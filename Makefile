@@ -143,7 +143,7 @@ python:
 	@tools/dependencies.sh python
 	tools/python.sh all
 
-## header: generate include/microslip.h and the marked blocks of include/microslip.f90 from the Rust source
+## header: generate include/microslip.h and whatever else follows from the Rust source and tools/xtask/interface.txt
 header:
 	$(CARGO) run --quiet --package xtask -- header
 

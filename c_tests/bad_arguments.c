@@ -295,68 +295,11 @@ static void test_combinations(void)
         p->displacement_reference = rows[i].reference;
         save_regions();
         check_rejected(init(ROUNDED), rows[i].status, "mslip_contact_init", "a combination");
+        check_rejected(init(ROUNDED_ELEMENT), rows[i].status, "mslip_element_init", "a combination");
     }
-    *p = good;
-    mslip_contact *contact = last(contact_region, sizeof *contact);
-    save_regions();
-    check_rejected(mslip_contact_init(NULL, contact), MSLIP_NULL_POINTER, "mslip_contact_init", "p");
-    check_rejected(mslip_contact_init(p, NULL), MSLIP_NULL_POINTER, "mslip_contact_init", "contact");
-    check_rejected(mslip_contact_init_elliptic(NULL, contact), MSLIP_NULL_POINTER, "mslip_contact_init_elliptic", "p");
-    check_rejected(mslip_contact_init_elliptic(last(input_region, sizeof(mslip_elliptic_parameters)), NULL), MSLIP_NULL_POINTER,
-                   "mslip_contact_init_elliptic", "contact");
     mslip_parameters_default(NULL);
     mslip_elliptic_parameters_default(NULL);
     CHECK(raised() == 0 && nothing_changed_but(NULL));
-}
-
-/* Elements of invalid kinds; a length that is too short for the largest load. */
-static void test_element_init(void)
-{
-    static const struct {
-        int32_t directions, normal_input, status;
-    } rows[] = {
-        { 0, MSLIP_APPROACH, MSLIP_BAD_DIRECTIONS },
-        { 3, MSLIP_APPROACH, MSLIP_BAD_DIRECTIONS },
-        { -1, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
-        { INT32_MAX, 7, MSLIP_BAD_DIRECTIONS },
-        { INT32_MIN, MSLIP_NORMAL_FORCE, MSLIP_BAD_DIRECTIONS },
-        { 2, 2, MSLIP_BAD_NORMAL_INPUT },
-        { 2, -1, MSLIP_BAD_NORMAL_INPUT },
-        { 1, 2, MSLIP_BAD_NORMAL_INPUT },
-        { 1, -1, MSLIP_BAD_NORMAL_INPUT },
-        { 1, INT32_MAX, MSLIP_BAD_NORMAL_INPUT },
-        { 1, INT32_MIN, MSLIP_BAD_NORMAL_INPUT },
-    };
-    static const char name[] = "mslip_element_init", elliptic_name[] = "mslip_element_init_elliptic";
-    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
-    mslip_parameters *p = (mslip_parameters *)(void *)((char *)(void *)e - sizeof *p);
-    mslip_element *element = last(element_region, sizeof *element);
-    *p = flat_parameters();
-    *e = elliptic_parameters();
-    save_regions();
-    for (size_t i = 0; i < LENGTH(rows); ++i) {
-        const int32_t directions = rows[i].directions, normal_input = rows[i].normal_input;
-        check_rejected(mslip_element_init(p, directions, normal_input, element), rows[i].status, name, "a kind");
-        check_rejected(mslip_element_init_elliptic(e, directions, normal_input, element), rows[i].status, elliptic_name, "a kind");
-    }
-    check_rejected(mslip_element_init(NULL, 1, 0, element), MSLIP_NULL_POINTER, name, "p");
-    check_rejected(mslip_element_init(p, 1, 0, NULL), MSLIP_NULL_POINTER, name, "element");
-    check_rejected(mslip_element_init(misaligned(p, 8), 1, 0, element), MSLIP_BAD_ALIGNMENT, name, "p");
-    check_rejected(mslip_element_init(p, 1, 0, misaligned(element, 8)), MSLIP_BAD_ALIGNMENT, name, "element");
-    check_rejected(mslip_element_init_elliptic(NULL, 1, 0, element), MSLIP_NULL_POINTER, elliptic_name, "p");
-    check_rejected(mslip_element_init_elliptic(e, 1, 0, NULL), MSLIP_NULL_POINTER, elliptic_name, "element");
-    check_rejected(mslip_element_init_elliptic(misaligned(e, 8), 1, 0, element), MSLIP_BAD_ALIGNMENT, elliptic_name, "p");
-    check_rejected(mslip_element_init_elliptic(e, 1, 0, misaligned(element, 8)), MSLIP_BAD_ALIGNMENT, elliptic_name, "element");
-    p->displacement_reference = 2;
-    save_regions();
-    check_rejected(mslip_element_init(p, 1, 0, element), MSLIP_BAD_DISPLACEMENT_REFERENCE, name, "displacement_reference");
-    for (int32_t reference = MSLIP_CENTRE_POINT; reference <= MSLIP_RIGID_STRIP; ++reference) {
-        *p = flat_parameters();
-        p->displacement_reference = reference;
-        p->length = 0.49 * contact_of(FLAT).half_width;
-        save_regions();
-        check_rejected(mslip_element_init(p, 1, 0, element), MSLIP_LENGTH_TOO_SHORT, name, "length");
-    }
 }
 
 /* ---- Arguments of the table of functions ---- */
@@ -452,23 +395,23 @@ static void test_values(const function *f)
     set_up(f);
 }
 
+/* The pointers among the arguments. */
+#define POINTER(field, item, required) { "call." #field ",", offsetof(arguments, field), item, required }
+static const struct {
+    const char *name;
+    size_t offset, item;
+    int required;
+} pointers[] = {
+    POINTER(contacts, 8, 1), POINTER(elements, 8, 1), POINTER(parameters, 8, 1), POINTER(elliptic_parameters, 8, 1),
+    POINTER(new_contact, 8, 1), POINTER(new_element, 8, 1), POINTER(input, 8, 1), POINTER(state, 8, 1), POINTER(workspace, 8, 1),
+    POINTER(table, 8, 1), POINTER(buffer, 8, 1), POINTER(index, 4, 0), POINTER(active, 4, 0), POINTER(out[0], 8, 0),
+    POINTER(out[1], 8, 0), POINTER(out[2], 8, 0), POINTER(out[3], 8, 0), POINTER(out[4], 8, 0), POINTER(found_directions, 4, 0),
+    POINTER(found_rule, 4, 0), POINTER(found_harmonics, sizeof(size_t), 0), POINTER(found_samples, sizeof(size_t), 0),
+};
+
 /* Each pointer in turn is misaligned, and NULL if it is required. */
 static void test_pointers(const function *f)
 {
-    static const struct {
-        const char *name;
-        size_t offset, item;
-        int required;
-    } pointers[] = {
-        { "contacts", offsetof(arguments, contacts), 8, 1 }, { "elements", offsetof(arguments, elements), 8, 1 },
-        { "input", offsetof(arguments, input), 8, 1 },
-        { "state", offsetof(arguments, state), 8, 1 },       { "workspace", offsetof(arguments, workspace), 8, 1 },
-        { "table", offsetof(arguments, table), 8, 1 },
-        { "index", offsetof(arguments, index), 4, 0 },       { "active", offsetof(arguments, active), 4, 0 },
-        { "new state", offsetof(arguments, out[0]), 8, 0 },  { "output 1", offsetof(arguments, out[1]), 8, 0 },
-        { "output 2", offsetof(arguments, out[2]), 8, 0 },   { "output 3", offsetof(arguments, out[3]), 8, 0 },
-        { "output 4", offsetof(arguments, out[4]), 8, 0 },
-    };
     for (size_t i = 0; i < LENGTH(pointers); ++i) {
         char *const field = (char *)&call + pointers[i].offset;
         void *good, *bad;
@@ -651,131 +594,77 @@ static void test_batch(const function *f)
     rejected(f, status_of_law(f), "an item with any flag but 0");
 }
 
-/* ---- Functions without a contact, and combinations of arguments ---- */
+/* ---- Functions that initialise or check memory ---- */
 
-static void test_state_functions(void)
+/* Valid arguments, for a variant of elements or a rule. */
+static void set_up_other(const char *fields, int is_element, int variant)
 {
-    const size_t least = mslip_state_length(0), used = mslip_state_length(USED);
-    static const char *const names[] = { "mslip_state_init", "mslip_state_check", "mslip_state_error" };
-    double *state, *error;
-    set_up(find("mslip_masing_update", 0));
-    state = STATES;
-    error = call.out[1];
-    *error = 77.0;
-    save_regions();
-    for (int i = 0; i < 3; ++i) {
-#define STATE_CALL(length, state) \
-    (i == 0 ? mslip_state_init(length, state) : i == 1 ? mslip_state_check(length, state) : mslip_state_error(length, state, error))
-        check_rejected(STATE_CALL(STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(STATE_CALL(0, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(STATE_CALL(STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
-        check_rejected(STATE_CALL(SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        check_rejected(STATE_CALL(SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        for (size_t length = 0; length < (i == 0 ? least : used); ++length) {
-            const int32_t status = length < least ? MSLIP_STATE_TOO_SHORT : MSLIP_BAD_STATE;
-            check_rejected(STATE_CALL(length, state), status, names[i], "state_length");
-        }
-        if (i > 0) {
-            double *uninitialised = (double *)(void *)out_regions[3]->start;
-            check_rejected(STATE_CALL(STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
-            CHECK(STATE_CALL(STATE, state) == MSLIP_OK);
-        }
-    }
-    CHECK(*error == 0.0 && mslip_state_error(STATE, state, NULL) == MSLIP_OK && raised() == 0);
-    save_regions();
-    check_rejected(mslip_state_error(STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "force_error");
-    CHECK(mslip_state_length(SIZE_MAX) == SIZE_MAX && mslip_state_length(SIZE_MAX / 2) == SIZE_MAX);
-
-    set_up(&functions[0]);
-    save_regions();
-    CHECK(mslip_contact_check(CONTACTS) == MSLIP_OK);
-    check_rejected(mslip_contact_check(NULL), MSLIP_NULL_POINTER, "mslip_contact_check", "contact");
-    check_rejected(mslip_contact_check(misaligned(CONTACTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_contact_check", "contact");
-}
-
-static void test_element_state_functions(int32_t own)
-{
-    static const char *const names[] = { "mslip_element_state_init", "mslip_element_state_check", "mslip_element_state_error" };
-    static const int32_t directions[] = { 0, 3, -1, INT32_MAX, INT32_MIN };
-    const function *f = find("mslip_element_update", own == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
-    const size_t least = least_state(f), used = used_state(f);
-    double *state, *error;
+    const function *f = find(is_element ? "mslip_element_update" : "mslip_masing_update", is_element ? variant : 0);
+    const function *harmonic = find(is_element ? "mslip_element_harmonic_force" : "mslip_harmonic_force", variant);
     set_up(f);
-    state = STATES;
-    error = call.out[3];
-    *error = 77.0;
-    save_regions();
-    for (int i = 0; i < 3; ++i) {
-#define ELEMENT_STATE_CALL(directions, length, state) \
-    (i == 0   ? mslip_element_state_init(directions, length, state) \
-     : i == 1 ? mslip_element_state_check(directions, length, state) \
-              : mslip_element_state_error(directions, length, state, error))
-        for (size_t k = 0; k < LENGTH(directions); ++k) {
-            check_rejected(ELEMENT_STATE_CALL(directions[k], STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "directions");
-            CHECK(mslip_element_state_length(directions[k], (size_t)k) == 0);
+    call.workspace_length = workspace_length(harmonic);
+    call.table_length = mslip_stiffness_table_length();
+    call.harmonics = HARMONICS;
+    call.samples = SAMPLES;
+    call.directions = is_element ? directions_of(variant) : 0;
+    call.normal_input = normal_input_of(variant);
+    call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
+    call.workspace = last(workspace_region, call.workspace_length * sizeof(double));
+    init_workspace(harmonic, HARMONICS, SAMPLES, call.workspace_length, call.workspace);
+    call.buffer = strstr(fields, "workspace_length") ? call.workspace
+        : strstr(fields, "table_length") ? last(table_region, call.table_length * sizeof(double)) : call.out[0];
+    mslip_parameters *p = last(table_region, sizeof *p);
+    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
+    *p = flat_parameters();
+    *e = elliptic_parameters();
+    call.parameters = p;
+    call.elliptic_parameters = e;
+    call.new_contact = last(out_regions[4], sizeof *call.new_contact);
+    call.new_element = last(element_region, sizeof *call.new_element);
+    call.found_harmonics = last(out_regions[1], sizeof *call.found_harmonics);
+    call.found_samples = last(out_regions[2], sizeof *call.found_samples);
+    call.found_directions = last(out_regions[3], sizeof *call.found_directions);
+    call.found_rule = last(out_regions[4], sizeof *call.found_rule);
+    for (size_t i = 0; i < LENGTH(pointers); ++i) {
+        if (strstr(fields, pointers[i].name) == NULL) {
+            memset((char *)&call + pointers[i].offset, 0, sizeof(void *));
         }
-        check_rejected(ELEMENT_STATE_CALL(own, STATE, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(own, 0, NULL), MSLIP_NULL_POINTER, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(own, STATE, misaligned(state, sizeof *state)), MSLIP_BAD_ALIGNMENT, names[i], "state");
-        check_rejected(ELEMENT_STATE_CALL(own, SIZE_MAX, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        check_rejected(ELEMENT_STATE_CALL(own, SIZE_MAX / 8, state), MSLIP_BAD_ARRAY_SIZE, names[i], "state_length");
-        for (size_t length = 0; length < (i == 0 ? least : used); ++length) {
-            const int32_t status = length < least ? MSLIP_STATE_TOO_SHORT : MSLIP_BAD_STATE;
-            check_rejected(ELEMENT_STATE_CALL(own, length, state), status, names[i], "state_length");
-        }
-        if (i > 0) {
-            double *uninitialised = (double *)(void *)out_regions[4]->start;
-            check_rejected(ELEMENT_STATE_CALL(own, STATE, uninitialised), MSLIP_BAD_STATE, names[i], "an uninitialised state");
-            check_rejected(ELEMENT_STATE_CALL(3 - own, STATE, state), MSLIP_BAD_DIRECTIONS, names[i], "other directions");
-            CHECK(ELEMENT_STATE_CALL(own, STATE, state) == MSLIP_OK);
-        }
-    }
-    CHECK(*error >= 0.0 && mslip_element_state_error(own, STATE, state, NULL) == MSLIP_OK && raised() == 0);
-    save_regions();
-    check_rejected(mslip_element_state_error(own, STATE, state, misaligned(error, 8)), MSLIP_BAD_ALIGNMENT, names[2], "error");
-    CHECK(mslip_element_state_length(1, SIZE_MAX) == SIZE_MAX && mslip_element_state_length(1, SIZE_MAX / 4) == SIZE_MAX);
-    CHECK(mslip_element_state_length(1, 0) == mslip_element_state_length(1, 4));
-    CHECK(mslip_element_state_length(2, 0) > 0 && mslip_element_state_length(2, SIZE_MAX) == mslip_element_state_length(2, 0));
-
-    CHECK(mslip_element_check(ELEMENTS) == MSLIP_OK);
-    check_rejected(mslip_element_check(NULL), MSLIP_NULL_POINTER, "mslip_element_check", "element");
-    check_rejected(mslip_element_check(misaligned(ELEMENTS, 8)), MSLIP_BAD_ALIGNMENT, "mslip_element_check", "element");
-}
-
-static void test_workspace_size(int32_t rule)
-{
-    static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
-                                        MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
-    const function *f = find("mslip_harmonic_force", rule);
-    size_t harmonics = 0, samples = 0;
-    int32_t found = -1;
-    set_up(f);
-    save_regions();
-    CHECK(mslip_harmonic_workspace_size(call.workspace, &harmonics, NULL, NULL) == MSLIP_OK && harmonics == HARMONICS);
-    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, &samples, NULL) == MSLIP_OK && samples == SAMPLES);
-    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, NULL, &found) == MSLIP_OK && found == rule);
-    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, NULL, NULL) == MSLIP_OK && nothing_changed_but(NULL));
-    harmonics = samples = 7;
-    found = 7;
-    for (size_t i = 0; i < LENGTH(expected); ++i) {
-        const double *workspace = i == 0 ? NULL : i == 1 ? misaligned(call.workspace, 8) : call.workspace;
-        size_t *h = i == 2 ? misaligned(&harmonics, sizeof harmonics) : &harmonics;
-        size_t *s = i == 3 ? misaligned(&samples, sizeof samples) : &samples;
-        int32_t *r = i == 4 ? misaligned(&found, sizeof found) : &found;
-        if (i == 5) {
-            memset(call.workspace, 0x5a, workspace_length(f) * sizeof(double));
-        }
-        save_regions();
-        check_rejected(mslip_harmonic_workspace_size(workspace, h, s, r), expected[i], "mslip_harmonic_workspace_size", "any");
-        CHECK(harmonics == 7 && samples == 7 && found == 7);
     }
 }
 
-/* Workspaces of invalid size, rule or length. */
-static void test_workspace_init(void)
+/* Lengths of the argument that are not allowed, and the status. */
+static void bad_lengths(const function *f, size_t *argument, size_t least, int32_t status)
 {
-    enum { MOST = 1 << 24, RULES = 2 };
-    static const int32_t rules[] = { MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN, -1, 2, INT32_MAX, INT32_MIN };
+    static const size_t too_long[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8 };
+    const size_t good = *argument;
+    for (size_t i = 0; i < LENGTH(too_long); ++i) {
+        *argument = too_long[i];
+        rejected(f, MSLIP_BAD_ARRAY_SIZE, "a length");
+    }
+    for (size_t i = 0; i < 20; ++i) {
+        *argument = i < 10 ? i : least - i + 9;
+        rejected(f, status, "a length");
+    }
+    *argument = good;
+}
+
+/* Values of a choice that are not allowed; the arguments after it are not read. */
+static void bad_choices(const function *f, int32_t *argument, const int32_t *bad, int32_t status)
+{
+    const int32_t good = *argument;
+    const size_t harmonics = call.harmonics;
+    for (int i = 0; i < 8; ++i) {
+        *argument = bad[i % 4];
+        call.harmonics = i < 4 ? harmonics : 0;
+        rejected(f, status, "a choice");
+    }
+    *argument = good;
+    call.harmonics = harmonics;
+}
+
+static void bad_sizes(const function *f, int32_t (*length_status)(void))
+{
+    enum { MOST = 1 << 24 };
     static const struct {
         size_t harmonics, samples;
         int32_t status;
@@ -792,101 +681,126 @@ static void test_workspace_init(void)
         { 2, SIZE_MAX, MSLIP_BAD_SAMPLES },
         { 2, SIZE_MAX / 2 + 1, MSLIP_BAD_SAMPLES },
         { MOST / 2 - 1, MOST, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
-        { 2, 16, MSLIP_WORKSPACE_TOO_SHORT },
     };
-    static const char name[] = "mslip_harmonic_workspace_init";
-    set_up(find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING));
-    double *const memory = call.workspace;
-    save_regions();
-    for (size_t r = 0; r < LENGTH(rules); ++r) {
-        for (size_t i = 0; i < LENGTH(rows); ++i) {
-            const size_t h = rows[i].harmonics, s = rows[i].samples, length = mslip_harmonic_workspace_length(h, s, rules[r]);
-            const int32_t status = r < RULES ? rows[i].status : MSLIP_BAD_RULE;
-            const size_t lengths[] = { 0, 1, 4, length > 0 ? length - 1 : 100 };
-            CHECK((length == 0) == (status != MSLIP_WORKSPACE_TOO_SHORT));
-            for (size_t k = 0; k < LENGTH(lengths); ++k) {
-                check_rejected(mslip_harmonic_workspace_init(h, s, rules[r], lengths[k], memory), status, name, "any");
-            }
-        }
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        call.harmonics = rows[i].harmonics;
+        call.samples = rows[i].samples;
+        CHECK((length_status() == MSLIP_OK) == (rows[i].status == MSLIP_WORKSPACE_TOO_SHORT));
+        rejected(f, rows[i].status, "a size");
     }
-    for (int r = 0; r < RULES; ++r) {
-        check_rejected(mslip_harmonic_workspace_init(2, 16, r, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, name, "workspace_length");
-        check_rejected(mslip_harmonic_workspace_init(2, 16, r, 1000, NULL), MSLIP_NULL_POINTER, name, "workspace");
-        double *bad = misaligned(memory, 8);
-        check_rejected(mslip_harmonic_workspace_init(2, 16, r, 1000, bad), MSLIP_BAD_ALIGNMENT, name, "workspace");
+    call.harmonics = HARMONICS;
+    call.samples = SAMPLES;
+}
+
+/* The length of a workspace is 0 for arguments that are not allowed. */
+static int32_t workspace_length_status(void)
+{
+    const size_t length = call.directions == 0
+        ? mslip_harmonic_workspace_length(call.harmonics, call.samples, call.rule)
+        : mslip_element_workspace_length(call.directions, call.harmonics, call.samples, call.rule);
+    return length > 0 ? MSLIP_OK : MSLIP_BAD_WORKSPACE;
+}
+
+static void test_other(const char *name, int32_t (*function_call)(void), const char *fields, int is_element, int variant)
+{
+    static const int32_t directions[] = { 0, 3, -1, INT32_MAX }, choices[] = { 2, -1, INT32_MAX, INT32_MIN };
+    const function f = { name, function_call, 0, 0, NONE, NONE, 0, { 0 } };
+    const int takes_directions = strstr(fields, "call.directions,") != NULL, takes_state = strstr(fields, "call.state,") != NULL;
+    set_up_other(fields, is_element, variant);
+    save_regions();
+    feclearexcept(FE_ALL_EXCEPT);
+    CHECK(f.call() == MSLIP_OK && raised() == 0);
+    for (int i = 0; i < REGIONS && i < regions_made; ++i) {
+        const int is_input = &regions[i] == input_region || &regions[i] == contact_region || &regions[i] == state_region;
+        CHECK(!is_input || is_unchanged(&regions[i]));
+    }
+    test_pointers(&f);
+    if (takes_directions) {
+        call.normal_input += 7;
+        bad_choices(&f, &call.directions, directions, MSLIP_BAD_DIRECTIONS);
+        call.normal_input -= 7;
+        call.directions = 3 - call.directions;
+        if (takes_state) {
+            rejected(&f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
+        }
+        call.directions = 3 - call.directions;
+    }
+    if (strstr(fields, "call.normal_input,")) {
+        bad_choices(&f, &call.normal_input, choices, MSLIP_BAD_NORMAL_INPUT);
+    }
+    if (strstr(fields, "call.rule,")) {
+        bad_choices(&f, &call.rule, choices, MSLIP_BAD_RULE);
+        CHECK(workspace_length_status() == MSLIP_OK);
+        bad_sizes(&f, workspace_length_status);
+        call.rule = is_element ? MSLIP_EVENT_DRIVEN : 7;
+        CHECK(workspace_length_status() != MSLIP_OK);
+        rejected(&f, is_element ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_RULE, "rule");
+        call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
+    }
+    if (strstr(fields, "call.state_length,")) {
+        const function *update = find(is_element ? "mslip_element_update" : "mslip_masing_update", is_element ? variant : 0);
+        bad_lengths(&f, &call.state_length, least_state(update), MSLIP_STATE_TOO_SHORT);
+        for (size_t length = least_state(update); takes_state && length < used_state(update); ++length) {
+            call.state_length = length;
+            rejected(&f, MSLIP_BAD_STATE, "state_length is less than the reversals or pieces need");
+        }
+        call.state_length = STATE;
+    }
+    if (strstr(fields, "call.workspace_length,")) {
+        bad_lengths(&f, &call.workspace_length, call.workspace_length, MSLIP_WORKSPACE_TOO_SHORT);
+    }
+    if (strstr(fields, "call.table_length,")) {
+        bad_lengths(&f, &call.table_length, call.table_length, MSLIP_TABLE_TOO_SHORT);
+    }
+    if (strstr(fields, "call.found_rule,")) {
+        CHECK(*call.found_harmonics == HARMONICS && *call.found_samples == SAMPLES && *call.found_rule == call.rule);
+        CHECK(!is_element || *call.found_directions == directions_of(variant));
+        call.found_harmonics = call.found_samples = NULL;
+        call.found_rule = call.found_directions = NULL;
+        CHECK(f.call() == MSLIP_OK);
+    }
+    /* Memory that was never initialised. */
+    const struct {
+        const void *memory;
+        size_t bytes;
+        int32_t status;
+    } memory[] = {
+        { call.contacts, sizeof(mslip_contact), MSLIP_BAD_CONTACT },
+        { call.elements, sizeof(mslip_element), MSLIP_BAD_ELEMENT },
+        { call.state, STATE * sizeof(double), MSLIP_BAD_STATE },
+        { call.workspace, call.workspace_length * sizeof(double), MSLIP_BAD_WORKSPACE },
+    };
+    for (size_t i = 0; i < LENGTH(memory); ++i) {
+        for (int fill = 0; memory[i].memory != NULL && fill < 256; fill += 51) {
+            memset((void *)(size_t)memory[i].memory, fill, memory[i].bytes);
+            rejected(&f, memory[i].status, "uninitialised memory");
+        }
     }
 }
 
-static void test_element_workspace(int32_t of_element)
+/* Lengths beyond the address space, and errors of states without merged reversals or pieces. */
+static void test_lengths(void)
 {
-    static const char init_name[] = "mslip_element_workspace_init", size_name[] = "mslip_element_workspace_size";
-    enum { MOST = 1 << 24 };
-    const struct {
-        int32_t directions;
-        size_t harmonics, samples;
-        int32_t rule, status;
-    } rows[] = {
-        { 0, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
-        { 3, 2, 16, 0, MSLIP_BAD_DIRECTIONS },
-        { INT32_MIN, 0, 0, 7, MSLIP_BAD_DIRECTIONS },
-        { of_element, 2, 16, MSLIP_EVENT_DRIVEN, MSLIP_NOT_AVAILABLE },
-        { of_element, 2, 16, 2, MSLIP_BAD_RULE },
-        { of_element, 2, 16, -1, MSLIP_BAD_RULE },
-        { of_element, 2, 16, INT32_MAX, MSLIP_BAD_RULE },
-        { of_element, 0, 16, 0, MSLIP_BAD_HARMONICS },
-        { of_element, 0, 0, 0, MSLIP_BAD_HARMONICS },
-        { of_element, MOST + 1, SIZE_MAX, 0, MSLIP_BAD_HARMONICS },
-        { of_element, SIZE_MAX / 2 + 1, 1, 0, MSLIP_BAD_HARMONICS },
-        { of_element, 2, 4, 0, MSLIP_BAD_SAMPLES },
-        { of_element, MOST, MOST, 0, MSLIP_BAD_SAMPLES },
-        { of_element, 2, MOST + 1, 0, MSLIP_BAD_SAMPLES },
-        { of_element, 2, SIZE_MAX, 0, MSLIP_BAD_SAMPLES },
-        { of_element, MOST / 2 - 1, MOST, 0, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
-        { of_element, 2, 16, 0, MSLIP_WORKSPACE_TOO_SHORT },
-    };
-    const function *f = find("mslip_element_harmonic_force", of_element == 1 ? MSLIP_APPROACH : TWO_DIRECTIONS + MSLIP_APPROACH);
-    size_t harmonics = 0, samples = 0;
-    int32_t directions = -1, rule = -1;
-    set_up(f);
-    double *const memory = call.workspace;
-    save_regions();
-    for (size_t i = 0; i < LENGTH(rows); ++i) {
-        const size_t h = rows[i].harmonics, s = rows[i].samples;
-        const size_t length = mslip_element_workspace_length(rows[i].directions, h, s, rows[i].rule);
-        const size_t lengths[] = { 0, 1, 4, length > 0 ? length - 1 : 100 };
-        CHECK((length == 0) == (rows[i].status != MSLIP_WORKSPACE_TOO_SHORT));
-        for (size_t k = 0; k < LENGTH(lengths); ++k) {
-            check_rejected(mslip_element_workspace_init(rows[i].directions, h, s, rows[i].rule, lengths[k], memory),
-                           rows[i].status, init_name, "any");
-        }
+    static const int32_t directions[] = { 0, 3, -1, INT32_MAX, INT32_MIN };
+    for (size_t k = 0; k < LENGTH(directions); ++k) {
+        CHECK(mslip_element_state_length(directions[k], (size_t)k) == 0);
     }
-    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, SIZE_MAX, memory), MSLIP_BAD_ARRAY_SIZE, init_name, "length");
-    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, 1000, NULL), MSLIP_NULL_POINTER, init_name, "workspace");
-    double *const bad = misaligned(memory, 8);
-    check_rejected(mslip_element_workspace_init(of_element, 2, 16, 0, 1000, bad), MSLIP_BAD_ALIGNMENT, init_name, "workspace");
-
-    CHECK(mslip_element_workspace_size(memory, NULL, NULL, NULL, NULL) == MSLIP_OK);
-    CHECK(mslip_element_workspace_size(memory, &directions, &harmonics, &samples, &rule) == MSLIP_OK);
-    CHECK(directions == of_element && harmonics == HARMONICS && samples == SAMPLES && rule == MSLIP_UNIFORM_SAMPLING);
-    harmonics = samples = 7;
-    directions = rule = 7;
-    for (int i = 0; i < 7; ++i) {
-        static const int32_t expected[] = { MSLIP_NULL_POINTER,  MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT,
-                                            MSLIP_BAD_ALIGNMENT, MSLIP_BAD_ALIGNMENT, MSLIP_BAD_WORKSPACE };
-        const double *workspace = i == 0 ? NULL : i == 1 ? misaligned(memory, 8) : memory;
-        int32_t *d = i == 2 ? misaligned(&directions, sizeof directions) : &directions;
-        size_t *h = i == 3 ? misaligned(&harmonics, sizeof harmonics) : &harmonics;
-        size_t *s = i == 4 ? misaligned(&samples, sizeof samples) : &samples;
-        int32_t *r = i == 5 ? misaligned(&rule, sizeof rule) : &rule;
-        if (i == 6) {
-            memset(memory, 0x5a, workspace_length(f) * sizeof(double));
-        }
-        save_regions();
-        check_rejected(mslip_element_workspace_size(workspace, d, h, s, r), expected[i], size_name, "any");
-        CHECK(harmonics == 7 && samples == 7 && directions == 7 && rule == 7);
+    CHECK(mslip_state_length(SIZE_MAX) == SIZE_MAX && mslip_state_length(SIZE_MAX / 2) == SIZE_MAX);
+    CHECK(mslip_element_state_length(1, SIZE_MAX) == SIZE_MAX && mslip_element_state_length(1, SIZE_MAX / 4) == SIZE_MAX);
+    CHECK(mslip_element_state_length(1, 0) == mslip_element_state_length(1, 4));
+    CHECK(mslip_element_state_length(2, 0) > 0 && mslip_element_state_length(2, SIZE_MAX) == mslip_element_state_length(2, 0));
+    set_up(find("mslip_masing_update", 0));
+    CHECK(mslip_state_error(STATE, call.state, call.out[1]) == MSLIP_OK && *call.out[1] == 0.0);
+    CHECK(mslip_state_error(STATE, call.state, NULL) == MSLIP_OK);
+    for (int variant = 0; variant < VARIANTS; ++variant) {
+        set_up(find("mslip_element_update", variant));
+        CHECK(mslip_element_state_error(directions_of(variant), STATE, call.state, call.out[3]) == MSLIP_OK);
+        CHECK(*call.out[3] >= 0.0 && mslip_element_state_error(directions_of(variant), STATE, call.state, NULL) == MSLIP_OK);
     }
+}
 
-    /* The workspace of the other law. */
+static void test_workspaces_of_the_other_law(const function *f)
+{
     const function *other = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
     double header[2];
     set_up(f);
@@ -932,10 +846,9 @@ static void test_normal_motions(const function *f)
     set_up(f);
 }
 
-/* Tables of other shapes, for which nothing but friction coefficient and scale may differ; invalid arguments of the initialisation. */
+/* Tables of other shapes, for which nothing but friction coefficient and scale may differ. */
 static void test_table(void)
 {
-    static const char name[] = "mslip_stiffness_table_init";
     const function *f = find("mslip_complex_stiffness_tabulated", 0);
     const size_t length = mslip_stiffness_table_length();
     for (int change = 0; change < 8; ++change) {
@@ -958,22 +871,6 @@ static void test_table(void)
         memset(call.out, 0, sizeof call.out);
         rejected(f, MSLIP_BAD_TABLE, "the table of another shape, without outputs");
     }
-    set_up(f);
-    double *const table = call.table;
-    const mslip_contact *const contact = call.contacts;
-    save_regions();
-    const size_t lengths[] = { 0, 1, length - 1 }, too_many[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8 };
-    for (size_t i = 0; i < LENGTH(lengths); ++i) {
-        check_rejected(mslip_stiffness_table_init(contact, lengths[i], table), MSLIP_TABLE_TOO_SHORT, name, "table_length");
-        check_rejected(mslip_stiffness_table_init(contact, too_many[i], table), MSLIP_BAD_ARRAY_SIZE, name, "table_length");
-    }
-    check_rejected(mslip_stiffness_table_init(contact, length, NULL), MSLIP_NULL_POINTER, name, "table");
-    check_rejected(mslip_stiffness_table_init(contact, length, misaligned(table, 8)), MSLIP_BAD_ALIGNMENT, name, "table");
-    check_rejected(mslip_stiffness_table_init(NULL, length, table), MSLIP_NULL_POINTER, name, "contact");
-    check_rejected(mslip_stiffness_table_init(misaligned(contact, 8), length, table), MSLIP_BAD_ALIGNMENT, name, "contact");
-    memset(CONTACTS, 0xff, sizeof *contact);
-    save_regions();
-    check_rejected(mslip_stiffness_table_init(contact, length, table), MSLIP_BAD_CONTACT, name, "an uninitialised contact");
 }
 
 /* Slip distributions of elliptical contacts, and the state of another contact. */
@@ -1071,7 +968,6 @@ int main(int argc, char **argv)
         test_parameters(shape);
     }
     test_combinations();
-    test_element_init();
     for (int i = 0; i < FUNCTIONS; ++i) {
         const function *f = &functions[i];
         set_up(f);
@@ -1095,14 +991,15 @@ int main(int argc, char **argv)
             test_batch(f);
         }
     }
-    test_state_functions();
-    test_element_state_functions(1);
-    test_element_state_functions(2);
-    test_workspace_size(MSLIP_UNIFORM_SAMPLING);
-    test_workspace_size(MSLIP_EVENT_DRIVEN);
-    test_workspace_init();
-    test_element_workspace(1);
-    test_element_workspace(2);
+    for (size_t i = 0; i < LENGTH(others); ++i) {
+        const int is_element = strstr(others[i].name, "element") != NULL;
+        for (int variant = 0; variant < (is_element ? VARIANTS : 2); ++variant) {
+            test_other(others[i].name, others[i].call, others[i].fields, is_element, variant);
+        }
+    }
+    test_lengths();
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_APPROACH));
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_APPROACH));
     test_two_directions();
     test_table();
     test_other_contacts();

@@ -249,51 +249,31 @@ static inline int32_t status_of_non_finite(int kind)
 enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32, TAKES_TABLE = 64 };
 enum { OUTPUTS = 5 }; /* the new state first */
 
+/* The arguments of the next call. A function takes some of them. */
 typedef struct {
     const mslip_contact *contacts;
     const mslip_element *elements;
+    const mslip_parameters *parameters;
+    const mslip_elliptic_parameters *elliptic_parameters;
+    mslip_contact *new_contact;
+    mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length;
+    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
+    int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
-    double *workspace, *table, *out[OUTPUTS];
+    double *workspace, *table, *buffer, *out[OUTPUTS];
+    int32_t *found_directions, *found_rule;
+    size_t *found_harmonics, *found_samples;
 } arguments;
 static arguments call;
 
-#define CALL(name, ...) static int32_t call_##name(void) { return mslip_##name(__VA_ARGS__); }
-#define OUT1 call.out[1]
-#define OUT2 call.out[1], call.out[2]
-#define OUT3 call.out[1], call.out[2], call.out[3]
-#define OUT4 call.out[1], call.out[2], call.out[3], call.out[4]
-#define BATCH call.n, call.n_contacts, call.contacts, call.index, call.active
-#define ELEMENT_BATCH call.n, call.n_contacts, call.elements, call.index, call.active
-CALL(tractions, call.contacts, call.scalar, call.n, call.input, OUT2)
-CALL(slip, call.contacts, call.scalar, call.n, call.input, OUT2)
-CALL(monotonic_displacement, call.contacts, call.n, call.input, OUT3)
-CALL(monotonic_force, call.contacts, call.n, call.input, OUT3)
-CALL(monotonic_sensitivity, call.contacts, call.n, call.input, OUT2)
-CALL(masing_update, call.contacts, call.state_length, call.state, call.scalar, call.out[0], OUT3)
-CALL(masing_path, call.contacts, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
-CALL(masing_tractions, call.contacts, call.state_length, call.state, call.n, call.input, OUT2)
-CALL(hysteresis_loop, call.contacts, call.scalar, call.n, OUT2)
-CALL(dissipated_energy, call.contacts, call.n, call.input, OUT1)
-CALL(complex_stiffness, call.contacts, call.n, call.input, OUT4)
-CALL(complex_stiffness_tabulated, call.contacts, call.table, call.n, call.input, OUT4)
-CALL(harmonic_force, call.contacts, call.workspace, call.input, OUT3)
-CALL(harmonic_sensitivity, call.contacts, call.workspace, call.input, OUT2)
-CALL(jenkins_equivalent, call.contacts, call.scalar, OUT2)
-CALL(iwan_equivalent, call.contacts, call.n, OUT3)
-CALL(batch_complex_stiffness, BATCH, call.input, OUT4)
-CALL(batch_masing_update, BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
-CALL(batch_harmonic_force, BATCH, call.workspace, call.input, OUT3)
-CALL(normal_force, call.elements, call.n, call.input, OUT3)
-CALL(normal_approach, call.elements, call.n, call.input, OUT3)
-CALL(element_update, call.elements, call.state_length, call.state, call.input, call.out[0], OUT3)
-CALL(element_path, call.elements, call.state_length, call.state, call.n, call.input, call.out[0], OUT3)
-CALL(element_tractions, call.elements, call.state_length, call.state, call.n, call.input, OUT2)
-CALL(batch_element_update, ELEMENT_BATCH, call.state_length, call.state, call.input, call.out[0], OUT3)
-CALL(element_harmonic_force, call.elements, call.workspace, call.input, OUT3)
-CALL(batch_element_harmonic_force, ELEMENT_BATCH, call.workspace, call.input, OUT3)
+#define CALL(name, ...) \
+    static int32_t call_##name(void) \
+    { \
+        return mslip_##name(__VA_ARGS__); \
+    }
+#include "functions.h"
 
 typedef struct {
     const char *name;
@@ -306,57 +286,22 @@ typedef struct {
     size_t out[OUTPUTS]; /* lengths of the outputs */
 } function;
 
-#define FUNCTION(name) "mslip_" #name, call_##name
-#define HARMONIC(rule) \
-    { FUNCTION(harmonic_force), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, { 0, COEFFICIENTS, SQUARE, 1 } }, \
-    { FUNCTION(harmonic_sensitivity), TAKES_WORKSPACE, rule, NONE, DISPLACEMENT, COEFFICIENTS, \
-      { 0, COEFFICIENTS, MSLIP_PARAMETER_COUNT * COEFFICIENTS } }, \
-    { FUNCTION(batch_harmonic_force), TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, rule, NONE, DISPLACEMENT, ITEMS * COEFFICIENTS, \
-      { 0, ITEMS * COEFFICIENTS, ITEMS * SQUARE, ITEMS } }
-/* A variant of elements with m components. */
-#define ELEMENT(variant, m) \
-    { FUNCTION(normal_force), IS_ELEMENT | TAKES_COUNT, variant, NONE, APPROACH, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
-    { FUNCTION(normal_approach), IS_ELEMENT | TAKES_COUNT, variant, NONE, NORMAL_FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } }, \
-    { FUNCTION(element_update), IS_ELEMENT | TAKES_STATE, variant, NONE, DISPLACEMENT, m, { STATE, m, (m) * (m), 1 } }, \
-    { FUNCTION(element_path), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, variant, NONE, DISPLACEMENT, ITEMS * (m), \
-      { STATE, ITEMS * (m), ITEMS * (m) * (m), ITEMS } }, \
-    { FUNCTION(batch_element_update), IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, variant, NONE, DISPLACEMENT, \
-      ITEMS * (m), { ITEMS * STATE, ITEMS * (m), ITEMS * (m) * (m), ITEMS } }, \
-    { FUNCTION(element_harmonic_force), IS_ELEMENT | TAKES_WORKSPACE, variant, NONE, DISPLACEMENT, (m) * COEFFICIENTS, \
-      { 0, (m) * COEFFICIENTS, (m) * (m) * SQUARE, 1 } }, \
-    { FUNCTION(batch_element_harmonic_force), IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, variant, NONE, DISPLACEMENT, \
-      ITEMS * (m) * COEFFICIENTS, { 0, ITEMS * (m) * COEFFICIENTS, ITEMS * (m) * (m) * SQUARE, ITEMS } }
-#define ELEMENT_TRACTIONS(variant) \
-    { FUNCTION(element_tractions), IS_ELEMENT | TAKES_STATE | TAKES_COUNT, variant, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } }
 static const function functions[] = {
-    { FUNCTION(tractions), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
-    { FUNCTION(slip), TAKES_COUNT, 0, FORCE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
-    { FUNCTION(monotonic_displacement), TAKES_COUNT, 0, NONE, FORCE, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(monotonic_force), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(monotonic_sensitivity), TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { 0, ITEMS, MSLIP_PARAMETER_COUNT * ITEMS } },
-    { FUNCTION(masing_update), TAKES_STATE, 0, DISPLACEMENT, NONE, 0, { STATE, 1, 1, 1 } },
-    { FUNCTION(masing_path), TAKES_STATE | TAKES_COUNT, 0, NONE, DISPLACEMENT, ITEMS, { STATE, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(masing_tractions), TAKES_STATE | TAKES_COUNT, 0, NONE, POSITION, ITEMS, { 0, ITEMS, ITEMS } },
-    { FUNCTION(hysteresis_loop), TAKES_COUNT, 0, AMPLITUDE, NONE, 0, { 0, ITEMS, ITEMS } },
-    { FUNCTION(dissipated_energy), TAKES_COUNT, 0, NONE, FORCE_AMPLITUDE, ITEMS, { 0, ITEMS } },
-    { FUNCTION(complex_stiffness), TAKES_COUNT, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(complex_stiffness_tabulated), TAKES_COUNT | TAKES_TABLE, 0, NONE, AMPLITUDE, ITEMS,
-      { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(jenkins_equivalent), 0, 0, AMPLITUDE, NONE, 0, { 0, 1, 1 } },
-    { FUNCTION(iwan_equivalent), TAKES_COUNT | IS_IWAN, 0, NONE, NONE, 0, { 0, ITEMS, ITEMS, 1 } },
-    { FUNCTION(batch_complex_stiffness), TAKES_COUNT | IS_BATCH, 0, NONE, AMPLITUDE, ITEMS, { 0, ITEMS, ITEMS, ITEMS, ITEMS } },
-    { FUNCTION(batch_masing_update), TAKES_COUNT | TAKES_STATE | IS_BATCH, 0, NONE, DISPLACEMENT, ITEMS,
-      { ITEMS * STATE, ITEMS, ITEMS, ITEMS } },
-    HARMONIC(MSLIP_UNIFORM_SAMPLING),
-    HARMONIC(MSLIP_EVENT_DRIVEN),
-    ELEMENT(MSLIP_APPROACH, 2),
-    ELEMENT_TRACTIONS(MSLIP_APPROACH),
-    ELEMENT(MSLIP_NORMAL_FORCE, 2),
-    ELEMENT_TRACTIONS(MSLIP_NORMAL_FORCE),
-    ELEMENT(TWO_DIRECTIONS + MSLIP_APPROACH, 3),
-    ELEMENT(TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, 3),
+#define ROW(name, takes, rule, scalar, kind, inputs, ...) \
+    { "mslip_" #name, call_##name, takes, rule, scalar, kind, inputs, { __VA_ARGS__ } },
+#include "functions.h"
 };
 enum { FUNCTIONS = LENGTH(functions) };
+
+/* Those that initialise or check memory, with the fields of `call` that each takes. */
+static const struct {
+    const char *name;
+    int32_t (*call)(void);
+    const char *fields;
+} others[] = {
+#define OTHER(name, ...) { "mslip_" #name, call_##name, #__VA_ARGS__ "," },
+#include "functions.h"
+};
 
 static inline const function *find(const char *name, int rule)
 {

@@ -378,7 +378,7 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *stick_half_width);
 
 // Derivatives of the force of the monotonic curve with respect to the parameters at displacement[n] [m], which stays fixed:
-// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major: the derivatives of force i are sensitivity[6 i +
+// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity[6 i +
 // MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
 // contact with mu = 0 or N = 0 at any displacement but 0.
 //
@@ -674,7 +674,7 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *dissipated);
 
 // Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement [m] and
-// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major: the derivative of force
+// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of force
 // coefficient i is sensitivity[i + (2H+1) MSLIP_BY_...], in [N] over the unit of the parameter. The parameters are those of
 // mslip_monotonic_sensitivity.
 //
@@ -799,8 +799,8 @@ int32_t mslip_element_state_error(int32_t directions,
 // displacements [m] and the normal approach [m] or the normal force [N]. With m = 2 or 3 components, force[m] [N] is
 // [T, N] or [Tx, Ty, N], tangent[m m] [N/m] is d force_i / d displacement_j, m x m, column-major, consistent with the step
 // and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
-// state is discarded. Only what is in use of it is written: initialise both states to store or compare whole arrays. Within a step
-// the path is straight in the tangential displacement and the tangential shift S of the contact size.
+// state is discarded. Only the used part of the new state is written: initialise both states to store or compare whole arrays.
+// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 // directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be

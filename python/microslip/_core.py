@@ -28,6 +28,7 @@ NORMAL_INPUTS = ("approach", "normal_force")
 class Status(IntEnum):
     """The status codes of the C interface: ``MSLIP_BAD_LENGTH`` is ``Status.BAD_LENGTH``."""
 
+    # <generated: statuses>
     NULL_POINTER = 1
     BAD_FLAT_HALF_WIDTH = 2
     BAD_EDGE_RADIUS = 3
@@ -65,17 +66,20 @@ class Status(IntEnum):
     BAD_NORMAL_INPUT = 43
     BAD_ARRAY_SIZE = 90
     BAD_ALIGNMENT = 91
+    # </generated>
 
 
 class Parameter(IntEnum):
     """Columns of a sensitivity: the derivative with respect to this parameter."""
 
+    # <generated: parameters>
     NORMAL_FORCE = 0
     FRICTION_COEFFICIENT = 1
     FLAT_HALF_WIDTH = 2
     EDGE_RADIUS = 3
     LENGTH = 4
     COMPOSITE_MODULUS = 5
+    # </generated>
 
 
 class Error(ValueError):

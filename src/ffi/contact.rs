@@ -243,7 +243,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 }
 
 /// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
-/// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major: the derivatives of force i are sensitivity\[6 i +
+/// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity\[6 i +
 /// MSLIP_BY_...\], in \[N\] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
 /// contact with mu = 0 or N = 0 at any displacement but 0.
 ///

@@ -265,7 +265,7 @@ pub unsafe extern "C" fn mslip_harmonic_force(
 }
 
 /// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and
-/// force \[N\] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major: the derivative of force
+/// force \[N\] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of force
 /// coefficient i is sensitivity\[i + (2H+1) MSLIP_BY_...\], in \[N\] over the unit of the parameter. The parameters are those of
 /// mslip_monotonic_sensitivity.
 ///

@@ -3,6 +3,9 @@
 //!
 //! In the module, a block stands between the lines `! <generated: NAME>` and `! </generated>`.
 
+use crate::interface::{Declaration, Header, Prototype, functions};
+use crate::wrappers;
+
 /// Column at which comments and statements are wrapped; a line that takes a short comment along may have `LONGEST`.
 const WIDTH: usize = 120;
 /// The longest line of free-form Fortran.
@@ -12,19 +15,26 @@ const UNBROKEN: char = '\u{a0}';
 
 /// Fills the generated blocks of the module from the header.
 pub fn fill(module: &str, header: &str) -> Result<String, String> {
-    let mut blocks =
-        vec![("constants", constants(header)), ("types", types(header)?), ("functions", functions(header)?)];
+    let declared = Header::new(header)?;
+    let prototypes = declared.prototypes()?;
+    let raw = ("functions", interfaces(&prototypes)?);
+    let mut blocks = vec![("constants", constants(header)), ("types", types(header)?), raw];
+    blocks.extend(wrappers::blocks(&functions(&prototypes)?));
+    replaced(module, blocks)
+}
+
+/// Replaces each block between a line `<generated: NAME>` and a line `</generated>`, both comments.
+pub fn replaced(module: &str, mut blocks: Vec<(&'static str, Vec<String>)>) -> Result<String, String> {
     let mut filled = Vec::new();
     let mut lines = module.lines();
     while let Some(line) = lines.next() {
         filled.push(line.to_owned());
-        let Some(name) = line.trim().strip_prefix("! <generated: ").and_then(|rest| rest.strip_suffix('>')) else {
-            continue;
-        };
+        let marker = line.trim_start_matches([' ', '!', '#']);
+        let Some(name) = marker.strip_prefix("<generated: ").and_then(|rest| rest.strip_suffix('>')) else { continue };
         let place =
             blocks.iter().position(|block| block.0 == name).ok_or(format!("no such generated block: {name}"))?;
         filled.extend(blocks.swap_remove(place).1);
-        let end = lines.find(|line| line.trim() == "! </generated>");
+        let end = lines.find(|line| line.trim_start_matches([' ', '!', '#']) == "</generated>");
         filled.push(end.ok_or(format!("the generated block does not end: {name}"))?.to_owned());
     }
     if let Some((name, _)) = blocks.first() {
@@ -34,6 +44,16 @@ pub fn fill(module: &str, header: &str) -> Result<String, String> {
         Some(line) => Err(format!("longer than {LONGEST} columns: {line}")),
         None => Ok(filled.join("\n") + "\n"),
     }
+}
+
+/// The status codes and the rows of a sensitivity, as members of the enumerations in Python.
+pub fn python(source: &str, header: &str) -> Result<String, String> {
+    let statuses = microslip::Error::ALL
+        .iter()
+        .map(|error| format!("    {} = {}", &error.constant()["MSLIP_".len()..], error.code()));
+    let parameters = header.lines().filter_map(|line| line.strip_prefix("#define MSLIP_BY_")?.split_once(' '));
+    let parameters = parameters.map(|(name, value)| format!("    {name} = {value}"));
+    replaced(source, vec![("statuses", statuses.collect()), ("parameters", parameters.collect())])
 }
 
 /// The integer constants but for the version of the package, which `mslip_version` returns.
@@ -67,7 +87,7 @@ fn types(header: &str) -> Result<Vec<String>, String> {
             components = Some(head);
         } else if let Some(mut body) = components.take() {
             let Some(name) = item.strip_prefix("} ") else {
-                let argument = Argument::parse(item)?;
+                let argument = Declaration::parse(item)?;
                 let name = argument.name.replace('[', "(").replace(']', ")");
                 let kind = if argument.base == "double" { "real(mslip_real)" } else { "integer(mslip_int)" };
                 body.extend(commented("    ", format!("{kind} :: {name} = 0"), &comment));
@@ -84,24 +104,19 @@ fn types(header: &str) -> Result<Vec<String>, String> {
 }
 
 /// The interfaces of the C functions, with `c_` in place of the prefix.
-fn functions(header: &str) -> Result<Vec<String>, String> {
-    let declared = header.split_once("extern \"C\" {").ok_or("the header declares no functions")?.1;
-    let code: Vec<&str> = declared.lines().filter(|line| !line.starts_with(['/', '#', '}'])).collect();
+fn interfaces(prototypes: &[Prototype]) -> Result<Vec<String>, String> {
     let mut lines = vec!["  interface".to_owned()];
-    for declaration in code.join(" ").split(';').map(str::trim).filter(|text| !text.is_empty()) {
+    for prototype in prototypes {
         lines.push(String::new());
-        lines.extend(function(declaration)?);
+        lines.extend(interface(prototype)?);
     }
     lines.extend([String::new(), "  end interface".to_owned()]);
     Ok(lines)
 }
 
-fn function(declaration: &str) -> Result<Vec<String>, String> {
-    let (head, arguments) = declaration.split_once('(').ok_or(format!("no function: {declaration}"))?;
-    let Argument { name, base, .. } = Argument::parse(head)?;
-    let arguments: Vec<&str> = arguments.trim_end_matches(')').split(',').map(str::trim).collect();
-    let arguments = arguments.into_iter().filter(|text| *text != "void");
-    let arguments = arguments.map(Argument::parse).collect::<Result<Vec<Argument>, String>>()?;
+fn interface(prototype: &Prototype) -> Result<Vec<String>, String> {
+    let Prototype { result: Declaration { name, base, .. }, arguments, .. } = prototype;
+    let (name, base) = (*name, *base);
     let short = name.replacen("mslip_", "c_", 1);
 
     // Without pointers there are no side effects, and the result may dimension an array.
@@ -114,8 +129,8 @@ fn function(declaration: &str) -> Result<Vec<String>, String> {
 
     // One declaration for all arguments of a type.
     let mut declarations: Vec<(String, Vec<String>)> = Vec::new();
-    for argument in &arguments {
-        let (kind, dummy) = argument.declaration(&names)?;
+    for argument in arguments {
+        let (kind, dummy) = dummy(argument, prototype.is_counted(argument))?;
         match declarations.iter_mut().find(|declared| declared.0 == kind) {
             Some(declared) => declared.1.push(dummy),
             None => declarations.push((kind, vec![dummy])),
@@ -141,41 +156,19 @@ fn scalar(base: &str) -> Result<&'static str, String> {
     }
 }
 
-/// A C declaration: an argument, a component, or the name and result of a function.
-struct Argument<'a> {
-    name: &'a str,
-    base: &'a str,
-    pointer: bool,
-    constant: bool,
-}
-
-impl<'a> Argument<'a> {
-    fn parse(text: &'a str) -> Result<Argument<'a>, String> {
-        let start = text.rfind([' ', '*']).ok_or(format!("no declaration: {text}"))? + 1;
-        let (kind, name) = text.split_at(start);
-        let constant = kind.trim_start().starts_with("const ");
-        let base = kind.trim_matches([' ', '*']);
-        let base = base.strip_prefix("const ").unwrap_or(base);
-        let base = base.strip_prefix("struct ").unwrap_or(base);
-        Ok(Argument { name, base, pointer: kind.contains('*'), constant })
-    }
-
-    /// The type and the dummy argument of an interface whose arguments are `names`. Arrays that are only read are passed as
-    /// such, so that the compiler makes sections with strides contiguous; an array that may be absent, or may be an output as
-    /// well, is passed by its C address. Structures are arrays if their number is an argument.
-    fn declaration(&self, names: &str) -> Result<(String, String), String> {
-        let Argument { name, base, .. } = *self;
-        let intent = if self.constant { "intent(in)" } else { "intent(inout)" };
-        if !self.pointer {
-            Ok((format!("{}, value", scalar(base)?), name.to_owned()))
-        } else if base.starts_with("mslip_") {
-            let counted = names.split(", ").any(|count| count.strip_prefix("n_") == Some(name));
-            Ok((format!("type({base}), {intent}"), format!("{name}{}", if counted { "(*)" } else { "" })))
-        } else if base == "double" && self.constant && !name.ends_with("_old") {
-            Ok((format!("{}, {intent}", scalar(base)?), format!("{name}(*)")))
-        } else {
-            scalar(base).map(|_| ("type(c_ptr), value".to_owned(), name.to_owned()))
-        }
+/// The type and the dummy argument of an interface. Arrays that are only read are passed as such, so that the compiler makes
+/// sections with strides contiguous; an array that may be absent, or may be an output as well, is passed by its C address.
+fn dummy(argument: &Declaration, counted: bool) -> Result<(String, String), String> {
+    let Declaration { name, base, pointer, constant } = *argument;
+    let intent = if constant { "intent(in)" } else { "intent(inout)" };
+    if !pointer {
+        Ok((format!("{}, value", scalar(base)?), name.to_owned()))
+    } else if base.starts_with("mslip_") {
+        Ok((format!("type({base}), {intent}"), format!("{name}{}", if counted { "(*)" } else { "" })))
+    } else if base == "double" && constant && !name.ends_with("_old") {
+        Ok((format!("{}, {intent}", scalar(base)?), format!("{name}(*)")))
+    } else {
+        scalar(base).map(|_| ("type(c_ptr), value".to_owned(), name.to_owned()))
     }
 }
 
@@ -195,8 +188,9 @@ fn items(header: &str) -> Vec<(&str, String)> {
 }
 
 /// A statement with its comment, on the same line if that is not too long.
-fn commented(indent: &str, statement: String, comment: &str) -> Vec<String> {
+pub fn commented(indent: &str, statement: String, comment: &str) -> Vec<String> {
     let line = format!("{indent}{statement}  !! {comment}");
+    let line = if comment.is_empty() { indent.to_owned() + &statement } else { line };
     if line.chars().count() <= LONGEST {
         return vec![line];
     }
@@ -205,12 +199,12 @@ fn commented(indent: &str, statement: String, comment: &str) -> Vec<String> {
     lines
 }
 
-fn comment_lines(indent: &str, comment: &str) -> Vec<String> {
+pub fn comment_lines(indent: &str, comment: &str) -> Vec<String> {
     broken(comment, WIDTH - indent.len() - 3).into_iter().map(|line| format!("{indent}!! {line}")).collect()
 }
 
 /// A statement, continued if it is too long.
-fn wrapped(indent: &str, statement: &str) -> Vec<String> {
+pub fn wrapped(indent: &str, statement: &str) -> Vec<String> {
     let parts = broken(statement, WIDTH - indent.len() - 4);
     let last = parts.len() - 1;
     let line = |(number, part): (usize, String)| {
@@ -317,6 +311,13 @@ void mslip_clear(struct mslip_result *result);
   end interface
   ! </generated>
 ";
+
+    /// The blocks but for the procedures.
+    fn fill(module: &str, header: &str) -> Result<String, String> {
+        let declared = Header::new(header)?;
+        let raw = ("functions", interfaces(&declared.prototypes()?)?);
+        replaced(module, vec![("constants", constants(header)), ("types", types(header)?), raw])
+    }
 
     #[test]
     fn blocks_are_generated() {

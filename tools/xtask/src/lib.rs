@@ -1,6 +1,9 @@
 //! What is generated from the Rust source: the C header, blocks of the Fortran module, and the names that they declare.
 
 mod fortran;
+mod interface;
+mod tables;
+mod wrappers;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,6 +12,9 @@ use cbindgen::{Bindings, Builder, Config};
 
 const HEADER: &str = "include/microslip.h";
 const MODULE: &str = "include/microslip.f90";
+const PYTHON: &str = "python/microslip/_core.py";
+const CALLS_OF_RUST: &str = "tests/calls/table.rs";
+const CALLS_OF_C: &str = "c_tests/functions.h";
 const INCLUDE_GUARD: &str = "MICROSLIP_H";
 
 /// The directory of the library's package.
@@ -37,10 +43,16 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 2], String> {
+fn generated() -> Result<[(&'static str, String); 5], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
-    Ok([(HEADER, header), (MODULE, module)])
+    let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
+    let declared = interface::Header::new(&header)?;
+    let prototypes = declared.prototypes()?;
+    let functions = interface::functions(&prototypes)?;
+    let calls = [(CALLS_OF_RUST, tables::rust(&functions)), (CALLS_OF_C, tables::c(&functions))];
+    let [rust, c] = calls;
+    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.

@@ -1,0 +1,547 @@
+//! The calls of the C interface with valid arguments: each array is an allocation of its own, of exact length.
+
+use microslip::ffi::*;
+use microslip::{EllipticParameters, Material, Parameters};
+use std::alloc::{Layout, alloc, dealloc};
+use std::ptr::{self, null_mut};
+use std::sync::OnceLock;
+
+#[rustfmt::skip]
+mod table;
+pub use table::CALLS;
+
+/// What an argument is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Parameters,
+    EllipticParameters,
+    Contact,
+    Element,
+    NewContact,
+    NewElement,
+    /// Items or steps.
+    Count,
+    /// Contacts or elements of a batch.
+    Laws,
+    /// The length of a state, workspace or table.
+    Length,
+    /// Harmonics or samples.
+    Size,
+    /// Directions, normal input, rule.
+    Choice,
+    Index,
+    Active,
+    FoundChoice,
+    FoundSize,
+    State,
+    NewState,
+    Workspace,
+    Table,
+    /// A state, workspace or table to be initialised.
+    Buffer,
+    Value,
+    Input,
+    Output,
+}
+use Kind::*;
+
+impl Kind {
+    pub fn is_written(self) -> bool {
+        matches!(self, NewContact | NewElement | FoundChoice | FoundSize | NewState | Buffer | Output)
+    }
+
+    pub fn is_required(self) -> bool {
+        !matches!(self, Index | Active | FoundChoice | FoundSize | NewState | Output)
+    }
+}
+
+pub struct Argument {
+    pub name: &'static str,
+    pub kind: Kind,
+    /// n: items or steps, m: components of a displacement, k: coefficients, p: parameters.
+    pub extents: &'static str,
+    /// The status of an invalid value.
+    pub status: i32,
+}
+
+pub struct Call {
+    pub name: &'static str,
+    /// Not for elliptical contacts.
+    pub flat: bool,
+    /// Not for two directions.
+    pub one_direction: bool,
+    pub function: fn(&[Slot]) -> i32,
+    pub arguments: &'static [Argument],
+}
+
+impl Call {
+    pub fn place(&self, kind: Kind) -> Option<usize> {
+        self.arguments.iter().position(|argument| argument.kind == kind)
+    }
+
+    pub fn has(&self, kind: Kind) -> bool {
+        self.place(kind).is_some()
+    }
+
+    pub fn is_of_element(&self) -> bool {
+        self.has(Element) || self.has(NewElement) || self.name.contains("element")
+    }
+
+    pub fn is_sliders(&self) -> bool {
+        self.name == "mslip_iwan_equivalent"
+    }
+
+    pub fn items(&self) -> usize {
+        if self.has(Index) { N } else { 1 }
+    }
+}
+
+/// An argument as it is passed.
+#[derive(Clone, Copy, Debug)]
+pub enum Slot {
+    Pointer(*mut u8),
+    Value(f64),
+    Size(usize),
+    Choice(i32),
+}
+
+impl Slot {
+    pub fn get<T: Passed>(self) -> T {
+        T::of(self)
+    }
+
+    pub fn pointer(self) -> Option<*mut u8> {
+        match self {
+            Slot::Pointer(pointer) => Some(pointer),
+            _ => None,
+        }
+    }
+}
+
+/// The type of an argument of a function.
+pub trait Passed {
+    fn of(slot: Slot) -> Self;
+}
+
+macro_rules! passed {
+    ($($type:ty: $slot:ident;)*) => {
+        $(impl Passed for $type {
+            fn of(slot: Slot) -> $type {
+                let Slot::$slot(value) = slot else { panic!("{slot:?}") };
+                value
+            }
+        })*
+    };
+}
+
+passed! {
+    f64: Value;
+    usize: Size;
+    i32: Choice;
+}
+
+impl<T> Passed for *mut T {
+    fn of(slot: Slot) -> *mut T {
+        slot.pointer().expect("a pointer").cast()
+    }
+}
+
+impl<T> Passed for *const T {
+    fn of(slot: Slot) -> *const T {
+        slot.pointer().expect("a pointer").cast()
+    }
+}
+
+/// Uninitialised memory on the heap.
+pub struct Memory {
+    pub start: *mut u8,
+    pub bytes: usize,
+    align: usize,
+}
+
+impl Memory {
+    pub fn new<T>(length: usize) -> Memory {
+        let (bytes, align) = (length * size_of::<T>(), align_of::<T>());
+        // SAFETY: the size of the layout is not 0.
+        let start = unsafe { alloc(Memory::layout(bytes, align)) };
+        assert!(!start.is_null(), "out of memory");
+        Memory { start, bytes, align }
+    }
+
+    fn layout(bytes: usize, align: usize) -> Layout {
+        Layout::from_size_align(bytes.max(1), align).unwrap()
+    }
+
+    pub fn of<T: Copy>(values: &[T]) -> Memory {
+        let memory = Memory::new::<T>(values.len());
+        // SAFETY: valid for the values.
+        unsafe { ptr::copy_nonoverlapping(values.as_ptr(), memory.start.cast(), values.len()) };
+        memory
+    }
+
+    pub fn fill(&self, byte: u8) {
+        // SAFETY: valid for the bytes.
+        unsafe { self.start.write_bytes(byte, self.bytes) };
+    }
+
+    /// The values, all of which were written.
+    pub fn values<T>(&self) -> &[T] {
+        // SAFETY: valid for the length, and written.
+        unsafe { std::slice::from_raw_parts(self.start.cast(), self.bytes / size_of::<T>()) }
+    }
+
+    pub fn values_mut<T>(&mut self) -> &mut [T] {
+        // SAFETY: valid for the length, and written.
+        unsafe { std::slice::from_raw_parts_mut(self.start.cast(), self.bytes / size_of::<T>()) }
+    }
+
+    /// The address half an item further.
+    pub fn misaligned(&self) -> *mut u8 {
+        self.start.wrapping_byte_add(self.align / 2)
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        // SAFETY: allocated with the same layout.
+        unsafe { dealloc(self.start, Memory::layout(self.bytes, self.align)) };
+    }
+}
+
+const STEEL: Material = Material { young_modulus: 2.1e11, poisson_ratio: 0.3 };
+
+pub static FLAT: Parameters = Parameters {
+    flat_half_width: 1e-4,
+    edge_radius: 5e-3,
+    length: 0.02,
+    normal_force: 60.0,
+    friction_coefficient: 0.5,
+    material: [STEEL; 2],
+    displacement_reference: MSLIP_CENTRE_POINT,
+    reserved: 0,
+};
+
+pub static SPHERE: EllipticParameters = EllipticParameters {
+    semi_axis_x: 1e-4,
+    semi_axis_y: 1e-4,
+    normal_force: 100.0,
+    friction_coefficient: 0.3,
+    material: [STEEL; 2],
+};
+
+pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
+/// Items, steps and points.
+pub const N: usize = 3;
+pub const HARMONICS: usize = 1;
+pub const SAMPLES: usize = 9;
+
+/// A contact or an element, with its units, and the rule of a workspace.
+#[derive(Clone)]
+pub struct Law {
+    pub bytes: Vec<u8>,
+    pub is_elliptic: bool,
+    pub directions: i32,
+    pub normal_input: i32,
+    pub rule: i32,
+    pub half_width: f64,
+    pub force: f64,
+    /// A displacement near gross slip.
+    pub displacement: f64,
+    pub normal: f64,
+    pub approach: f64,
+    pub normal_force: f64,
+}
+
+fn initialised<T>(init: impl Fn(*mut T) -> i32) -> (Memory, Vec<u8>) {
+    let memory = Memory::new::<T>(1);
+    assert_eq!(init(memory.start.cast()), MSLIP_OK);
+    let bytes = memory.values().to_vec();
+    (memory, bytes)
+}
+
+/// Slightly flattened, elliptical, and without friction; initialised once, which takes seconds under Miri.
+pub fn contacts() -> &'static [Law; 3] {
+    static CONTACTS: OnceLock<[Law; 3]> = OnceLock::new();
+    CONTACTS.get_or_init(|| {
+        let rounded = Parameters { flat_half_width: 1e-6, ..FLAT };
+        let frictionless = Parameters { friction_coefficient: 0.0, ..FLAT };
+        let ellipse = EllipticParameters { semi_axis_y: 3e-4, ..SPHERE };
+        let law = |is_elliptic, (memory, bytes): (Memory, Vec<u8>)| {
+            let c: &mslip_contact = &memory.values()[0];
+            let (half_width, force, displacement) = (c.half_width, c.slip_force, c.slip_displacement);
+            let (rule, directions, normal_input) = (MSLIP_UNIFORM_SAMPLING, 1, 0);
+            let [normal, approach, normal_force] = [0.0; 3];
+            Law {
+                bytes,
+                is_elliptic,
+                directions,
+                normal_input,
+                rule,
+                half_width,
+                force,
+                displacement,
+                normal,
+                approach,
+                normal_force,
+            }
+        };
+        [
+            law(false, initialised(|contact| unsafe { mslip_contact_init(&raw const rounded, contact) })),
+            law(true, initialised(|contact| unsafe { mslip_contact_init_elliptic(&raw const ellipse, contact) })),
+            law(false, initialised(|contact| unsafe { mslip_contact_init(&raw const frictionless, contact) })),
+        ]
+    })
+}
+
+/// A slightly flattened element by approach, and a sphere by normal force, both with one direction; a sphere by approach with two.
+/// Initialised once, which takes minutes under Miri.
+pub fn elements() -> &'static [Law; 3] {
+    static ELEMENTS: OnceLock<[Law; 3]> = OnceLock::new();
+    ELEMENTS.get_or_init(|| {
+        // The springs of both directions take too long under Miri: without friction there are none.
+        let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
+        [
+            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_APPROACH, element) }),
+            element(true, |element| unsafe {
+                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_NORMAL_FORCE, element)
+            }),
+            element(true, |element| unsafe {
+                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element)
+            }),
+        ]
+    })
+}
+
+pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> Law {
+    let (memory, bytes) = initialised(init);
+    let e: &mslip_element = &memory.values()[0];
+    let by_force = e.normal_input == MSLIP_NORMAL_FORCE;
+    Law {
+        bytes,
+        is_elliptic,
+        directions: e.directions,
+        normal_input: e.normal_input,
+        rule: MSLIP_UNIFORM_SAMPLING,
+        half_width: e.half_width,
+        force: e.friction_coefficient * e.normal_force,
+        displacement: e.friction_coefficient * e.approach,
+        normal: if by_force { e.normal_force } else { e.approach },
+        approach: e.approach,
+        normal_force: e.normal_force,
+    }
+}
+
+impl Law {
+    pub fn components(&self) -> usize {
+        1 + self.directions as usize
+    }
+
+    /// The laws for which a function is called, with each rule of a workspace.
+    pub fn all(call: &Call) -> Vec<Law> {
+        if call.is_of_element() {
+            return elements().to_vec();
+        }
+        let rules = if call.has(Workspace) || call.name.contains("workspace") { &RULES[..] } else { &RULES[..1] };
+        let with_rules = contacts().iter().flat_map(|law| rules.iter().map(|&rule| Law { rule, ..law.clone() }));
+        with_rules.collect()
+    }
+
+    pub fn length(&self, extents: &str, of_element: bool) -> usize {
+        let m = if of_element { self.components() } else { 1 };
+        let factor = |letter| match letter {
+            'n' => N,
+            'm' => m,
+            'k' => m * (2 * HARMONICS + 1),
+            _ => MSLIP_PARAMETER_COUNT as usize,
+        };
+        extents.chars().map(factor).product()
+    }
+
+    /// The length of the shortest state, of a workspace, or of a table.
+    pub fn memory_length(&self, call: &Call, name: &str) -> usize {
+        let of_element = call.is_of_element();
+        match (&name[..5], of_element) {
+            ("state", false) => mslip_state_length(0),
+            ("state", true) => mslip_element_state_length(self.directions, 0),
+            ("works", false) => mslip_harmonic_workspace_length(HARMONICS, SAMPLES, self.rule),
+            ("works", true) => mslip_element_workspace_length(self.directions, HARMONICS, SAMPLES, self.rule),
+            _ => mslip_stiffness_table_length(),
+        }
+    }
+
+    /// Values of a quantity: 0, within the model, and beyond it where that is allowed.
+    fn value(&self, name: &str, i: usize, normal: bool, harmonic: bool) -> f64 {
+        let part = [0.3, 0.0, -0.9][i % 3];
+        match name {
+            _ if normal && harmonic => self.normal * [0.5, 0.3, 0.1][i % 3],
+            _ if normal => self.normal * [0.4, 0.9, 0.6][i % 3],
+            "x" => part * self.half_width,
+            "force" => part * self.force,
+            "force_amplitude" => part.abs() * self.force,
+            "amplitude" => 1.5 * part.abs() * self.displacement,
+            "displacement" => 1.2 * part * self.displacement,
+            "approach" => 2.5 * part * self.approach,
+            "normal_force" => 2.5 * part.abs() * self.normal_force,
+            _ => panic!("no value of {name}"),
+        }
+    }
+
+    /// Whether value i of an input is the normal component of a displacement, or one of its coefficients.
+    pub fn is_normal(&self, call: &Call, argument: &Argument, i: usize) -> bool {
+        let of_steps = argument.extents.contains('m');
+        let share = if of_steps { 1 } else { 2 * HARMONICS + 1 };
+        let is_vector = of_steps || argument.extents.contains('k');
+        call.has(Element) && is_vector && i / share % self.components() == self.components() - 1
+    }
+
+    pub fn input(&self, call: &Call, argument: &Argument) -> Vec<f64> {
+        let harmonic = argument.extents.contains('k');
+        (0..self.length(argument.extents, call.has(Element)))
+            .map(|i| {
+                self.value(
+                    argument.name,
+                    i / if argument.extents.contains('m') { self.components() } else { 1 },
+                    self.is_normal(call, argument, i),
+                    harmonic,
+                )
+            })
+            .collect()
+    }
+
+    pub fn state(&self, call: &Call) -> Memory {
+        let state = Memory::new::<f64>(self.memory_length(call, "state"));
+        let (n, start) = (state.bytes / 8, state.start.cast());
+        let status = if call.is_of_element() {
+            unsafe { mslip_element_state_init(self.directions, n, start) }
+        } else {
+            unsafe { mslip_state_init(n, start) }
+        };
+        assert_eq!(status, MSLIP_OK);
+        state
+    }
+
+    pub fn workspace(&self, call: &Call) -> Memory {
+        let memory = Memory::new::<f64>(self.memory_length(call, "workspace"));
+        let (n, start) = (memory.bytes / 8, memory.start.cast());
+        let status = if call.is_of_element() {
+            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, n, start) }
+        } else {
+            unsafe { mslip_harmonic_workspace_init(HARMONICS, SAMPLES, self.rule, n, start) }
+        };
+        assert_eq!(status, MSLIP_OK);
+        memory
+    }
+
+    fn table(&self) -> Memory {
+        static TABLES: OnceLock<[Vec<f64>; 3]> = OnceLock::new();
+        let tables = TABLES.get_or_init(|| {
+            contacts().each_ref().map(|law| {
+                let (contact, table) = (Memory::of_law(law, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
+                let status =
+                    unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
+                assert_eq!(status, MSLIP_OK);
+                table.values().to_vec()
+            })
+        });
+        let own = contacts().iter().position(|law| law.bytes == self.bytes).expect("a contact of the list");
+        Memory::of(&tables[own])
+    }
+}
+
+impl Memory {
+    /// Copies of a contact or an element.
+    pub fn of_law(law: &Law, items: usize) -> Memory {
+        let memory = Memory::new::<f64>(items * law.bytes.len() / 8);
+        // SAFETY: valid for the items, which may be copied as bytes.
+        (0..items).for_each(|i| unsafe {
+            ptr::copy_nonoverlapping(law.bytes.as_ptr(), memory.start.add(i * law.bytes.len()), law.bytes.len());
+        });
+        memory
+    }
+}
+
+/// The arguments of a call and their memory.
+pub struct Arguments {
+    pub slots: Vec<Slot>,
+    pub memory: Vec<Option<Memory>>,
+}
+
+/// What the memory of outputs holds before a call.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Before {
+    Uninitialised,
+    Filled,
+}
+
+pub const FILLED: u8 = 0x77;
+
+impl Arguments {
+    /// Valid arguments.
+    pub fn new(call: &Call, law: &Law, before: Before) -> Arguments {
+        let mut arguments = Arguments { slots: Vec::new(), memory: Vec::new() };
+        let items = call.items();
+        for argument in call.arguments {
+            let memory_length = |name: &str| law.memory_length(call, name);
+            let made = match argument.kind {
+                Count => Ok(Slot::Size(N)),
+                Laws => Ok(Slot::Size(items)),
+                Length => Ok(Slot::Size(memory_length(argument.name))),
+                Size => Ok(Slot::Size(if argument.name == "harmonics" { HARMONICS } else { SAMPLES })),
+                Choice => Ok(Slot::Choice(match argument.name {
+                    "directions" => law.directions,
+                    "normal_input" => law.normal_input,
+                    _ => law.rule,
+                })),
+                Value => Ok(Slot::Value(law.value(argument.name, 0, false, false))),
+                Parameters => Err(Memory::of(&[FLAT])),
+                EllipticParameters => Err(Memory::of(&[SPHERE])),
+                Contact | Element => Err(Memory::of_law(law, items)),
+                NewContact => Err(Memory::new::<mslip_contact>(1)),
+                NewElement => Err(Memory::new::<mslip_element>(1)),
+                Index => Err(Memory::of::<i32>(&[2, 0, 1])),
+                Active => Err(Memory::of::<i32>(&[1, -1, 255])),
+                FoundChoice => Err(Memory::new::<i32>(1)),
+                FoundSize => Err(Memory::new::<usize>(1)),
+                // Of an element only the used part is written.
+                State | NewState => Err(Memory::of(&law.state(call).values::<f64>().repeat(items))),
+                Workspace => Err(law.workspace(call)),
+                Table => Err(law.table()),
+                Buffer => {
+                    let name = call.name.trim_start_matches("mslip_");
+                    let name = ["state_init", "workspace_init"].iter().find(|end| name.ends_with(*end));
+                    Err(Memory::new::<f64>(memory_length(name.unwrap_or(&"table_init"))))
+                }
+                Input => Err(Memory::of(&law.input(call, argument))),
+                Output => Err(Memory::new::<f64>(law.length(argument.extents, call.has(Element)))),
+            };
+            let (slot, memory) = match made {
+                Ok(slot) => (slot, None),
+                Err(memory) => (Slot::Pointer(memory.start), Some(memory)),
+            };
+            if let (Some(memory), Before::Filled, true) = (&memory, before, argument.kind.is_written()) {
+                memory.fill(FILLED);
+            }
+            arguments.slots.push(slot);
+            arguments.memory.push(memory);
+        }
+        arguments
+    }
+
+    /// Replaces the memory of an argument.
+    pub fn set(&mut self, place: usize, memory: Memory) {
+        self.slots[place] = Slot::Pointer(memory.start);
+        self.memory[place] = Some(memory);
+    }
+
+    pub fn omit(&mut self, place: usize) {
+        self.slots[place] = Slot::Pointer(null_mut());
+    }
+
+    pub fn memory(&self, place: usize) -> &Memory {
+        self.memory[place].as_ref().expect("memory")
+    }
+
+    pub fn memory_mut(&mut self, place: usize) -> &mut Memory {
+        self.memory[place].as_mut().expect("memory")
+    }
+}

@@ -1,0 +1,350 @@
+//! The functions of the interface: declarations and comments from the C header, lengths and statuses from `interface.txt`.
+
+use std::collections::HashMap;
+
+/// The facts that types do not state.
+const FACTS: &str = include_str!("../interface.txt");
+
+/// A C declaration: an argument, a component, or the name and result of a function.
+#[derive(Clone)]
+pub struct Declaration<'a> {
+    pub name: &'a str,
+    pub base: &'a str,
+    pub pointer: bool,
+    pub constant: bool,
+}
+
+impl<'a> Declaration<'a> {
+    pub fn parse(text: &'a str) -> Result<Declaration<'a>, String> {
+        let start = text.rfind([' ', '*']).ok_or(format!("no declaration: {text}"))? + 1;
+        let (kind, name) = text.split_at(start);
+        let constant = kind.trim_start().starts_with("const ");
+        let base = kind.trim_matches([' ', '*']);
+        let base = base.strip_prefix("const ").unwrap_or(base);
+        let base = base.strip_prefix("struct ").unwrap_or(base);
+        Ok(Declaration { name, base, pointer: kind.contains('*'), constant })
+    }
+}
+
+/// A function as declared in the header: its name and result, its arguments, and the paragraphs of its comment.
+pub struct Prototype<'a> {
+    pub result: Declaration<'a>,
+    pub arguments: Vec<Declaration<'a>>,
+    pub comment: Vec<String>,
+}
+
+impl Prototype<'_> {
+    /// Structures are arrays if their number is an argument.
+    pub fn is_counted(&self, argument: &Declaration) -> bool {
+        self.arguments.iter().any(|count| count.name.strip_prefix("n_") == Some(argument.name))
+    }
+}
+
+/// A header, with each declaration of a function on one line.
+pub struct Header {
+    lines: Vec<String>,
+}
+
+impl Header {
+    pub fn new(header: &str) -> Result<Header, String> {
+        let declared = header.split_once("extern \"C\" {").ok_or("the header declares no functions")?.1;
+        let mut lines: Vec<String> = Vec::new();
+        for line in
+            declared.lines().map(str::trim).filter(|line| !line.starts_with(['/', '#', '}']) || line.starts_with("//"))
+        {
+            match lines.last_mut() {
+                Some(last) if !last.starts_with("//") && !last.is_empty() && !last.ends_with(';') => {
+                    last.push(' ');
+                    last.push_str(line);
+                }
+                _ => lines.push(line.to_owned()),
+            }
+        }
+        Ok(Header { lines })
+    }
+
+    pub fn prototypes(&self) -> Result<Vec<Prototype<'_>>, String> {
+        let (mut prototypes, mut comment) = (Vec::new(), vec![String::new()]);
+        for line in &self.lines {
+            if let Some(text) = line.strip_prefix("//") {
+                match (text.trim(), comment.last_mut()) {
+                    ("", _) => comment.push(String::new()),
+                    (text, Some(paragraph)) => *paragraph = format!("{paragraph} {text}").trim().to_owned(),
+                    (_, None) => {}
+                }
+            } else if let Some(declaration) = line.strip_suffix(';') {
+                let (head, arguments) = declaration.split_once('(').ok_or(format!("no function: {declaration}"))?;
+                let arguments =
+                    arguments.trim_end_matches(')').split(',').map(str::trim).filter(|text| *text != "void");
+                let arguments = arguments.map(Declaration::parse).collect::<Result<_, String>>()?;
+                let comment = std::mem::replace(&mut comment, vec![String::new()]);
+                prototypes.push(Prototype { result: Declaration::parse(head)?, arguments, comment });
+            }
+        }
+        Ok(prototypes)
+    }
+}
+
+/// An argument of a function.
+#[derive(Clone)]
+pub struct Argument<'a> {
+    pub declaration: Declaration<'a>,
+    /// An array of structures.
+    pub counted: bool,
+    /// Letters of the extents of an array of doubles, the first the fastest; none of a single one, a state or a buffer.
+    pub extents: String,
+    pub required: bool,
+    pub comment: &'a str,
+    /// Name of the constant that is the status of an invalid value; empty if none is.
+    pub status: &'a str,
+}
+
+impl Argument<'_> {
+    pub fn name(&self) -> &str {
+        self.declaration.name
+    }
+
+    /// A value, or an array of values, that the function reads.
+    pub fn is_input(&self) -> bool {
+        let Declaration { base, pointer, constant, .. } = self.declaration;
+        base == "double" && (!pointer || constant) && !self.is_memory()
+    }
+
+    /// A state, workspace or table.
+    pub fn is_memory(&self) -> bool {
+        self.declaration.pointer && (self.name().starts_with("state") || matches!(self.name(), "workspace" | "table"))
+    }
+
+    /// An array of values, or a value, that the function writes.
+    pub fn is_output(&self) -> bool {
+        let Declaration { base, pointer, constant, .. } = self.declaration;
+        base == "double" && pointer && !constant && !self.is_memory()
+    }
+
+    /// A length of an array, which the array carries in Fortran.
+    pub fn is_length(&self) -> bool {
+        let Declaration { name, pointer, .. } = self.declaration;
+        !pointer && (name == "n" || name.starts_with("n_") || name.ends_with("_length"))
+    }
+}
+
+/// A function with all facts.
+pub struct Function<'a> {
+    pub name: &'a str,
+    pub result: &'a str,
+    pub arguments: Vec<Argument<'a>>,
+    /// Paragraphs of the comment in the header.
+    pub comment: Vec<String>,
+    words: Vec<&'a str>,
+    /// Title of the section that begins with the function.
+    pub section: Vec<&'a str>,
+}
+
+impl Function<'_> {
+    pub fn has(&self, word: &str) -> bool {
+        self.words.contains(&word)
+    }
+
+    pub fn argument(&self, name: &str) -> Option<&Argument<'_>> {
+        self.arguments.iter().find(|argument| argument.name() == name)
+    }
+
+    pub fn is_batch(&self) -> bool {
+        self.argument("index").is_some()
+    }
+
+    /// Letters of the extents of all arguments.
+    pub fn letters(&self) -> String {
+        self.arguments.iter().map(|argument| argument.extents.as_str()).collect()
+    }
+}
+
+/// What `interface.txt` states of an argument of a function.
+#[derive(Clone)]
+struct Fact<'a> {
+    name: &'a str,
+    extents: String,
+    required: bool,
+    comment: &'a str,
+}
+
+impl<'a> Fact<'a> {
+    fn parse(line: &'a str) -> Result<Fact<'a>, String> {
+        let (head, comment) = line.split_once(':').ok_or(format!("no comment: {line}"))?;
+        let required = head.ends_with('!');
+        let (name, extents) = head.trim_end_matches([' ', '!', ')']).split_once(" (").unwrap_or((head, ""));
+        let name = name.trim_end_matches([' ', '!']);
+        let extents: String = extents.chars().filter(|letter| letter.is_alphabetic()).collect();
+        match extents.trim_matches(['n', 'm', 'k', 'p']) {
+            "" => Ok(Fact { name, extents, required, comment: comment.trim() }),
+            _ => Err(format!("unknown extents: {line}")),
+        }
+    }
+}
+
+struct Entry<'a> {
+    name: &'a str,
+    words: Vec<&'a str>,
+    facts: Vec<Fact<'a>>,
+    section: Vec<&'a str>,
+}
+
+/// The functions in the order of `interface.txt`.
+pub fn functions<'a>(prototypes: &'a [Prototype<'a>]) -> Result<Vec<Function<'a>>, String> {
+    functions_by(FACTS, prototypes)
+}
+
+fn functions_by<'a>(facts: &'a str, prototypes: &'a [Prototype<'a>]) -> Result<Vec<Function<'a>>, String> {
+    let (mut common, mut statuses) = (HashMap::new(), HashMap::new());
+    let (mut entries, mut section): (Vec<Entry>, _) = (Vec::new(), Vec::new());
+    for line in facts.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
+        if let Some(title) = line.strip_prefix("---") {
+            section.push(title.trim());
+        } else if let Some(fact) = line.strip_prefix("    ") {
+            entries.last_mut().ok_or("an argument without a function")?.facts.push(Fact::parse(fact)?);
+        } else if line.starts_with("mslip_") {
+            let mut words = line.split(", ");
+            let (name, other) =
+                words.next().map(|name| name.split_once(" = ").unwrap_or((name, ""))).unwrap_or_default();
+            let mut words: Vec<&str> = words.collect();
+            let mut facts = Vec::new();
+            if !other.is_empty() {
+                facts = entries.iter().find(|entry| entry.name == other).ok_or(format!("no {other}"))?.facts.clone();
+                if let Some(place) = words.iter().position(|word| *word == "n") {
+                    words.remove(place);
+                    facts.iter_mut().for_each(|fact| fact.extents.push('n'));
+                }
+            }
+            entries.push(Entry { name, words, facts, section: std::mem::take(&mut section) });
+        } else if let Some((name, comment)) = line.split_once(": ") {
+            common.insert(name, comment);
+        } else if let Some((name, status)) = line.split_once(' ') {
+            statuses.insert(name, status);
+        } else {
+            return Err(format!("not understood: {line}"));
+        }
+    }
+    let missing = prototypes.iter().find(|prototype| entries.iter().all(|entry| entry.name != prototype.result.name));
+    if let Some(prototype) = missing {
+        return Err(format!("{} is missing", prototype.result.name));
+    }
+    entries.into_iter().map(|entry| function(entry, prototypes, &common, &statuses)).collect()
+}
+
+fn function<'a>(
+    Entry { name, words, mut facts, section }: Entry<'a>,
+    prototypes: &'a [Prototype<'a>],
+    common: &HashMap<&'a str, &'a str>,
+    statuses: &HashMap<&'a str, &'a str>,
+) -> Result<Function<'a>, String> {
+    let prototype = prototypes.iter().find(|prototype| prototype.result.name == name);
+    let prototype = prototype.ok_or(format!("{name} is not in the source"))?;
+    let mut arguments = Vec::new();
+    for declaration in &prototype.arguments {
+        let short = declaration.name;
+        let fact = facts.iter().position(|fact| fact.name == short).map(|place| facts.remove(place));
+        let common_name = if short == "p" { "parameters" } else { short };
+        // The status of a state is that of all states, of contacts that of a contact.
+        let kind = short.split("_old").next().unwrap_or(short);
+        let status = [short, kind, kind.trim_end_matches('s')].iter().find_map(|name| statuses.get(name));
+        let mut argument = Argument {
+            declaration: declaration.clone(),
+            counted: prototype.is_counted(declaration),
+            extents: fact.as_ref().map_or(String::new(), |fact| fact.extents.clone()),
+            required: fact.as_ref().is_some_and(|fact| fact.required),
+            comment: fact.as_ref().map_or("", |fact| fact.comment),
+            status: status.copied().unwrap_or(""),
+        };
+        if (argument.is_input() || argument.is_output()) && fact.is_none() && !words.contains(&"by hand") {
+            return Err(format!("{name}: {short} is missing"));
+        }
+        if argument.comment.is_empty() {
+            argument.comment = common.get(common_name).copied().unwrap_or("");
+        }
+        let is_array = declaration.pointer && !argument.extents.is_empty();
+        if !declaration.pointer && !argument.extents.is_empty() || is_array && argument.is_memory() {
+            return Err(format!("{name}: {short} is no array of values"));
+        }
+        if argument.comment.is_empty() && !argument.is_length() && !words.contains(&"by hand") {
+            return Err(format!("{name}: {short} has no comment"));
+        }
+        arguments.push(argument);
+    }
+    match facts.first() {
+        Some(fact) => Err(format!("{name}: {} is not in the source", fact.name)),
+        None => {
+            let (result, comment) = (prototype.result.base, prototype.comment.clone());
+            Ok(Function { name, result, arguments, comment, words, section })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "
+extern \"C\" {
+
+// A step.
+//
+// Returns MSLIP_BAD_STATE.
+int32_t mslip_step(size_t n, const struct mslip_contact *contacts, const double *state_old,
+                   const double *x, double *force);
+
+}  // extern \"C\"
+";
+    const FACTS: &str = "
+contacts: The contacts.
+state_old: The old state.
+state MSLIP_BAD_STATE
+mslip_step
+    x (m, n): Positions.
+    force (n) !: Forces.
+";
+
+    fn error(facts: &str) -> String {
+        let header = Header::new(HEADER).unwrap();
+        functions_by(facts, &header.prototypes().unwrap()).err().unwrap_or_default()
+    }
+
+    #[test]
+    fn facts_and_declarations_are_combined() {
+        let header = Header::new(HEADER).unwrap();
+        let prototypes = header.prototypes().unwrap();
+        let functions = functions_by(FACTS, &prototypes).unwrap();
+        let [function] = &functions[..] else { panic!("one function") };
+        assert_eq!(
+            (function.name, &function.comment[..]),
+            ("mslip_step", &["A step.".into(), "Returns MSLIP_BAD_STATE.".into()][..])
+        );
+        let kinds =
+            function.arguments.iter().map(|a| (a.name(), &a.extents[..], a.is_input(), a.is_output(), a.required));
+        assert_eq!(
+            kinds.collect::<Vec<_>>(),
+            [
+                ("n", "", false, false, false),
+                ("contacts", "", false, false, false),
+                ("state_old", "", false, false, false),
+                ("x", "mn", true, false, false),
+                ("force", "n", false, true, true),
+            ]
+        );
+        assert!(function.arguments[2].is_memory());
+    }
+
+    #[test]
+    fn what_is_missing_or_unknown_is_reported() {
+        for (from, to, message) in [
+            ("mslip_step", "mslip_path", "mslip_step is missing"),
+            ("    x (m, n): Positions.\n", "", "mslip_step: x is missing"),
+            ("    x (", "    y (m): Y.\n    x (", "mslip_step: y is not in the source"),
+            ("state_old: The old state.\n", "", "mslip_step: state_old has no comment"),
+            ("(m, n)", "(m, q)", "unknown extents: x (m, q): Positions."),
+            ("mslip_step\n", "mslip_step = mslip_other\n", "no mslip_other"),
+        ] {
+            assert_eq!(error(&FACTS.replacen(from, to, 1)), message);
+        }
+        assert_eq!(error(&(FACTS.to_owned() + "mslip_path\n")), "mslip_path is not in the source");
+    }
+}
