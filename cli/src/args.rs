@@ -38,6 +38,10 @@ const GENERAL_HELP: &str = concat!(
     "Numbers:
   Exponents are written 1e-6 or 1d-6, lists 5e-7,1e-6 without blanks or \"5e-7, 1e-6\" in quotes.
 
+Tables:
+  Columns are separated by commas, or by semicolons or tabs, which also allow decimal commas; the first row may be a
+  header. At most 4 million rows and 200 MB are read.
+
 Results:
   CSV on standard output or in the file of --out: comments (#) with the command that repeats the result, a header
   with units, and numbers that are read back bit for bit. --plot also draws them.

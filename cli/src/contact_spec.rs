@@ -1,7 +1,7 @@
 //! The contact: defined by a parameter file, by options, or by a file some of whose parameters are overridden by options.
 
 use crate::error::{CliError, Result, input, usage};
-use crate::files::read_text;
+use crate::files::{PARAMETERS_SIZE, read_text};
 use crate::number::{format_list, format_number, parse_number};
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
@@ -87,7 +87,7 @@ impl ContactSpec {
     pub fn read(file: Option<&Path>, options: &ContactArgs) -> Result<ContactSpec> {
         let mut given = options.clone();
         if let Some(path) = file {
-            given.add(parse(&read_text(path)?).map_err(|reason| CliError::in_file(path, reason))?)?;
+            given.add(parse(&read_text(path, PARAMETERS_SIZE)?).map_err(|reason| CliError::in_file(path, reason))?)?;
         }
         given.check_presence()?;
         let contact = given.contact(1.0)?.map_err(|error| {

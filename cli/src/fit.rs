@@ -4,7 +4,7 @@ use crate::args::{Fit, Fixable, ShapeOption};
 use crate::commands::{Report, quoted};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, usage};
-use crate::files::{check_outputs, read_text, write_file};
+use crate::files::{TABLE_SIZE, check_outputs, read_text, write_file};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, rounded};
 use crate::table::{ColumnSpec, Table, parse_columns};
@@ -75,7 +75,7 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
     let time =
         ColumnSpec { option: "--time-column", selected: options.time_column.as_deref(), names: &["time"], unit: "s" };
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
-    let text = read_text(path)?;
+    let text = read_text(path, TABLE_SIZE)?;
     let columns = |second, others| {
         parse_columns(&text, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
     };

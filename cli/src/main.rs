@@ -3,6 +3,7 @@
 //! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load` and `fit` compute, `plot`
 //! draws, and `files` reads and writes.
 
+mod allocator;
 mod args;
 mod canvas;
 mod commands;

@@ -285,6 +285,12 @@ fn histories_equal_those_of_the_library() {
         ("t,u\n0,1e-6\n1,-2e-6\n", "--column u"),
         ("0,1e-6\n1,-2e-6\n", "--column 2"),
         (" 1.0D-06\n-2.0d-06\n", ""),
+        ("u\n\"1e-6\"\n-2e-6\n", ""),
+        // Decimal commas, also without a header.
+        ("t;u\n0;0,000001\n0,5;-2E-06\n", "--column u"),
+        ("0,0;0,000001\n0,5;-0,2e-5\n", "--column 2"),
+        ("0,0\t0,000001\n0,5\t-0,2e-5\n", "--column 2"),
+        ("t, unit;u\n0.5;1e-6\n1.5;-2e-6\n", "--column u"),
     ] {
         shell.write("table.csv", table);
         let table = shell.stdout(&format!("microslip history flat.toml --displacements table.csv {options}"));
@@ -748,17 +754,32 @@ fn errors_in_files_name_file_and_line() {
     for (table, options, text) in [
         (&b"1e-6\n1e-6m"[..], "", "line 2: \"1e-6m\": not a number"),
         (b"1.0-300\n1\n", "", "line 1: \"1.0-300\": not a number"),
-        (b"0.0 1e-6\n0.1 2e-6\n", "", "line 1: \"0.0 1e-6\": not a number; columns are separated by commas"),
+        (
+            b"0.0 1e-6\n0.1 2e-6\n",
+            "",
+            "line 1: \"0.0 1e-6\": not a number; columns are separated by commas, semicolons or",
+        ),
         (b"# c\nu\n1e-6\ninf", "", &format!("line 4: {}", Error::BadDisplacement)),
         (b"u\n0\n0,5e-6\n", "", "line 3: 2 columns, but the first row has 1; is a comma the decimal separator?"),
         (b"t,u\n0,1\n0,5,1,5e-6\n", "--column u", "line 3: 4 columns, but the first row has 2; is a comma"),
         (b"t,u\n0\n", "--column u", "line 2: only 1 of 2 columns"),
-        (b"t;u\n0;1,5E-06\n", "--column 2", "line 1: columns are separated by commas, not by semicolons"),
+        (
+            b"0;1,5E-06\n0.5;1e-6\n",
+            "--column 1",
+            "line 2, column 1: \"0.5\": not a number; other numbers have decimal commas",
+        ),
+        (b"0,0000001\n0,0000002\n", "", "line 1: a comma may separate columns or be the decimal separator"),
+        (b"0,0000001\n-0,0000002\n", "--column 1", "line 1: a comma may separate columns or be the decimal separator"),
+        (
+            b"# c\n0,1,5e-6\n1,2,5E-6\n",
+            "--column 2",
+            "line 2: a comma may separate columns or be the decimal separator",
+        ),
         (b"t,u\n0,1\n", "", "line 1: --column must select one of the 2 columns"),
-        (b"0,5e-6\n", "", "line 1: --column must select one of the 2 columns"),
+        (b"0,.5e-6\n", "", "line 1: --column must select one of the 2 columns"),
         (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
-        (b"0,1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
-        (b"# c\n0,1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
+        (b"0,.1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
+        (b"# c\n0,.1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
         (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units or --data-units)"),
         (b"u\n# c\n", "", "the table has no displacements"),
         (b"", "", "the table has no displacements"),
@@ -908,6 +929,27 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
         assert!(!shell.run("ulimit -f 1; microslip loop flat.toml --out full.csv").status.success());
         let files = "flat.toml full.csv link.csv new.csv picture.svg private.csv table.csv ";
         assert_eq!(shell.stdout("ls -A | tr '\n' ' '"), files);
+    }
+}
+
+#[test]
+fn input_without_end_and_missing_memory_are_errors() {
+    let shell = Shell::new("limits");
+    for (script, text) in [
+        ("yes 1e-6 | microslip history flat.toml", "standard input: longer than 200 MB"),
+        ("yes 1e-6 | microslip fit flat.toml --measured -", "standard input: longer than 200 MB"),
+        ("yes 1 | head -n 4000001 | microslip history flat.toml", "line 4000001: a table has at most 4000000 rows"),
+        ("yes | microslip contact -", "standard input: longer than 1 MB"),
+    ] {
+        shell.check_error(script, 1, text);
+    }
+    if cfg!(target_os = "linux") {
+        shell.check_error("microslip contact /dev/zero", 1, "/dev/zero: longer than 1 MB");
+        // In kB: enough to start, and not enough for these tables.
+        for command in ["curve flat.toml --points 1000000", "history flat.toml --displacements long.csv"] {
+            let script = format!("yes 1e-6 | head -n 400000 > long.csv; ulimit -v 60000; microslip {command}");
+            shell.check_error(&script, 1, "microslip: out of memory\n");
+        }
     }
 }
 
