@@ -6,7 +6,7 @@ use crate::error::{CliError, Result, input, usage};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, Picture, rounded};
 use crate::table::{ColumnSpec, InputTable, Table, read_columns};
-use crate::units::Quantity::{Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
@@ -14,6 +14,7 @@ use microslip::constant_load::state::{state_init, state_length};
 use microslip::varying_load::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// The result of a command.
 #[derive(Debug)]
@@ -33,7 +34,7 @@ impl Report {
                 format!("microslip {}", env!("CARGO_PKG_VERSION")),
                 format!("microslip {name}{}{options}", spec.given.options()),
             ],
-            warnings: Vec::new(),
+            warnings: spec.given.implausible(),
             table,
             picture: Picture { caption: caption(spec, &normal_force), units: spec.units, orbits: None, panels },
         }
@@ -84,6 +85,16 @@ pub fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     values.iter().map(|value| value * factor).collect()
 }
 
+/// Rejects a value that an option does not allow.
+pub fn check_range(option: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let [least, most] = [*range.start(), *range.end()].map(format_number);
+    let allowed = if range.end().is_finite() { format!("{least} to {most}") } else { format!("{least} or more") };
+    input(format!("{option} {}: must be {allowed}", format_number(value)))
+}
+
 /// Uniformly spaced from 0 to the end, which is exact.
 pub fn grid(end: f64, points: u32) -> Vec<f64> {
     (0..points).map(|i| f64::from(i) / f64::from(points - 1) * end).collect()
@@ -131,7 +142,9 @@ pub fn contact(spec: &ContactSpec) -> Report {
     let table = Table::of_text("quantity,value,unit", properties.map(row).into());
     let pressure = across(contact, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
     let panels = vec![panel(ACROSS, Axis::linear("pressure", Pressure), pressure)];
-    Report { warnings: model_warnings(spec), ..Report::new("contact", spec, "", table, panels) }
+    let mut report = Report::new("contact", spec, "", table, panels);
+    report.warnings.extend(model_warnings(spec));
+    report
 }
 
 /// Dimensions for which the model is inaccurate.
@@ -244,6 +257,7 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
         let default = 1.25 * contact.slip_displacement;
         let end = options.to.map_or(default, |to| if relative { to * contact.slip_displacement } else { to });
         at_displacement("--to", end)?;
+        check_range("--to", end, 0.0..=f64::INFINITY)?;
         displacements = grid(end, options.points);
         format!(" --to {} --points {}", format_number(end), options.points)
     };
@@ -346,6 +360,10 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     Ok(report.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
 }
 
+/// The last columns of a history.
+pub const ENERGIES: [(&str, Quantity); 2] = [("dissipated", Energy), ("dissipated_total", Energy)];
+pub const ENERGIES_REMARK: &str = "dissipated: energy of each step; dissipated_total: energy up to the end of the step";
+
 /// Points of a picture of a history: between the rows it follows the branches.
 const POINTS_OF_HISTORY: usize = 100_000;
 
@@ -389,6 +407,7 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
+    let mut total = 0.0;
     for row in &table.rows {
         let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
         check_step(&state, displacement)
@@ -399,14 +418,17 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
         }));
         let (step, dissipated) = step_with_energy(contact, &state, displacement);
         points.push((displacement, step.force()));
-        rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
+        total += dissipated;
+        rows.push(vec![displacement, step.force(), step.stiffness(), dissipated, total]);
         step.write(&mut state);
         from = displacement;
     }
-    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
-    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
+    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness)];
+    let columns = [&columns[..], &ENERGIES].concat();
+    let line = Line { name: String::new(), points };
+    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line] }];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
-    Ok(report.with_remark("dissipated: energy of each step"))
+    Ok(report.with_remark(ENERGIES_REMARK))
 }
 
 /// A word of a shell command, on one line.

@@ -47,7 +47,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
         rounded(found.law.force_rms, Force, spec.units),
         rounded(slider.misfit.force_rms, Force, spec.units)
     );
-    report.warnings = found.warnings;
+    report.warnings.extend(found.warnings);
     Ok(report)
 }
 

@@ -1,7 +1,10 @@
 //! Commands under a normal force that varies, with separation.
 
 use crate::args::{History, Loop, Normal};
-use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, grid, pairs, panel, parts_of_step, scaled};
+use crate::commands::{
+    DISPLACEMENT, ENERGIES, ENERGIES_REMARK, FORCE, Report, STIFFNESS, check_range, grid, pairs, panel, parts_of_step,
+    scaled,
+};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
 use crate::number::{Amount, format_list, format_number};
@@ -39,6 +42,7 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
         let factor = if options.relative { element.approach } else { 1.0 };
         let end = options.to.map_or(element.approach, |to| to * factor);
         at_approach("--to", end)?;
+        check_range("--to", end, 0.0..=f64::INFINITY)?;
         approaches = grid(end, options.points);
         format!(" --to {} --points {}", format_number(end), options.points)
     };
@@ -82,7 +86,7 @@ pub fn history(
     let (mut state, mut drawn) = (new_state(count)?, new_state(PIECES_OF_PICTURE)?);
     let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![[0.0; 3]], [0.0; 2]);
-    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
     for row in &table.rows {
         let to = [row.values[0] * factors[0], row.values[1] * factors[1]];
         let step = advance(&element, &mut state, to, true).map_err(|error| {
@@ -100,14 +104,15 @@ pub fn history(
         let [tangential, normal] = step.force;
         (least, largest) = (least.min(normal), largest.max(normal));
         let given = [to[1]].into_iter().filter(|_| by_approach);
-        rows.push(
-            [to[0]].into_iter().chain(given).chain([normal, tangential, step.tangent[0], step.dissipated]).collect(),
-        );
+        total += step.dissipated;
+        let results = [normal, tangential, step.tangent[0], step.dissipated, total];
+        rows.push([to[0]].into_iter().chain(given).chain(results).collect());
         from = to;
     }
     let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
-    let others = [("normal_force", Force), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
-    let columns: Vec<_> = [("displacement", Length)].into_iter().chain(approach).chain(others).collect();
+    let others = [("normal_force", Force), ("force", Force), ("stiffness", Stiffness)];
+    let columns: Vec<_> =
+        [("displacement", Length)].into_iter().chain(approach).chain(others).chain(ENERGIES).collect();
     let line = |name: &str, x: usize, y: usize| Line {
         name: name.to_owned(),
         points: points.iter().map(|point| (point[x], point[y])).collect(),
@@ -121,7 +126,7 @@ pub fn history(
     ];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
     let range = format!("{} to {}", rounded(least, Force, spec.units), rounded(largest, Force, spec.units));
-    Ok(report.under(spec, &range).with_remark("stiffness: by the displacement; dissipated: energy of each step"))
+    Ok(report.under(spec, &range).with_remark(&format!("stiffness: by the displacement; {ENERGIES_REMARK}")))
 }
 
 /// Displacement and force.
@@ -144,7 +149,7 @@ pub fn history_in_two_directions(
     two_directions::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(TRIALS_PER_POINT * table.rows.len());
     let (mut rows, mut points, mut from): (_, Vec<Point>, _) = (Vec::new(), vec![[[0.0; 3]; 2]], [0.0; 3]);
-    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
     for row in &table.rows {
         let given = |i: usize| row.values.get(i).map_or(element.normal_force, |value| value * factors[i]);
         let to = [given(0), given(1), given(2)];
@@ -167,13 +172,14 @@ pub fn history_in_two_directions(
         let [force_x, force_y, normal] = step.force;
         (least, largest) = (least.min(normal), largest.max(normal));
         let given = to.into_iter().take(if by_approach { 3 } else { 2 });
-        rows.push(given.chain([normal, force_x, force_y, step.dissipated]).collect());
+        total += step.dissipated;
+        rows.push(given.chain([normal, force_x, force_y, step.dissipated, total]).collect());
         from = to;
     }
     let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
-    let others = [("normal_force", Force), ("force_x", Force), ("force_y", Force), ("dissipated", Energy)];
+    let others = [("normal_force", Force), ("force_x", Force), ("force_y", Force)];
     let displacements = [("displacement_x", Length), ("displacement_y", Length)];
-    let columns: Vec<_> = displacements.into_iter().chain(approach).chain(others).collect();
+    let columns: Vec<_> = displacements.into_iter().chain(approach).chain(others).chain(ENERGIES).collect();
     let line = |name: &str, point: &dyn Fn(&Point) -> (f64, f64)| Line {
         name: name.to_owned(),
         points: points.iter().map(point).collect(),
@@ -196,7 +202,7 @@ pub fn history_in_two_directions(
         Panel { x: NORMAL_FORCE, y: magnitude, lines: magnitudes },
     ];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
-    let report = report.with_orbits(orbits).with_remark("dissipated: energy of each step");
+    let report = report.with_orbits(orbits).with_remark(ENERGIES_REMARK);
     if input.is_none() {
         return Ok(report);
     }
@@ -242,8 +248,8 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
     if !(given >= 0.0 && given.is_finite()) {
         return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
     }
-    if let Some(phase) = options.phase.iter().find(|phase| !phase.is_finite()) {
-        return Err(CliError::Input(format!("--phase {}: a phase must be finite", format_number(*phase))));
+    for phase in &options.phase {
+        check_range("--phase", *phase, -360.0..=360.0)?;
     }
     let steps = n * STEPS_OF_PERIOD.div_ceil(n);
     let (mut rows, mut forces, mut loads) = (Vec::new(), Vec::new(), Vec::new());
@@ -258,7 +264,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
         for &phase in &options.phase {
             let at = |i: usize| {
                 let angle = |degrees: f64| (degrees + 360.0 * (i % steps) as f64 / steps as f64).to_radians();
-                [amplitude * angle(0.0).cos(), (mean + given * angle(phase % 360.0).cos()).max(0.0)]
+                [amplitude * angle(0.0).cos(), (mean + given * angle(phase).cos()).max(0.0)]
             };
             let (period, dissipated) = steady_period(&element, &(0..=steps).map(at).collect::<Vec<_>>())?;
             let row = |[displacement, normal_force, force]: &[f64; 3]| {
