@@ -38,6 +38,10 @@ const GENERAL_HELP: &str = concat!(
     "Numbers:
   Exponents are written 1e-6 or 1d-6, lists 5e-7,1e-6 without blanks or \"5e-7, 1e-6\" in quotes.
 
+Tables:
+  Columns are separated by commas, or by semicolons or tabs, which also allow decimal commas; the first row may be a
+  header. At most 4 million rows and 200 MB are read.
+
 Results:
   CSV on standard output or in the file of --out: comments (#) with the command that repeats the result, a header
   with units, and numbers that are read back bit for bit. --plot also draws them.
@@ -87,9 +91,10 @@ pub enum Command {
     /// Force, stiffness and dissipated energy along a displacement history, in one tangential direction or two, under a constant or
     /// given normal force
     #[command(after_help = help!(
-        "displacement, force, stiffness, dissipated (energy of each step)
-  if the normal force varies: displacement, approach (if given), normal_force, force, stiffness, dissipated
-  in two directions: displacement_x, displacement_y, approach (if given), normal_force, force_x, force_y, dissipated",
+        "displacement, force, stiffness, dissipated (energy of each step), dissipated_total (energy up to the end of the step)
+  if the normal force varies: displacement, approach (if given), normal_force, force, stiffness, dissipated, dissipated_total
+  in two directions: displacement_x, displacement_y, approach (if given), normal_force, force_x, force_y, dissipated,
+  dissipated_total",
         "history contact.toml --displacements measured.csv --column u --plot history.svg
   microslip history contact.toml --displacements measured.csv --column u --normal-force-column N
   microslip history contact.toml --displacements measured.csv --column u --column-y v --normal-force-column N"
@@ -175,7 +180,7 @@ pub struct Tractions {
 
 #[derive(Debug, Args)]
 pub struct Curve {
-    /// Largest displacement of a uniform grid from 0 [default: 1.25 slip displacements]
+    /// Largest displacement >= 0 of a uniform grid from 0 [default: 1.25 slip displacements]
     #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
     pub to: Option<f64>,
     /// Number of points of the grid
@@ -205,7 +210,7 @@ pub struct Loop {
     /// contact is open while the sum is negative
     #[arg(long, value_name = "N|%", value_parser = parse_amount, allow_hyphen_values = true, requires = "phase")]
     pub normal_amplitude: Option<Amount>,
-    /// Phases by which the normal force leads the displacement
+    /// Phases by which the normal force leads the displacement, from -360 to 360
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
     #[arg(requires = "normal_amplitude")]
     pub phase: Vec<f64>,
@@ -258,7 +263,7 @@ pub struct History {
 
 #[derive(Debug, Args)]
 pub struct Normal {
-    /// Largest approach of a uniform grid from 0 [default: the approach under normal_force]
+    /// Largest approach >= 0 of a uniform grid from 0 [default: the approach under normal_force]
     #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
     pub to: Option<f64>,
     /// Number of points of the grid

@@ -30,6 +30,17 @@ pub trait Canvas {
 }
 
 const FONT_SIZE: f32 = 14.0;
+
+/// Width of a text in the font of the pictures.
+pub fn text_width(text: &str) -> f64 {
+    let Ok(font) = Face::parse(dejavu::sans::regular(), 0) else {
+        return 0.6 * f64::from(FONT_SIZE) * text.len() as f64;
+    };
+    let advance = |letter| font.glyph_hor_advance(font.glyph_index(letter).unwrap_or_default()).unwrap_or_default();
+    let units: f64 = text.chars().map(|letter| f64::from(advance(letter))).sum();
+    units * f64::from(FONT_SIZE) / f64::from(font.units_per_em())
+}
+
 /// From the centre of capital letters to their foot.
 const DOWN: f32 = 0.36 * FONT_SIZE;
 

@@ -4,9 +4,9 @@ use crate::args::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, input, usage};
 use crate::number::{format_list, format_number};
-use crate::plot::{Axis, Line, Panel, Picture, rounded};
+use crate::plot::{Axis, Line, Panel, Picture, Row, rounded};
 use crate::table::{ColumnSpec, InputTable, Table, read_columns};
-use crate::units::Quantity::{Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
@@ -14,6 +14,7 @@ use microslip::constant_load::state::{state_init, state_length};
 use microslip::varying_load::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// The result of a command.
 #[derive(Debug)]
@@ -26,27 +27,22 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, panels: Vec<Panel>) -> Report {
+    pub fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, rows: Vec<Row>) -> Report {
         let normal_force = rounded(spec.given.normal_force.unwrap_or_default(), Force, spec.units);
         Report {
             comments: vec![
                 format!("microslip {}", env!("CARGO_PKG_VERSION")),
                 format!("microslip {name}{}{options}", spec.given.options()),
             ],
-            warnings: Vec::new(),
+            warnings: spec.given.implausible(),
             table,
-            picture: Picture { caption: caption(spec, &normal_force), units: spec.units, orbits: None, panels },
+            picture: Picture { caption: caption(spec, &normal_force), units: spec.units, rows },
         }
     }
 
     /// The same report with another normal force in the caption of the picture.
     pub fn under(mut self, spec: &ContactSpec, normal_force: &str) -> Report {
         self.picture.caption = caption(spec, normal_force);
-        self
-    }
-
-    pub fn with_orbits(mut self, orbits: [Panel; 2]) -> Report {
-        self.picture.orbits = Some(orbits);
         self
     }
 
@@ -84,6 +80,16 @@ pub fn scaled(values: &[f64], relative: bool, unit: f64) -> Vec<f64> {
     values.iter().map(|value| value * factor).collect()
 }
 
+/// Rejects a value that an option does not allow.
+pub fn check_range(option: &str, value: f64, range: RangeInclusive<f64>) -> Result<()> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let [least, most] = [*range.start(), *range.end()].map(format_number);
+    let allowed = if range.end().is_finite() { format!("{least} to {most}") } else { format!("{least} or more") };
+    input(format!("{option} {}: must be {allowed}", format_number(value)))
+}
+
 /// Uniformly spaced from 0 to the end, which is exact.
 pub fn grid(end: f64, points: u32) -> Vec<f64> {
     (0..points).map(|i| f64::from(i) / f64::from(points - 1) * end).collect()
@@ -95,14 +101,14 @@ fn across(contact: &Contact, points: u32) -> Vec<f64> {
 }
 
 /// A line over an increasing quantity.
-pub fn line_over(name: impl Into<String>, mut points: Vec<(f64, f64)>) -> Line {
+pub fn line_over(stroke: usize, name: impl Into<String>, mut points: Vec<(f64, f64)>) -> Line {
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
-    Line { name: name.into(), points }
+    Line { stroke, name: name.into(), points }
 }
 
 /// A panel of one line, without a name.
-pub fn panel(x: Axis, y: Axis, points: Vec<(f64, f64)>) -> Panel {
-    Panel { x, y, lines: vec![line_over("", points)] }
+pub fn panel(x: Axis, y: Axis, points: Vec<(f64, f64)>) -> Row {
+    Panel { x, y, lines: vec![line_over(0, "", points)] }.into()
 }
 
 /// Two columns as points.
@@ -131,7 +137,9 @@ pub fn contact(spec: &ContactSpec) -> Report {
     let table = Table::of_text("quantity,value,unit", properties.map(row).into());
     let pressure = across(contact, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
     let panels = vec![panel(ACROSS, Axis::linear("pressure", Pressure), pressure)];
-    Report { warnings: model_warnings(spec), ..Report::new("contact", spec, "", table, panels) }
+    let mut report = Report::new("contact", spec, "", table, panels);
+    report.warnings.extend(model_warnings(spec));
+    report
 }
 
 /// Dimensions for which the model is inaccurate.
@@ -201,23 +209,23 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
     let repeat = format!(" --force {} {repeat}", format_list(&forces));
     let has_slip = !spec.given.is_elliptic();
     let (mut rows, mut shear, mut slip) = (Vec::new(), Vec::new(), Vec::new());
-    for force in forces {
+    for (stroke, force) in (1..).zip(forces) {
         let point = point_at_force(contact, force)?;
         let slip_at = |x| [point.slip(x), point.damage(x)].into_iter().flatten();
         let row = |&x: &f64| [force, x, contact.pressure(x), point.shear(x)].into_iter().chain(slip_at(x)).collect();
         let at_force: Vec<Vec<_>> = x.iter().map(row).collect();
-        let size = rounded(force, Force, units);
-        shear.push(line_over(format!("shear at {size}"), pairs(&at_force, 1, 3)));
+        shear.push(line_over(stroke, format!("T = {}", rounded(force, Force, units)), pairs(&at_force, 1, 3)));
         if has_slip {
-            slip.push(line_over(format!("slip at {size}"), pairs(&at_force, 1, 4)));
+            slip.push(line_over(stroke, "", pairs(&at_force, 1, 4)));
         }
         rows.extend(at_force);
     }
-    shear.push(line_over("pressure", x.iter().map(|&x| (x, contact.pressure(x))).collect()));
-    let mut panels = vec![Panel { x: ACROSS, y: Axis::linear("pressure, shear", Pressure), lines: shear }];
+    shear.push(line_over(0, "pressure", x.iter().map(|&x| (x, contact.pressure(x))).collect()));
+    let mut panels: Vec<Row> =
+        vec![Panel { x: ACROSS, y: Axis::linear("pressure, shear", Pressure), lines: shear }.into()];
     let mut columns = vec![("force", Force), ("x", Length), ("pressure", Pressure), ("shear", Pressure)];
     if has_slip {
-        panels.push(Panel { x: ACROSS, y: Axis::linear("slip", Length), lines: slip });
+        panels.push(Panel { x: ACROSS, y: Axis::linear("slip", Length), lines: slip }.into());
         columns.extend([("slip", Length), ("damage", Stiffness)]);
     }
     Ok(Report::new("tractions", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels))
@@ -244,6 +252,7 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
         let default = 1.25 * contact.slip_displacement;
         let end = options.to.map_or(default, |to| if relative { to * contact.slip_displacement } else { to });
         at_displacement("--to", end)?;
+        check_range("--to", end, 0.0..=f64::INFINITY)?;
         displacements = grid(end, options.points);
         format!(" --to {} --points {}", format_number(end), options.points)
     };
@@ -270,7 +279,7 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
         return varying_load::swinging_loop(options, spec, &amplitudes, &repeat);
     }
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
-    for amplitude in amplitudes {
+    for (stroke, amplitude) in amplitudes.into_iter().enumerate() {
         let error = |error| CliError::in_option("--amplitude", amplitude, error);
         let hysteresis = contact.hysteresis_loop(amplitude).map_err(error)?;
         let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
@@ -279,11 +288,11 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
         let at_amplitude: Vec<_> = (0..=n).map(row).collect();
         let size = rounded(amplitude, Length, units);
         let name = format!("±{size}, {}", rounded(dissipated, Energy, units));
-        lines.push(Line { name, points: pairs(&at_amplitude, 1, 2) });
+        lines.push(Line { stroke, name, points: pairs(&at_amplitude, 1, 2) });
         rows.extend(at_amplitude);
     }
     let columns = [("amplitude", Length), ("displacement", Length), ("force", Force), ("dissipated", Energy)];
-    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }];
+    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }.into()];
     let report = Report::new("loop", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels);
     Ok(report.with_remark("dissipated: energy per cycle"))
 }
@@ -340,11 +349,15 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
         ("dk_imag", StiffnessSlope),
         ("dissipated", Energy),
     ];
-    let lines = vec![line_over("K′", pairs(&rows, 0, 1)), line_over("K″", pairs(&rows, 0, 2))];
-    let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Stiffness), lines }];
+    let lines = vec![line_over(0, "K′", pairs(&rows, 0, 1)), line_over(1, "K″", pairs(&rows, 0, 2))];
+    let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Stiffness), lines }.into()];
     let report = Report::new("stiffness", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
     Ok(report.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
 }
+
+/// The last columns of a history.
+pub const ENERGIES: [(&str, Quantity); 2] = [("dissipated", Energy), ("dissipated_total", Energy)];
+pub const ENERGIES_REMARK: &str = "dissipated: energy of each step; dissipated_total: energy up to the end of the step";
 
 /// Points of a picture of a history: between the rows it follows the branches.
 const POINTS_OF_HISTORY: usize = 100_000;
@@ -389,6 +402,7 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
+    let mut total = 0.0;
     for row in &table.rows {
         let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
         check_step(&state, displacement)
@@ -399,14 +413,17 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
         }));
         let (step, dissipated) = step_with_energy(contact, &state, displacement);
         points.push((displacement, step.force()));
-        rows.push(vec![displacement, step.force(), step.stiffness(), dissipated]);
+        total += dissipated;
+        rows.push(vec![displacement, step.force(), step.stiffness(), dissipated, total]);
         step.write(&mut state);
         from = displacement;
     }
-    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
-    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![Line { name: String::new(), points }] }];
+    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness)];
+    let columns = [&columns[..], &ENERGIES].concat();
+    let line = Line { stroke: 0, name: String::new(), points };
+    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line] }.into()];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
-    Ok(report.with_remark("dissipated: energy of each step"))
+    Ok(report.with_remark(ENERGIES_REMARK))
 }
 
 /// A word of a shell command, on one line.
@@ -448,13 +465,15 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
     let corner = |slider: &SpringSlider| slider.slip_force / slider.stiffness;
     displacements.extend(sliders.iter().take(200).map(corner).filter(|displacement| displacement.is_finite()));
     let of_slider = |slider: &SpringSlider, at: f64| (slider.stiffness * at).min(slider.slip_force);
-    let of_sliders = |at: f64| sliders.iter().map(|slider| of_slider(slider, at)).sum();
+    let of_sliders = |at: f64| -> f64 { sliders.iter().map(|slider| of_slider(slider, at)).sum() };
     let of_contact = |at: f64| contact.curve_at_displacement(at).map_or(f64::NAN, |point| point.force());
-    let lines = vec![
-        line_over("contact", displacements.iter().map(|&at| (at, of_contact(at))).collect()),
-        line_over("spring-sliders", displacements.iter().map(|&at| (at, of_sliders(at))).collect()),
+    // Both curves would coincide in one panel.
+    let difference = |at: f64| of_sliders(at) - of_contact(at);
+    let points = |force: &dyn Fn(f64) -> f64| displacements.iter().map(|&at| (at, force(at))).collect();
+    let panels = vec![
+        panel(DISPLACEMENT, Axis::linear("force", Force), points(&of_contact)),
+        panel(DISPLACEMENT, Axis::linear("force error of the sliders", Force), points(&difference)),
     ];
-    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }];
     let table = Table::of_numbers(&columns, spec.units, &rows);
     let report = Report::new("iwan", spec, &format!(" --count {}", options.count), table, panels);
     Ok(report.with_remark(&format!("largest error of the force over mu N: {}", format_number(error))))

@@ -1,7 +1,7 @@
 //! The contact: defined by a parameter file, by options, or by a file some of whose parameters are overridden by options.
 
 use crate::error::{CliError, Result, input, usage};
-use crate::files::read_text;
+use crate::files::{PARAMETERS_SIZE, read_text};
 use crate::number::{format_list, format_number, parse_number};
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
@@ -9,6 +9,7 @@ use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::varying_load::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Parameters of the file or of the options.
@@ -74,6 +75,20 @@ enum Reference {
     RigidStrip,
 }
 
+/// A parameter: its name, the range of plausible values in SI units, and what has values of this size.
+type Plausible = (&'static str, Quantity, RangeInclusive<f64>, &'static str);
+
+/// Numbers outside are valid, but most likely in other units: millimetres or megapascals change them by factors of 1e3 and 1e6.
+const PLAUSIBLE: [Plausible; 6] = [
+    ("flat_half_width", Quantity::Length, 0.0..=0.1, "a flank is at most 0.2 m wide"),
+    ("length", Quantity::Length, 1e-4..=1.0, "flanks and dampers are 0.1 mm to 1 m long"),
+    ("semi_axis_x", Quantity::Length, 1e-6..=0.1, HERTZ),
+    ("semi_axis_y", Quantity::Length, 1e-6..=0.1, HERTZ),
+    ("friction_coefficient", Quantity::Number, 0.0..=2.0, "metals and ceramics in air have 0.1 to 1.5"),
+    ("young_modulus", Quantity::Pressure, 1e7..=1.3e12, "soft plastics have 10 MPa, diamond has 1.2 TPa"),
+];
+const HERTZ: &str = "a contact of 1 um is one of single asperities, and one of 0.1 m is not local";
+
 /// A contact and the parameters that define it.
 #[derive(Debug)]
 pub struct ContactSpec {
@@ -87,11 +102,14 @@ impl ContactSpec {
     pub fn read(file: Option<&Path>, options: &ContactArgs) -> Result<ContactSpec> {
         let mut given = options.clone();
         if let Some(path) = file {
-            given.add(parse(&read_text(path)?).map_err(|reason| CliError::in_file(path, reason))?)?;
+            given.add(parse(&read_text(path, PARAMETERS_SIZE)?).map_err(|reason| CliError::in_file(path, reason))?)?;
         }
         given.check_presence()?;
         let contact = given.contact(1.0)?.map_err(|error| {
             let (message, parameter) = given.explain(error);
+            let others =
+                given.implausible().into_iter().filter(|text| parameter.is_none_or(|name| !text.starts_with(name)));
+            let message = [message].into_iter().chain(others).collect::<Vec<_>>().join("; ");
             let is_in_file = |name| options.numbers().contains(&(name, Vec::new()));
             match file {
                 Some(path) if parameter.is_some_and(is_in_file) => CliError::in_file(path, message),
@@ -160,6 +178,21 @@ impl ContactArgs {
         let scalars = self.clone().scalars().map(|(name, value)| (name, Vec::from_iter(*value)));
         let lists = [("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())];
         scalars.into_iter().chain(lists).collect()
+    }
+
+    /// Warnings about parameters of an implausible size.
+    pub fn implausible(&self) -> Vec<String> {
+        let (units, numbers) = (self.units.unwrap_or(Units::Si), self.numbers());
+        let warning = |(name, quantity, range, reason): &Plausible| {
+            let (_, values) = numbers.iter().find(|(known, _)| known == name)?;
+            let value = values.iter().find(|value| !range.contains(&(**value * units.in_si(*quantity))))?;
+            let (value, unit) = (format_number(*value), units.unit(*quantity));
+            Some(match quantity {
+                Quantity::Number => format!("{name} = {value} is implausible: {reason}"),
+                _ => format!("{name} = {value} {unit} is implausible: {reason}; check the units"),
+            })
+        };
+        PLAUSIBLE.iter().filter_map(warning).collect()
     }
 
     /// Adds the parameters of the file that are not given yet.

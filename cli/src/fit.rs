@@ -1,12 +1,12 @@
 //! The command `fit`: measured loops in, law out.
 
 use crate::args::{Fit, Fixable, ShapeOption};
-use crate::commands::{Report, quoted};
+use crate::commands::{Report, panel, quoted};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, usage};
-use crate::files::{check_outputs, read_text, write_file};
+use crate::files::{TABLE_SIZE, check_outputs, read_text, write_file};
 use crate::number::{format_list, format_number};
-use crate::plot::{Axis, Line, Panel, rounded};
+use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::{ColumnSpec, Table, parse_columns};
 use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
 use crate::units::Units;
@@ -47,7 +47,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
         rounded(found.law.force_rms, Force, spec.units),
         rounded(slider.misfit.force_rms, Force, spec.units)
     );
-    report.warnings = found.warnings;
+    report.warnings.extend(found.warnings);
     Ok(report)
 }
 
@@ -75,7 +75,7 @@ fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> 
     let time =
         ColumnSpec { option: "--time-column", selected: options.time_column.as_deref(), names: &["time"], unit: "s" };
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
-    let text = read_text(path)?;
+    let text = read_text(path, TABLE_SIZE)?;
     let columns = |second, others| {
         parse_columns(&text, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
     };
@@ -191,32 +191,33 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
     Table::of_text("quantity,value,lower,upper,unit,status", rows)
 }
 
-/// Two panels of each loop, and the misfit over the shape.
-fn panels(found: &microslip_fit::Report) -> Vec<Panel> {
+/// Each loop beside the differences from it, and the misfit over the shape.
+fn panels(found: &microslip_fit::Report) -> Vec<Row> {
     let of_loop = |one: &FittedLoop| {
-        let line = |name: &str, forces: Vec<f64>| Line {
+        let line = |stroke: usize, name: &str, forces: Vec<f64>| Line {
+            stroke,
             name: name.to_owned(),
             points: one.displacement.iter().copied().zip(forces).collect(),
         };
         let less = |forces: &[f64]| one.measured_force.iter().zip(forces).map(|(one, other)| one - other).collect();
-        let panel =
+        let of_force =
             |name, lines| Panel { x: Axis::linear("displacement", Length), y: Axis::linear(name, Force), lines };
-        let loops = [("measured", &one.measured_force), ("law", &one.force), ("spring-slider", &one.slider_force)];
-        let differences = [("measured - law", &one.force), ("measured - spring-slider", &one.slider_force)];
-        [
-            panel("force", loops.map(|(name, forces)| line(name, forces.clone())).into()),
-            panel("difference of force", differences.map(|(name, forces)| line(name, less(forces))).into()),
-        ]
+        let loops =
+            [(0, "measured", &one.measured_force), (1, "law", &one.force), (2, "spring-slider", &one.slider_force)];
+        let panels = vec![
+            of_force("force", loops.map(|(stroke, name, forces)| line(stroke, name, forces.clone())).into()),
+            of_force(
+                "measured - computed",
+                loops[1..].iter().map(|(i, _, forces)| line(*i, "", less(forces))).collect(),
+            ),
+        ];
+        Row { panels, equal_scales: false }
     };
-    let mut panels: Vec<_> = found.loops.iter().take(LOOPS).flat_map(of_loop).collect();
+    let mut rows: Vec<_> = found.loops.iter().take(LOOPS).map(of_loop).collect();
     if !found.profile.is_empty() {
         // Rounded, so that a flat profile looks flat.
         let points = found.profile.iter().map(|at| (at.shape, (1e3 * at.relative_rms).round() / 1e3)).collect();
-        panels.push(Panel {
-            x: Axis::linear("a/b", Number),
-            y: Axis::linear("misfit over the least", Number),
-            lines: vec![Line { name: String::new(), points }],
-        });
+        rows.push(panel(Axis::linear("a/b", Number), Axis::linear("misfit over the least", Number), points));
     }
-    panels
+    rows
 }

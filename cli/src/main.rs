@@ -3,6 +3,7 @@
 //! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load` and `fit` compute, `plot`
 //! draws, and `files` reads and writes.
 
+mod allocator;
 mod args;
 mod canvas;
 mod commands;
@@ -19,7 +20,7 @@ mod varying_load;
 use args::{Arguments, Command, ContactCommand};
 use canvas::Format;
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser};
+use clap::{Args, CommandFactory, FromArgMatches};
 use commands::Report;
 use contact_spec::ContactSpec;
 use error::{CliError, Result, usage};
@@ -28,13 +29,22 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse().command) {
+    let (mut program, matches) = (Arguments::command(), Arguments::command().get_matches());
+    match Arguments::from_arg_matches(&matches).map_or_else(|error| error.exit(), |arguments| run(&arguments.command)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(CliError::Input(message)) => {
             print_message(&message);
             ExitCode::from(1)
         }
-        Err(CliError::Usage(message)) => Arguments::command().error(ErrorKind::ValueValidation, message).exit(),
+        Err(CliError::Usage(message)) => {
+            // The usage of the command only.
+            program.build();
+            let command = matches.subcommand_name().and_then(|name| program.find_subcommand_mut(name));
+            match command {
+                Some(command) => command.error(ErrorKind::ValueValidation, message).exit(),
+                None => program.error(ErrorKind::ValueValidation, message).exit(),
+            }
+        }
     }
 }
 

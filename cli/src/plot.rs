@@ -1,6 +1,7 @@
-//! Pictures: orbits side by side, panels one below the other, axes with units, and lines that differ in dashes and in colour.
+//! Pictures: rows of one or two panels, axes with units, and a legend. A stroke has the same meaning in all panels of a picture.
+//! Margins and width follow from the widths of the texts.
 
-use crate::canvas::{Bitmap, Canvas, Format, Point, Stroke, Svg};
+use crate::canvas::{Bitmap, Canvas, Format, Point, Stroke, Svg, text_width};
 use crate::number::format_number;
 use crate::units::{Quantity, Units};
 use std::ops::Range;
@@ -10,9 +11,15 @@ pub struct Picture {
     /// Parameters of the contact.
     pub caption: String,
     pub units: Units,
-    /// Panels side by side whose axes have the same scale.
-    pub orbits: Option<[Panel; 2]>,
+    pub rows: Vec<Row>,
+}
+
+/// Panels side by side.
+#[derive(Debug)]
+pub struct Row {
     pub panels: Vec<Panel>,
+    /// Whether both axes of a panel have the same scale.
+    pub equal_scales: bool,
 }
 
 #[derive(Debug)]
@@ -31,9 +38,18 @@ pub struct Axis {
 
 #[derive(Debug)]
 pub struct Line {
-    /// Entry of the legend; empty if the line is the only one.
+    /// Number of the stroke, which has the same meaning in all panels.
+    pub stroke: usize,
+    /// Entry of the legend; empty if there is none, or if another panel has it.
     pub name: String,
+    /// The line is interrupted at points that are not finite.
     pub points: Vec<Point>,
+}
+
+impl From<Panel> for Row {
+    fn from(panel: Panel) -> Row {
+        Row { panels: vec![panel], equal_scales: false }
+    }
 }
 
 impl Axis {
@@ -52,18 +68,22 @@ impl Axis {
     }
 }
 
-const WIDTH: u32 = 860;
-const PANEL_HEIGHT: u32 = 400;
-const CAPTION_HEIGHT: u32 = 36;
-/// Of a legend, at least and at most; of its lines, and of a letter.
-const LEGEND_WIDTHS: [f64; 2] = [190.0, 340.0];
-const KEY_WIDTH: f64 = 46.0;
-const LETTER_WIDTH: f64 = 8.4;
-/// Of the graph in its panel: left, right, top, bottom.
-const MARGINS: [f64; 4] = [94.0, 24.0, 8.0, 54.0];
+/// Width of the graph of a row of one panel, and heights of graphs in rows of one panel and of two.
+const GRAPH_WIDTH: f64 = 680.0;
+const GRAPH_HEIGHTS: [f64; 2] = [338.0, 258.0];
+const CAPTION_HEIGHT: f64 = 36.0;
+/// Height of tick labels and label of an x axis, with the distance to the next row.
+const BELOW_GRAPH: f64 = 62.0;
+const LINE_HEIGHT: f64 = 24.0;
+/// Between texts, graphs and edges of the picture.
+const PADDING: f64 = 12.0;
+/// Length of a line in the legend.
+const KEY_LENGTH: f64 = 34.0;
 const TICK_LENGTH: f64 = 4.0;
+/// Least distances of ticks along x and y: tick labels have at most about five characters, and one line.
+const TICK_DISTANCES: [f64; 2] = [55.0, 30.0];
 
-/// Dashes and colours of the lines of a panel, lighter from line to line: they also differ in grey. The next four lines are thin.
+/// Dashes and colours, lighter from line to line: they also differ in grey. The next four lines are thin.
 const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] = [
     (None, [0, 0, 0]),
     (Some([14.0, 6.0]), [0, 90, 180]),
@@ -73,67 +93,134 @@ const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] = [
 const AXIS: Stroke = Stroke { colour: [0, 0, 0], width: 1.0, dash: None };
 const GRID: Stroke = Stroke { colour: [214, 214, 214], width: 1.0, dash: None };
 
+fn stroke(number: usize) -> Stroke {
+    let (dash, colour) = STROKES[number % STROKES.len()];
+    Stroke { colour, width: if (number / STROKES.len()).is_multiple_of(2) { 2.0 } else { 1.0 }, dash }
+}
+
+/// A panel, its axes, and the size of its graph.
+struct Graph<'a> {
+    panel: &'a Panel,
+    x: Scale,
+    y: Scale,
+    width: f64,
+    height: f64,
+}
+
+/// Where graphs and legend are drawn.
+struct Layout<'a> {
+    rows: Vec<Vec<Graph<'a>>>,
+    legend: Vec<&'a Line>,
+    /// Left edge of the graphs.
+    left: f64,
+    /// Width and height of the picture.
+    size: (u32, u32),
+}
+
 impl Picture {
     /// The contents of the file.
     pub fn draw(&self, format: Format) -> Result<Vec<u8>, &'static str> {
-        let rows = self.panels.len() + usize::from(self.orbits.is_some());
-        let size = (WIDTH, CAPTION_HEIGHT + PANEL_HEIGHT * rows as u32);
+        let layout = self.layout();
         match format {
             Format::Svg => {
-                let mut svg = Svg::new(size);
-                self.draw_on(&mut svg);
+                let mut svg = Svg::new(layout.size);
+                self.draw_on(&mut svg, &layout);
                 Ok(svg.finish())
             }
             Format::Png => {
-                let mut bitmap = Bitmap::new(size).ok_or("the bitmap cannot be created")?;
-                self.draw_on(&mut bitmap);
+                let mut bitmap = Bitmap::new(layout.size).ok_or("the bitmap cannot be created")?;
+                self.draw_on(&mut bitmap, &layout);
                 bitmap.finish().ok_or("the bitmap cannot be encoded")
             }
         }
     }
 
-    fn draw_on(&self, canvas: &mut dyn Canvas) {
-        canvas.text(&self.caption, (24.0, 20.0), 0.0, false);
-        let names = self.panels.iter().filter(|panel| panel.lines.len() > 1).flat_map(|panel| &panel.lines);
-        let letters = names.map(|line| line.name.chars().count()).max();
-        let [least, most] = LEGEND_WIDTHS;
-        let right = letters.map_or(MARGINS[1], |count| (KEY_WIDTH + LETTER_WIDTH * count as f64).clamp(least, most));
-        let mut top = f64::from(CAPTION_HEIGHT);
-        let end = f64::from(WIDTH);
-        if let Some([first, second]) = &self.orbits {
-            first.draw_on(canvas, Area { left: 0.0, right: 0.5 * end - MARGINS[1], top, equal: true }, self.units);
-            second.draw_on(canvas, Area { left: 0.5 * end, right: end - MARGINS[1], top, equal: true }, self.units);
-            top += f64::from(PANEL_HEIGHT);
+    fn layout(&self) -> Layout<'_> {
+        let rows: Vec<Vec<Graph>> = self.rows.iter().map(|row| self.graphs(row)).collect();
+        let left = rows.iter().map(|row| row[0].margin()).fold(0.0, f64::max);
+        let legend = self.legend();
+        let names = legend.iter().map(|line| text_width(&line.name)).fold(0.0, f64::max);
+        let of_legend = if legend.is_empty() { 0.0 } else { KEY_LENGTH + PADDING + names + PADDING };
+        let width = (left + GRAPH_WIDTH + 2.0 * PADDING + of_legend).max(text_width(&self.caption) + 2.0 * PADDING);
+        let height: f64 = rows.iter().map(|row| row[0].height + BELOW_GRAPH).sum();
+        let height = CAPTION_HEIGHT + height.max(LINE_HEIGHT * legend.len() as f64);
+        Layout { rows, legend, left, size: (width.ceil() as u32, height.ceil() as u32) }
+    }
+
+    fn draw_on(&self, canvas: &mut dyn Canvas, layout: &Layout) {
+        canvas.text(&self.caption, (PADDING, 0.5 * CAPTION_HEIGHT), 0.0, false);
+        let (left, right, mut top) = (layout.left, layout.left + GRAPH_WIDTH, CAPTION_HEIGHT);
+        for row in &layout.rows {
+            row[0].draw_on(canvas, (left, top));
+            if let Some(second) = row.get(1) {
+                second.draw_on(canvas, (right - second.width, top));
+            }
+            top += row[0].height + BELOW_GRAPH;
         }
-        for panel in &self.panels {
-            panel.draw_on(canvas, Area { left: 0.0, right: end - right, top, equal: false }, self.units);
-            top += f64::from(PANEL_HEIGHT);
+        let start = right + 2.0 * PADDING;
+        for (i, line) in layout.legend.iter().enumerate() {
+            let middle = CAPTION_HEIGHT + LINE_HEIGHT * (i as f64 + 0.5);
+            canvas.lines(&[vec![(start, middle), (start + KEY_LENGTH, middle)]], &stroke(line.stroke));
+            canvas.text(&line.name, (start + KEY_LENGTH + PADDING, middle), 0.0, false);
+        }
+    }
+
+    /// The first line of each name.
+    fn legend(&self) -> Vec<&Line> {
+        let mut legend: Vec<&Line> = Vec::new();
+        let panels = self.rows.iter().flat_map(|row| &row.panels);
+        for line in panels.flat_map(|panel| &panel.lines).filter(|line| !line.name.is_empty()) {
+            if legend.iter().all(|known| known.name != line.name) {
+                legend.push(line);
+            }
+        }
+        legend.truncate(MAX_NAMES);
+        legend
+    }
+
+    /// The graphs of a row, which share its width with the labels between them.
+    fn graphs<'a>(&self, row: &'a Row) -> Vec<Graph<'a>> {
+        let width_of = |margin: f64| (GRAPH_WIDTH - margin) / row.panels.len() as f64;
+        let height = GRAPH_HEIGHTS[usize::from(row.panels.len() > 1)];
+        let graphs = |width| -> Vec<_> {
+            row.panels.iter().map(|panel| panel.graph(self.units, (width, height), row.equal_scales)).collect()
+        };
+        // The width of tick labels hardly depends on that of the graph.
+        let first = graphs(width_of(0.0));
+        match first.get(1) {
+            Some(second) => graphs(width_of(second.margin())),
+            None => first,
         }
     }
 }
 
-/// Where a panel is drawn: from the left edge of its labels to the right end of its x axis, and below `top`.
-struct Area {
-    left: f64,
-    right: f64,
-    top: f64,
-    /// Whether both axes have the same scale.
-    equal: bool,
+impl Panel {
+    fn graph(&self, units: Units, (width, height): (f64, f64), equal_scales: bool) -> Graph<'_> {
+        let points = || self.lines.iter().flat_map(|line| &line.points).filter(|(x, y)| x.is_finite() && y.is_finite());
+        let [most_x, most_y] = [width / TICK_DISTANCES[0], height / TICK_DISTANCES[1]];
+        let mut x = Scale::of(self.x, units, points().map(|point| point.0), most_x, 0.5);
+        // A force or a stiffness is compared with 0.
+        let mut y = Scale::of(self.y, units, points().map(|point| point.1), most_y, 1.0);
+        if equal_scales {
+            Scale::equalise(&mut x, &mut y, width / height);
+        }
+        Graph { panel: self, x, y, width, height }
+    }
 }
 
-impl Panel {
-    fn draw_on(&self, canvas: &mut dyn Canvas, area: Area, units: Units) {
-        let points = || self.lines.iter().flat_map(|line| &line.points);
-        let Area { left: edge, right, top, equal } = area;
-        let bottom = top + f64::from(PANEL_HEIGHT) - MARGINS[3];
-        let (left, top) = (edge + MARGINS[0], top + MARGINS[2]);
-        let mut x = Scale::of(self.x, units, points().map(|point| point.0));
-        let mut y = Scale::of(self.y, units, points().map(|point| point.1));
-        if equal {
-            Scale::equalise(&mut x, &mut y, (right - left) / (bottom - top));
-        }
-        let to_x = |place: f64| left + x.fraction(place) * (right - left);
-        let to_y = |place: f64| bottom - y.fraction(place) * (bottom - top);
+impl Graph<'_> {
+    /// Width of the labels on the left.
+    fn margin(&self) -> f64 {
+        let ticks = self.y.ticks.iter().map(|tick| text_width(&self.y.tick_label(*tick))).fold(0.0, f64::max);
+        PADDING + LINE_HEIGHT + ticks + 2.0 * TICK_LENGTH
+    }
+
+    /// Draws the graph, with labels to the left and below.
+    fn draw_on(&self, canvas: &mut dyn Canvas, (left, top): Point) {
+        let Graph { panel, x, y, .. } = self;
+        let (right, bottom) = (left + self.width, top + self.height);
+        let to_x = |place: f64| left + x.fraction(place) * self.width;
+        let to_y = |place: f64| bottom - y.fraction(place) * self.height;
 
         for &tick in &x.ticks {
             canvas.lines(&[vec![(to_x(tick), top), (to_x(tick), bottom)]], &GRID);
@@ -143,33 +230,32 @@ impl Panel {
         for &tick in &y.ticks {
             canvas.lines(&[vec![(left, to_y(tick)), (right, to_y(tick))]], &GRID);
             canvas.lines(&[vec![(left - TICK_LENGTH, to_y(tick)), (left, to_y(tick))]], &AXIS);
-            canvas.text(&y.tick_label(tick), (left - 8.0, to_y(tick)), 1.0, false);
+            canvas.text(&y.tick_label(tick), (left - 2.0 * TICK_LENGTH, to_y(tick)), 1.0, false);
         }
         canvas.lines(&[vec![(left, top), (left, bottom), (right, bottom)]], &AXIS);
         canvas.text(&x.label, (0.5 * (left + right), bottom + 38.0), 0.5, false);
-        canvas.text(&y.label, (edge + 20.0, 0.5 * (top + bottom)), 0.5, true);
+        canvas.text(&y.label, (left - self.margin() + PADDING + 8.0, 0.5 * (top + bottom)), 0.5, true);
 
-        for (i, line) in self.lines.iter().enumerate() {
-            let (dash, colour) = STROKES[i % STROKES.len()];
-            let width = if (i / STROKES.len()).is_multiple_of(2) { 2.0 } else { 1.0 };
-            let stroke = Stroke { colour, width, dash };
+        for line in &panel.lines {
+            let stroke = stroke(line.stroke);
             let to_canvas = |point: &Point| (to_x(x.place(point.0)), to_y(y.place(point.1)));
-            let points = line.points.iter().map(to_canvas).filter(|point| point.0.is_finite() && point.1.is_finite());
-            match &thinned(points.collect(), MAX_POINTS / self.lines.len())[..] {
-                [single] if single.len() == 1 => {
-                    let (x, y) = single[0];
-                    canvas.lines(&[vec![(x - 4.0, y), (x + 4.0, y)]], &Stroke { width: 8.0, dash: None, ..stroke });
+            let points: Vec<_> = line.points.iter().map(to_canvas).collect();
+            let parts = points.split(|point| !(point.0.is_finite() && point.1.is_finite()));
+            for part in parts.filter(|part| !part.is_empty()) {
+                match &thinned(part.to_vec(), MAX_POINTS / panel.lines.len())[..] {
+                    [single] if single.len() == 1 => {
+                        let (x, y) = single[0];
+                        canvas.lines(&[vec![(x - 4.0, y), (x + 4.0, y)]], &Stroke { width: 8.0, dash: None, ..stroke });
+                    }
+                    lines => canvas.lines(lines, &stroke),
                 }
-                lines => canvas.lines(lines, &stroke),
-            }
-            let (start, row) = (right + 4.0, top + 16.0 + 24.0 * i as f64);
-            if self.lines.len() > 1 && row < bottom {
-                canvas.lines(&[vec![(start, row), (start + 34.0, row)]], &stroke);
-                canvas.text(&line.name, (start + 42.0, row), 0.0, false);
             }
         }
     }
 }
+
+/// Entries of a legend; more lines could not be distinguished.
+const MAX_NAMES: usize = 32;
 
 /// Points of the lines of a panel; more could not be distinguished.
 const MAX_POINTS: usize = 40_000;
@@ -183,11 +269,12 @@ fn thinned(mut points: Vec<Point>, limit: usize) -> Vec<Vec<Point>> {
     if let Some((end, last)) = points.last_mut().zip(last) {
         *end = last;
     }
-    let height = points.iter().fold(0.0, |height: f64, point| height.max(point.1)) as usize + 1;
+    let size = |of: fn(&Point) -> f64| points.iter().map(of).fold(0.0, f64::max) as usize + 1;
+    let [width, height] = [size(|point| point.0), size(|point| point.1)];
     let mut lines = vec![points.clone()];
     let mut cell = 1.0;
-    while lines.iter().map(Vec::len).sum::<usize>() > limit.max(2) && cell < f64::from(WIDTH) {
-        let (mut drawn, mut gap) = (vec![false; WIDTH as usize * height], f64::INFINITY);
+    while lines.iter().map(Vec::len).sum::<usize>() > limit.max(2) && cell < width as f64 {
+        let (mut drawn, mut gap) = (vec![false; width * height], f64::INFINITY);
         lines.clear();
         for pair in points.windows(2) {
             let [from, to] = [pair[0], pair[1]];
@@ -195,7 +282,7 @@ fn thinned(mut points: Vec<Point>, limit: usize) -> Vec<Vec<Point>> {
             let mut enters = false;
             for part in (0..=steps as u32).map(|i| f64::from(i) / steps) {
                 let [x, y] = [from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1)];
-                let index = (y / cell) as usize * WIDTH as usize + (x / cell) as usize;
+                let index = (y / cell) as usize * width + (x / cell) as usize;
                 enters |= !std::mem::replace(&mut drawn[index], true);
             }
             match lines.last_mut() {
@@ -251,7 +338,9 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(axis: Axis, units: Units, values: impl Iterator<Item = f64>) -> Scale {
+    /// The scale that contains the values, with at most `most` intervals between ticks. A linear one starts at 0 if the least value
+    /// is at most the fraction `near` of the largest.
+    fn of(axis: Axis, units: Units, values: impl Iterator<Item = f64>, most: f64, near: f64) -> Scale {
         let in_si = units.in_si(axis.quantity);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values.map(|value| value * in_si).filter(|value| !axis.logarithmic || *value > 0.0) {
@@ -273,15 +362,15 @@ impl Scale {
         };
         let (low, high) = (scale.place(low / in_si), scale.place(high / in_si));
         if axis.logarithmic {
-            scale.set_powers(low, high)
+            scale.set_powers(low, high, most)
         } else {
-            scale.set_steps(low, high)
+            scale.set_steps(low, high, most, near)
         }
         scale
     }
 
-    /// A linear range with a margin; it starts at 0 if that is close.
-    fn set_steps(&mut self, low: f64, high: f64) {
+    /// A linear range with a margin.
+    fn set_steps(&mut self, low: f64, high: f64, most: f64, near: f64) {
         // For equal values a tenth of them; 1 for 0.
         let least = if high > low {
             0.0
@@ -291,15 +380,15 @@ impl Scale {
             0.1 * high.abs()
         };
         let margin = 0.04 * (high - low) + least;
-        let start = if low < 0.0 || low > 0.5 * high { low - margin } else { 0.0 };
+        let start = if low < 0.0 || low > near * high { low - margin } else { 0.0 };
         self.range = start..high + margin;
-        // Four to eleven ticks.
-        self.set_ticks(0.1 * (self.range.end - self.range.start));
+        self.set_ticks(most);
     }
 
-    /// Ticks of the range with this distance at least: 1, 2 or 5 times a power of ten.
-    fn set_ticks(&mut self, rough: f64) {
+    /// Ticks of the range, at most `most` intervals of 1, 2 or 5 times a power of ten.
+    fn set_ticks(&mut self, most: f64) {
         let Range { start, end } = self.range;
+        let rough = (end - start) / most;
         let power = 10f64.powf(rough.log10().floor());
         let step =
             [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= rough).unwrap_or(10.0 * power);
@@ -323,14 +412,15 @@ impl Scale {
         for (scale, wanted) in [(&mut *x, aspect * height), (&mut *y, height)] {
             let margin = 0.5 * (wanted - length(scale));
             scale.range = scale.range.start - margin..scale.range.end + margin;
-            scale.set_ticks(height / 7.0);
+            // Five intervals in height: the same distance along both axes.
+            scale.set_ticks(5.0 * length(scale) / height);
         }
     }
 
     /// A logarithmic range with at least two powers of ten.
-    fn set_powers(&mut self, low: f64, high: f64) {
+    fn set_powers(&mut self, low: f64, high: f64, most: f64) {
         let (low, high) = if high - low < 2.0 { ((low - 1e-9).floor(), (high + 1e-9).ceil()) } else { (low, high) };
-        let every = ((high - low) / 8.0).ceil() as usize;
+        let every = ((high - low) / most).ceil() as usize;
         self.ticks = (low.ceil() as i32..=high.floor() as i32).step_by(every).map(f64::from).collect();
         self.range = low..high;
     }
@@ -359,9 +449,9 @@ mod tests {
     use super::*;
 
     fn picture(x: Axis, points: &[Point]) -> Picture {
-        let lines = vec![Line { name: String::new(), points: points.to_vec() }];
-        let panels = vec![Panel { x, y: Axis::linear("force", Quantity::Force), lines }];
-        Picture { caption: String::new(), units: Units::Si, orbits: None, panels }
+        let lines = vec![Line { stroke: 0, name: String::new(), points: points.to_vec() }];
+        let panel = Panel { x, y: Axis::linear("force", Quantity::Force), lines };
+        Picture { caption: String::new(), units: Units::Si, rows: vec![panel.into()] }
     }
 
     #[test]
@@ -370,7 +460,7 @@ mod tests {
         for (i, low) in sizes.into_iter().enumerate() {
             for (high, logarithmic) in sizes.into_iter().skip(i).flat_map(|high| [(high, false), (high, true)]) {
                 let axis = Axis { name: "x", quantity: Quantity::Length, logarithmic };
-                let scale = Scale::of(axis, Units::Mm, [low, high].into_iter());
+                let scale = Scale::of(axis, Units::Mm, [low, high].into_iter(), 10.0, 0.5);
                 assert!((2..=11).contains(&scale.ticks.len()), "{low} {high} {scale:?}");
                 for value in [low, high].into_iter().filter(|value| !logarithmic || *value > 0.0) {
                     assert!((0.0..=1.0).contains(&scale.fraction(scale.place(value))), "{low} {high} {scale:?}");
@@ -381,7 +471,7 @@ mod tests {
 
     #[test]
     fn labels_have_suitable_units_and_digits() {
-        let scale = |axis, units, values: [f64; 2]| Scale::of(axis, units, values.into_iter());
+        let scale = |axis, units, values: [f64; 2]| Scale::of(axis, units, values.into_iter(), 10.0, 0.5);
         for (largest, quantity, label) in [
             (2.5e-3, Quantity::Length, " [µm]"),
             (1500.0, Quantity::Pressure, " [GPa]"),
@@ -413,6 +503,71 @@ mod tests {
         let points = [(0.0, 2.0), (1.0, 3.0), (10.0, 1.0)];
         assert_eq!(svg(&points), svg(&points[1..]));
         assert_ne!(svg(&points), svg(&[(0.5, 2.0), (1.0, 3.0), (10.0, 1.0)]));
+    }
+
+    #[test]
+    fn lines_are_interrupted_at_points_that_are_not_finite() {
+        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 2.0)];
+        let svg = picture(Axis::linear("", Quantity::Length), &points).draw(Format::Svg).unwrap();
+        assert_eq!(String::from_utf8(svg).unwrap().matches("stroke-width=\"2\"").count(), 2);
+    }
+
+    /// Boxes of the texts: left, right, top, bottom.
+    #[derive(Default)]
+    struct Texts(Vec<([f64; 4], String)>);
+
+    impl Canvas for Texts {
+        fn lines(&mut self, _: &[Vec<Point>], _: &Stroke) {}
+
+        fn text(&mut self, text: &str, (x, y): Point, before: f32, rotated: bool) {
+            // The height of capital letters is 0.72 times the font size of 14.
+            let (width, before, half) = (text_width(text), f64::from(before), 5.0);
+            let along = [-before * width, (1.0 - before) * width];
+            let ends = if rotated {
+                [x - half, x + half, y - along[1], y - along[0]]
+            } else {
+                [x + along[0], x + along[1], y - half, y + half]
+            };
+            self.0.push((ends, text.to_owned()));
+        }
+    }
+
+    #[test]
+    fn texts_lie_inside_the_picture_and_apart() {
+        let line = |stroke, name: &str, size: f64| Line {
+            stroke,
+            name: name.to_owned(),
+            points: (0..9).map(|i| (f64::from(i) * 1e-7, size * (f64::from(i) - 1.5))).collect(),
+        };
+        let panel = |size| Panel {
+            x: Axis::linear("displacement", Quantity::Length),
+            y: Axis::linear("magnitude of the tangential force", Quantity::Force),
+            lines: vec![line(0, "measured", size), line(1, "a name of a line that is longer than others", size)],
+        };
+        let numbers = Axis::linear("misfit over the least", Quantity::Number);
+        let mut tall = Panel { y: numbers, ..panel(1.0) };
+        tall.lines.extend((0..40).map(|i| line(i, &format!("line {i}"), 2e7)));
+        let rows = vec![
+            Row { panels: vec![panel(1.0), panel(0.999)], equal_scales: false },
+            Row { panels: vec![panel(3e-3), panel(2e9)], equal_scales: true },
+            panel(1.0).into(),
+            tall.into(),
+        ];
+        for rows in [rows, vec![panel(1e-9).into()]] {
+            let caption = "N = 150 N, ".repeat(12);
+            let picture = Picture { caption, units: Units::Si, rows };
+            let (layout, mut texts) = (picture.layout(), Texts::default());
+            picture.draw_on(&mut texts, &layout);
+            let (width, height) = (f64::from(layout.size.0), f64::from(layout.size.1));
+            for (i, (one, text)) in texts.0.iter().enumerate() {
+                let [left, right, top, bottom] = *one;
+                assert!(left >= 0.0 && right <= width && top >= 0.0 && bottom <= height, "{text}: {one:?}");
+                for (other, other_text) in &texts.0[..i] {
+                    let apart = right <= other[0] || other[1] <= left || bottom <= other[2] || other[3] <= top;
+                    assert!(apart, "{text} covers {other_text}: {one:?} {other:?}");
+                }
+            }
+        }
     }
 
     /// Dark pixels of polylines.

@@ -1,7 +1,7 @@
 //! Tables as CSV: results, and columns of an input file.
 
 use crate::error::{CliError, Result};
-use crate::files::read_text;
+use crate::files::{TABLE_SIZE, read_text};
 use crate::number::{format_list, parse_number};
 use crate::units::{Quantity, Units};
 use std::path::Path;
@@ -78,9 +78,12 @@ pub struct ColumnSpec<'a> {
 /// Reads columns of a CSV file: the first, which is the selected one, the one of the default name, or the only one; the second, if
 /// it is selected or has its default name in the header; and the first of the alternatives of which that is true.
 pub fn read_columns(path: &Path, columns: [&ColumnSpec; 2], alternatives: &[ColumnSpec]) -> Result<InputTable> {
-    let text = read_text(path)?;
+    let text = read_text(path, TABLE_SIZE)?;
     parse_columns(&text, columns, alternatives).map_err(|reason| CliError::in_file(path, reason))
 }
+
+/// Largest number of rows: more than an hour at 1 kHz. A history needs less than 0.5 kB of memory for each.
+const MAX_ROWS: usize = 4_000_000;
 
 /// [`read_columns`] from the text of a file.
 pub fn parse_columns(
@@ -88,14 +91,24 @@ pub fn parse_columns(
     [spec, second]: [&ColumnSpec; 2],
     alternatives: &[ColumnSpec],
 ) -> std::result::Result<InputTable, String> {
-    let split = |line: &'_ str| line.split(',').map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
     let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim).zip(1..);
-    let mut rows = lines
-        .filter(|(line, _)| !line.is_empty() && !line.starts_with('#'))
-        .map(|(line, number)| -> (Vec<String>, usize) { (split(line), number) })
-        .peekable();
+    let lines = lines.filter(|(line, _)| !line.is_empty() && !line.starts_with('#'));
     let no_numbers = || format!("the table has no {}s", spec.default_name());
-    let (first, number) = rows.peek().cloned().ok_or_else(no_numbers)?;
+    let (first, number) = lines.clone().next().ok_or_else(no_numbers)?;
+    let separator = [';', '\t'].into_iter().find(|separator| first.contains(*separator)).unwrap_or(',');
+    let split = |line| -> Vec<&str> {
+        let cells = str::split(line, separator);
+        cells.map(|cell| cell.trim().trim_matches('"').trim()).collect()
+    };
+    let first = split(first);
+    let numbers = lines.clone().skip(usize::from(is_header(&first)));
+    let decimal_comma = separator != ',' && numbers.clone().any(|(line, _)| line.contains(','));
+    if separator == ',' && !is_header(&first) && lines.clone().all(|(line, _)| may_have_decimal_commas(line)) {
+        return Err(format!(
+            "line {number}: a comma may separate columns or be the decimal separator; name the columns in a header, or write \
+             decimal points, or separate the columns by semicolons"
+        ));
+    }
     let in_header = |reason| format!("line {number}: {reason}");
     let mut indices = vec![spec.find(&first).map_err(in_header)?];
     let (mut options, mut has_second, mut alternative) = (vec![spec.option], false, None);
@@ -118,22 +131,30 @@ pub fn parse_columns(
         }
     }
     let label =
-        |index: &usize| if is_header(&first) { name_of(&first[*index]).to_owned() } else { format!("{}", index + 1) };
+        |index: &usize| if is_header(&first) { name_of(first[*index]).to_owned() } else { format!("{}", index + 1) };
     let labels: Vec<_> = if first.len() > 1 { indices.iter().map(label).collect() } else { Vec::new() };
-    rows.next_if(|_| is_header(&first));
     let mut table = InputTable { has_second, alternative, rows: Vec::new(), labels };
-    for (cells, line) in rows {
+    for (cells, line) in numbers.map(|(cells, line)| (split(cells), line)) {
+        if table.rows.len() == MAX_ROWS {
+            return Err(format!("line {line}: a table has at most {MAX_ROWS} rows"));
+        }
         let (count, expected) = (cells.len(), first.len());
         if count < expected {
             return Err(format!("line {line}: only {count} of {expected} columns"));
         }
         if count > expected {
-            let cause = "is a comma the decimal separator? It must be a point";
+            let cause = "is a comma the decimal separator? Then separate the columns by semicolons";
             return Err(format!("line {line}: {count} columns, but the first row has {expected}; {cause}"));
         }
         let value = |(i, index): (usize, &usize)| {
-            let (cell, place) = (&cells[*index], place(line, table.labels.get(i)));
-            parse_number(cell).map_err(|reason| format!("{place}: {cell:?}: {reason}; columns are separated by commas"))
+            let (cell, place) = (cells[*index], place(line, table.labels.get(i)));
+            let number = match decimal_comma {
+                true if cell.contains('.') => Err("not a number; other numbers have decimal commas"),
+                true => parse_number(&cell.replace(',', ".")),
+                false => parse_number(cell),
+            };
+            let of_separator = "columns are separated by commas, semicolons or tabs";
+            number.map_err(|reason| format!("{place}: {cell:?}: {reason}; {of_separator}"))
         };
         let values = indices.iter().enumerate().map(value).collect::<std::result::Result<_, _>>()?;
         table.rows.push(InputRow { line, values });
@@ -141,8 +162,17 @@ pub fn parse_columns(
     if table.rows.is_empty() { Err(no_numbers()) } else { Ok(table) }
 }
 
+/// Whether a row of a table without points may be one of decimal commas: an integer is followed by digits, 0,5e-6.
+fn may_have_decimal_commas(line: &str) -> bool {
+    let is_integer = |cell: &str| cell.bytes().all(|byte| byte.is_ascii_digit()) && !cell.is_empty();
+    let is_whole = |cell: &str| is_integer(cell.strip_prefix(['+', '-']).unwrap_or(cell));
+    let is_fraction = |cell: &str| is_integer(cell.split(['e', 'E', 'd', 'D']).next().unwrap_or_default());
+    let cells: Vec<_> = line.split(',').map(str::trim).collect();
+    !line.contains('.') && cells.windows(2).any(|pair| is_whole(pair[0]) && is_fraction(pair[1]))
+}
+
 /// Whether the first row has names. A cell that starts like a number is a number, even if invalid.
-fn is_header(cells: &[String]) -> bool {
+fn is_header(cells: &[&str]) -> bool {
     let starts_number = |cell: &str| cell.starts_with(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
     cells.iter().all(|cell| !starts_number(cell) && parse_number(cell).is_err())
 }
@@ -154,7 +184,7 @@ fn name_of(cell: &str) -> &str {
 
 impl ColumnSpec<'_> {
     /// Whether the column is selected, or its default name is in the header.
-    fn is_in(&self, first: &[String]) -> bool {
+    fn is_in(&self, first: &[&str]) -> bool {
         self.selected.is_some() || (is_header(first) && first.iter().any(|cell| self.names.contains(&name_of(cell))))
     }
 
@@ -163,10 +193,7 @@ impl ColumnSpec<'_> {
     }
 
     /// Index of the column, from the cells of the first row.
-    fn find(&self, first: &[String]) -> std::result::Result<usize, String> {
-        if first.iter().any(|cell| cell.contains(';')) {
-            return Err("columns are separated by commas, not by semicolons".to_owned());
-        }
+    fn find(&self, first: &[&str]) -> std::result::Result<usize, String> {
         let names: Vec<_> = first.iter().map(|cell| name_of(cell)).collect();
         let default = || self.names.iter().find(|name| names.contains(name)).copied();
         let name = self.selected.or_else(default).unwrap_or(self.default_name());

@@ -1,11 +1,14 @@
 //! Commands under a normal force that varies, with separation.
 
 use crate::args::{History, Loop, Normal};
-use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, grid, pairs, panel, parts_of_step, scaled};
+use crate::commands::{
+    DISPLACEMENT, ENERGIES, ENERGIES_REMARK, FORCE, Report, STIFFNESS, check_range, grid, pairs, panel, parts_of_step,
+    scaled,
+};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
 use crate::number::{Amount, format_list, format_number};
-use crate::plot::{Axis, Line, Panel, rounded};
+use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::{InputTable, Table};
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
@@ -39,6 +42,7 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
         let factor = if options.relative { element.approach } else { 1.0 };
         let end = options.to.map_or(element.approach, |to| to * factor);
         at_approach("--to", end)?;
+        check_range("--to", end, 0.0..=f64::INFINITY)?;
         approaches = grid(end, options.points);
         format!(" --to {} --points {}", format_number(end), options.points)
     };
@@ -46,10 +50,13 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
     let rows = forces.iter().map(at_force).chain(approaches).collect::<Result<Vec<_>>>()?;
     let columns = [("approach", Length), ("normal_force", Force), ("stiffness", Stiffness), ("half_width", Length)];
     let approach = Axis::linear("approach", Length);
+    // Both may jump as the contact closes.
+    let of_closed =
+        |y: usize| rows.iter().map(move |row| (row[0], if row[1] > 0.0 { row[y] } else { f64::NAN })).collect();
     let panels = vec![
         panel(approach, NORMAL_FORCE, pairs(&rows, 0, 1)),
-        panel(approach, STIFFNESS, pairs(&rows, 0, 2)),
-        panel(approach, Axis::linear("half-width", Length), pairs(&rows, 0, 3)),
+        panel(approach, STIFFNESS, of_closed(2)),
+        panel(approach, Axis::linear("half-width", Length), of_closed(3)),
     ];
     Ok(Report::new("normal", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
@@ -82,7 +89,7 @@ pub fn history(
     let (mut state, mut drawn) = (new_state(count)?, new_state(PIECES_OF_PICTURE)?);
     let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![[0.0; 3]], [0.0; 2]);
-    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
     for row in &table.rows {
         let to = [row.values[0] * factors[0], row.values[1] * factors[1]];
         let step = advance(&element, &mut state, to, true).map_err(|error| {
@@ -100,28 +107,31 @@ pub fn history(
         let [tangential, normal] = step.force;
         (least, largest) = (least.min(normal), largest.max(normal));
         let given = [to[1]].into_iter().filter(|_| by_approach);
-        rows.push(
-            [to[0]].into_iter().chain(given).chain([normal, tangential, step.tangent[0], step.dissipated]).collect(),
-        );
+        total += step.dissipated;
+        let results = [normal, tangential, step.tangent[0], step.dissipated, total];
+        rows.push([to[0]].into_iter().chain(given).chain(results).collect());
         from = to;
     }
     let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
-    let others = [("normal_force", Force), ("force", Force), ("stiffness", Stiffness), ("dissipated", Energy)];
-    let columns: Vec<_> = [("displacement", Length)].into_iter().chain(approach).chain(others).collect();
-    let line = |name: &str, x: usize, y: usize| Line {
-        name: name.to_owned(),
+    let others = [("normal_force", Force), ("force", Force), ("stiffness", Stiffness)];
+    let columns: Vec<_> =
+        [("displacement", Length)].into_iter().chain(approach).chain(others).chain(ENERGIES).collect();
+    let line = |x: usize, y: usize| Line {
+        stroke: 0,
+        name: String::new(),
         points: points.iter().map(|point| (point[x], point[y])).collect(),
     };
     let limit = element.friction_coefficient * largest;
-    let cone = Line { name: "±μN".to_owned(), points: vec![(largest, limit), (0.0, 0.0), (largest, -limit)] };
+    let cone =
+        Line { stroke: 1, name: "±μN".to_owned(), points: vec![(largest, limit), (0.0, 0.0), (largest, -limit)] };
     let panels = vec![
-        Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line("", 0, 2)] },
-        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: vec![line("", 0, 1)] },
-        Panel { x: NORMAL_FORCE, y: FORCE, lines: vec![line("force", 1, 2), cone] },
+        Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line(0, 2)] }.into(),
+        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: vec![line(0, 1)] }.into(),
+        Panel { x: NORMAL_FORCE, y: FORCE, lines: vec![line(1, 2), cone] }.into(),
     ];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
     let range = format!("{} to {}", rounded(least, Force, spec.units), rounded(largest, Force, spec.units));
-    Ok(report.under(spec, &range).with_remark("stiffness: by the displacement; dissipated: energy of each step"))
+    Ok(report.under(spec, &range).with_remark(&format!("stiffness: by the displacement; {ENERGIES_REMARK}")))
 }
 
 /// Displacement and force.
@@ -144,7 +154,7 @@ pub fn history_in_two_directions(
     two_directions::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(TRIALS_PER_POINT * table.rows.len());
     let (mut rows, mut points, mut from): (_, Vec<Point>, _) = (Vec::new(), vec![[[0.0; 3]; 2]], [0.0; 3]);
-    let (mut least, mut largest) = (f64::INFINITY, 0f64);
+    let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
     for row in &table.rows {
         let given = |i: usize| row.values.get(i).map_or(element.normal_force, |value| value * factors[i]);
         let to = [given(0), given(1), given(2)];
@@ -167,14 +177,16 @@ pub fn history_in_two_directions(
         let [force_x, force_y, normal] = step.force;
         (least, largest) = (least.min(normal), largest.max(normal));
         let given = to.into_iter().take(if by_approach { 3 } else { 2 });
-        rows.push(given.chain([normal, force_x, force_y, step.dissipated]).collect());
+        total += step.dissipated;
+        rows.push(given.chain([normal, force_x, force_y, step.dissipated, total]).collect());
         from = to;
     }
     let approach = [("approach", Length)].into_iter().filter(|_| by_approach);
-    let others = [("normal_force", Force), ("force_x", Force), ("force_y", Force), ("dissipated", Energy)];
+    let others = [("normal_force", Force), ("force_x", Force), ("force_y", Force)];
     let displacements = [("displacement_x", Length), ("displacement_y", Length)];
-    let columns: Vec<_> = displacements.into_iter().chain(approach).chain(others).collect();
-    let line = |name: &str, point: &dyn Fn(&Point) -> (f64, f64)| Line {
+    let columns: Vec<_> = displacements.into_iter().chain(approach).chain(others).chain(ENERGIES).collect();
+    let line = |stroke: usize, name: &str, point: &dyn Fn(&Point) -> (f64, f64)| Line {
+        stroke,
         name: name.to_owned(),
         points: points.iter().map(point).collect(),
     };
@@ -183,20 +195,21 @@ pub fn history_in_two_directions(
     let orbits = [("displacement x", "displacement y", Length), ("force x", "force y", Force)];
     let orbits = [0, 1].map(|i| {
         let (x, y, quantity) = orbits[i];
-        let lines = vec![line("", &|point| (point[i][0], point[i][1]))];
+        let lines = vec![line(0, "", &|point| (point[i][0], point[i][1]))];
         Panel { x: Axis::linear(x, quantity), y: Axis::linear(y, quantity), lines }
     });
-    let loops = [0, 1].map(|i| line(["x", "y"][i], &|point| (point[0][i], point[1][i])));
+    let loops = [0, 1].map(|i| line(i + 1, ["x", "y"][i], &|point| (point[0][i], point[1][i])));
     let magnitudes = vec![
-        line("force", &|point| (point[1][2], point[1][0].hypot(point[1][1]))),
-        Line { name: "μN".to_owned(), points: vec![(0.0, 0.0), (largest, limit)] },
+        line(0, "", &|point| (point[1][2], point[1][0].hypot(point[1][1]))),
+        Line { stroke: 3, name: "μN".to_owned(), points: vec![(0.0, 0.0), (largest, limit)] },
     ];
     let panels = vec![
-        Panel { x: DISPLACEMENT, y: FORCE, lines: loops.into() },
-        Panel { x: NORMAL_FORCE, y: magnitude, lines: magnitudes },
+        Row { panels: orbits.into(), equal_scales: true },
+        Panel { x: DISPLACEMENT, y: FORCE, lines: loops.into() }.into(),
+        Panel { x: NORMAL_FORCE, y: magnitude, lines: magnitudes }.into(),
     ];
     let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
-    let report = report.with_orbits(orbits).with_remark("dissipated: energy of each step");
+    let report = report.with_remark(ENERGIES_REMARK);
     if input.is_none() {
         return Ok(report);
     }
@@ -242,8 +255,8 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
     if !(given >= 0.0 && given.is_finite()) {
         return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
     }
-    if let Some(phase) = options.phase.iter().find(|phase| !phase.is_finite()) {
-        return Err(CliError::Input(format!("--phase {}: a phase must be finite", format_number(*phase))));
+    for phase in &options.phase {
+        check_range("--phase", *phase, -360.0..=360.0)?;
     }
     let steps = n * STEPS_OF_PERIOD.div_ceil(n);
     let (mut rows, mut forces, mut loads) = (Vec::new(), Vec::new(), Vec::new());
@@ -251,6 +264,8 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
         [_] => String::new(),
         _ => format!("±{}, ", rounded(amplitude, Length, units)),
     };
+    let mut strokes = 0..;
+    let mut next_stroke = || strokes.next().unwrap_or_default();
     for &amplitude in amplitudes {
         let error = |error| CliError::in_option("--amplitude", amplitude, error);
         let hysteresis = spec.contact.hysteresis_loop(amplitude).map_err(error)?;
@@ -258,7 +273,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
         for &phase in &options.phase {
             let at = |i: usize| {
                 let angle = |degrees: f64| (degrees + 360.0 * (i % steps) as f64 / steps as f64).to_radians();
-                [amplitude * angle(0.0).cos(), (mean + given * angle(phase % 360.0).cos()).max(0.0)]
+                [amplitude * angle(0.0).cos(), (mean + given * angle(phase).cos()).max(0.0)]
             };
             let (period, dissipated) = steady_period(&element, &(0..=steps).map(at).collect::<Vec<_>>())?;
             let row = |[displacement, normal_force, force]: &[f64; 3]| {
@@ -267,13 +282,14 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
             let of_loop: Vec<_> = period.iter().step_by(steps / n).map(row).collect();
             let size = format!("{}{}°", name(amplitude), format_number(phase));
             let points = |x: usize, y: usize| period.iter().map(|point| (point[x], point[y])).collect();
-            forces.push(Line { name: format!("{size}: {}", rounded(dissipated, Energy, units)), points: points(0, 2) });
-            loads.push(Line { name: size, points: points(0, 1) });
+            let (stroke, name) = (next_stroke(), format!("{size}: {}", rounded(dissipated, Energy, units)));
+            forces.push(Line { stroke, name, points: points(0, 2) });
+            loads.push(Line { stroke, name: String::new(), points: points(0, 1) });
             rows.extend(of_loop);
         }
         let points = (0..=n).map(|i| (hysteresis.displacement(i, n), hysteresis.force(i, n))).collect();
-        let size = format!("{}constant load: {}", name(amplitude), rounded(constant, Energy, units));
-        forces.push(Line { name: size, points });
+        let name = format!("{}constant load: {}", name(amplitude), rounded(constant, Energy, units));
+        forces.push(Line { stroke: next_stroke(), name, points });
     }
     let columns = [
         ("amplitude", Length),
@@ -285,8 +301,8 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
         ("dissipated_constant", Energy),
     ];
     let panels = vec![
-        Panel { x: DISPLACEMENT, y: FORCE, lines: forces },
-        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: loads },
+        Panel { x: DISPLACEMENT, y: FORCE, lines: forces }.into(),
+        Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: loads }.into(),
     ];
     let phases = format_list(&options.phase);
     let repeat = format!("{repeat} --normal-amplitude {} --phase {phases}", format_number(given));

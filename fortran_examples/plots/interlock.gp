@@ -29,22 +29,19 @@ y(dummy) = micro(column('contact_displacement_y_m')) - mean_y
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot
+  set multiplot layout 2, 2
   set size noratio
-  set lmargin at screen 0.085; set rmargin at screen 0.5
-  set tmargin at screen 0.945; set bmargin at screen 0.59
   set logscale y
   set xrange [200:480]
   set yrange [0.5:1000]
   set xtics 50
   set ytics auto
-  set xlabel 'frequency (Hz)' offset 0, 0.3
+  set xlabel 'frequency (Hz)'
   set ylabel 'amplitude over the excitation (µm/N)'
   set title 'friction in both directions'
   set key top right Left reverse samplen 2 title 'excitation' font ',12.5'
   plot for [i=1:loads] 'results/interlock_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 2 lc rgb colours[i] \
     title sprintf('%g N', excitation[i])
-  set lmargin at screen 0.565; set rmargin at screen 0.975
   set title 'friction in one direction'
   unset ylabel
   set key top right notitle
@@ -55,13 +52,11 @@ do for [extension in 'svg png'] {
        NaN with lines lw 2 lc rgb '#222222' title 'radially stuck', \
        NaN with lines lw 1.4 dt (6,4) lc rgb '#222222' title 'radially free'
   unset logscale
-  set tmargin at screen 0.46; set bmargin at screen 0.075
   set autoscale
   set xtics auto
-  set lmargin at screen 0.085; set rmargin at screen 0.5
   set size ratio -1
   set title sprintf('displacement of the contact, %g Hz, %g N', frequency, force)
-  set xlabel 'along the face (µm)' offset 0, 0.3
+  set xlabel 'along the face (µm)'
   set ylabel 'radial (µm)'
   set xrange [-9:9]
   set yrange [-9:9]
@@ -70,17 +65,16 @@ do for [extension in 'svg png'] {
          using (shown(0, x(0))):(y(0)) \
          with lines lw 6 lc rgb '#b0b0b0' title 'time integration', \
        '' using (shown(most, x(0))):(y(0)) \
-         with lines ls 1 title sprintf('%g harmonics', most)
-  set lmargin at screen 0.565; set rmargin at screen 0.975
+         with lines lw 1.6 lc rgb '#222222' title sprintf('%g harmonics', most)
   set title 'force'
   set xlabel 'along the face (N)'
-  set ylabel 'radial (N)' offset 1, 0
+  set ylabel 'radial (N)'
   set xrange [-7:7]
   set yrange [-7:7]
   unset key
   plot 'results/interlock_waveforms.csv' using (shown(0, column('contact_force_N'))):(column('contact_force_y_N')) \
          with lines lw 6 lc rgb '#b0b0b0', \
-       '' using (shown(most, column('contact_force_N'))):(column('contact_force_y_N')) with lines ls 1
+       '' using (shown(most, column('contact_force_N'))):(column('contact_force_y_N')) with lines lw 1.6 lc rgb '#222222'
   unset multiplot
   unset output
 }

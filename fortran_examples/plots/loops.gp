@@ -1,6 +1,11 @@
 # Hysteresis loops over one period of the resonance peak. Below, minus the displacement of a contact that sticks everywhere,
 # force / initial stiffness: the slip part, which is zero for a spring-slider before gross slip.
 load 'plots/style.gp'
+
+# From wide to narrow: loops that coincide remain visible.
+set style line 11 lc rgb '#0072B2' lw 5.0 dt 1
+set style line 12 lc rgb '#D55E00' lw 2.0 dt 1
+set style line 13 lc rgb '#222222' lw 1.4 dt (4,3)
 name = 'loops'
 wide = 1060
 high = 820
@@ -16,22 +21,22 @@ loops(law) = sprintf('results/%s_loops.csv', law)
 in_panel(value) = (strcol('contact') eq contact && int(column('load')) == number ? value : NaN)
 across(dummy) = in_panel(panel < 3 ? 1e6 * column('displacement_m') : 1e9 * column('slip_part_m'))
 
-set ylabel 'tangential force (N)' offset 0.6, 0
+set ylabel 'tangential force (N)'
 set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.08
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 2, 2 margins 0.085, 0.98, 0.085, 0.94 spacing 0.1, 0.15
+  set multiplot layout 2, 2
   do for [panel=1:4] {
     contact = word(contacts, panel)
     number = int(word(numbers, panel))
     set title sprintf('%sdamper at %g N', contact eq 'damper' ? '' : 'flank of the root, ', normal_force[number])
-    if (panel < 3) { set xlabel 'relative displacement (µm)' offset 0, 0.4 } \
-    else { set xlabel 'slip part of the displacement (nm)' offset 0, 0.4 }
+    if (panel < 3) { set xlabel 'relative displacement (µm)' } \
+    else { set xlabel 'slip part of the displacement (nm)' }
     if (panel == 2) { set key top left Left reverse samplen 3 spacing 1.15 } else { unset key }
-    plot loops('cylinder') using (across(0)):'force_N' with lines ls 1 title 'microslip, cylinder', \
-         loops('flat') using (across(0)):'force_N' with lines ls 2 title 'microslip, flat', \
-         loops('spring_slider') using (across(0)):'force_N' with lines ls 3 title 'spring-slider'
+    plot loops('cylinder') using (across(0)):'force_N' with lines ls 11 title 'microslip, cylinder', \
+         loops('flat') using (across(0)):'force_N' with lines ls 12 title 'microslip, flat', \
+         loops('spring_slider') using (across(0)):'force_N' with lines ls 13 title 'spring-slider'
   }
   unset multiplot
   unset output

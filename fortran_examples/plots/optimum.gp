@@ -18,7 +18,7 @@ relative(dummy) = column('peak_m') / slider_peak[int(column('load'))]
 
 do for [extension in 'svg png'] {
   @set_terminal
-  set multiplot layout 1, 2 margins 0.085, 0.985, 0.14, 0.965 spacing 0.09, 0
+  set multiplot layout 1, 2
   set logscale y
   set yrange [1:2000]
   set ylabel 'resonance peak at the blade tip (µm)'

@@ -1,5 +1,6 @@
 # Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito, viridis); lines differ in dash,
-# width and mark too, so that they are distinct in grey.
+# width and mark too, so that they are distinct in grey. One colour has one meaning in all panels of a picture. gnuplot computes the
+# margins from the labels.
 set datafile separator ','
 set datafile missing 'nan'
 set datafile columnheaders

@@ -4,7 +4,7 @@ set xlabel amplitude
 set xrange [0:12]
 
 @set_terminal
-set multiplot layout 1, 2 margins 0.1, 0.985, 0.15, 0.92 spacing 0.11, 0
+set multiplot layout 1, 2
 do for [panel in 'a b'] {
   set title sprintf('(%s)  %s', panel, label)
   if (panel eq 'a') { set ylabel "imaginary part  K'' / (E^* L)"; set key bottom right } \

@@ -4,7 +4,7 @@ name = 'fig15'; wide = 1000; high = 500
 set xlabel force
 
 @set_terminal
-set multiplot layout 1, 2 margins 0.1, 0.985, 0.14, 0.92 spacing 0.12, 0
+set multiplot layout 1, 2
 do for [panel in 'a b'] {
   set title sprintf('(%s)', panel)
   set ylabel energy

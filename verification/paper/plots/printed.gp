@@ -3,7 +3,7 @@ load 'plots/style.gp'
 name = 'printed'; wide = 1000; high = 800
 
 @set_terminal
-set multiplot layout 2, 2 margins 0.085, 0.985, 0.08, 0.945 spacing 0.1, 0.135
+set multiplot layout 2, 2
 set title 'Eq. 1, 19, 24: load of a contact'
 set xlabel 'a / b'
 set ylabel '4 P R / (b^2 E^*)'
