@@ -12,8 +12,10 @@ archive := target/release/libmicroslip.a
 shared := lib/libmicroslip.so.$(shell sed -n 's/^\#define MSLIP_ABI_VERSION //p' include/microslip.h)
 pcdir := lib/pkgconfig
 cmakedir := lib/cmake/microslip
+docdir := share/doc/microslip
 files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/microslip.pc \
-	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake
+	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake \
+	$(addprefix $(docdir)/,LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md)
 products := $(addprefix dist/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
@@ -41,6 +43,10 @@ dist/include/%: include/%
 	@mkdir -p $(@D)
 	cp $< $@
 
+dist/$(docdir)/%: %
+	@mkdir -p $(@D)
+	cp $< $@
+
 dist/$(pcdir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@
@@ -64,7 +70,7 @@ install: all $(if $(SHARED),shared)
 ## uninstall: remove what `install` copied
 uninstall:
 	@for file in $(files) $(shared) lib/libmicroslip.so; do rm -f "$(DESTDIR)$(PREFIX)/$$file"; done
-	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" 2>/dev/null || true
+	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" "$(DESTDIR)$(PREFIX)/$(docdir)" 2>/dev/null || true
 
 ## demo: run the Fortran examples and draw their figures
 demo: demo-dependencies all

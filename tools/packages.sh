@@ -50,7 +50,8 @@ installed_files() { # PREFIX FILE...
     (cd "$1" && find . ! -type d | sort) > "$work/installed" && printf './%s\n' "$@" | sed 1d | sort | diff - "$work/installed"
 }
 files="include/microslip.f90 include/microslip.h lib/cmake/microslip/microslip-config-version.cmake
-lib/cmake/microslip/microslip-config.cmake lib/libmicroslip.a lib/pkgconfig/microslip.pc"
+lib/cmake/microslip/microslip-config.cmake lib/libmicroslip.a lib/pkgconfig/microslip.pc share/doc/microslip/LICENSE-APACHE
+share/doc/microslip/LICENSE-MIT share/doc/microslip/THIRD-PARTY.md"
 # shellcheck disable=SC2086  # a list, split on purpose
 check 'installed files' installed_files "$static" $files
 

@@ -23,6 +23,7 @@ archive=$prefix/lib/libmicroslip.a
 cargo_archive=target/release/libmicroslip.a
 # What Rust's own library needs in archives other than the installed one.
 system='-lpthread -ldl -lm'
+triple=$(rustc -vV | sed -n 's/^host: //p')
 
 # Without contraction of products and sums all compilers compute the same inputs.
 strict='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off'
@@ -92,6 +93,15 @@ two_shared_objects() {
         "$work/shared_objects" "$work/one.so" "$work/two.so" > "$work/other" && cmp "$work/twice" "$work/other"
 }
 
+# A shared object with a copy of the library exports the library's functions, unless it is linked with --exclude-libs.
+exclude_libs() {
+    for flags in '' -Wl,--exclude-libs,libmicroslip.a; do
+        $CC -O1 -shared -fPIC $calls "$archive" -lm $flags -o "$work/exporting.so" || return 1
+        nm -D --defined-only "$work/exporting.so" | grep -c ' mslip_'
+    done > "$work/exported" || true
+    [ "$(head -n 1 "$work/exported")" -gt 0 ] && [ "$(tail -n 1 "$work/exported")" = 0 ]
+}
+
 shared_library() {
     $CC -shared -Wl,--fatal-warnings -Wl,-z,text,-z,defs -Wl,--whole-archive "$archive" -Wl,--no-whole-archive -lm \
         -o "$work/libapplication.so" && same_application $CC $application "$work/libapplication.so" -Wl,-rpath,"$work" -lm
@@ -134,6 +144,7 @@ links() {
     check 'link: clang -flto -static' same_application clang -flto -fuse-ld=lld -static $application "$archive" -lm
     check 'two shared objects' two_shared_objects
     check 'a shared library of the whole archive' shared_library
+    check 'a shared object that hides the functions by --exclude-libs' exclude_libs
     check 'before and after another Rust archive' other_rust_archive
 }
 
@@ -142,7 +153,6 @@ links() {
 # instrument SANITIZER: builds the archive for a sanitizer, as $instrumented. The option is not yet stable, and the compiled
 # parts of Rust's library are not instrumented.
 instrument() {
-    triple=$(rustc -vV | sed -n 's/^host: //p')
     instrumented=target/$1/$triple/release/libmicroslip.a
     RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=$1 -Cunsafe-allow-abi-mismatch=sanitizer" \
         $CARGO build --quiet --release --locked --package microslip --target "$triple" --target-dir "target/$1"
@@ -204,9 +214,9 @@ threads() {
     check 'ThreadSanitizer: no race' "$work/threads"
 }
 
-# ThreadSanitizer's runtime must be that of the compiler of the library.
+# ThreadSanitizer's runtime must be that of the compiler of the library, for this machine.
 build_for_threads() {
-    runtime=$(ls "$(rustc --print sysroot)"/lib/rustlib/*/lib/librustc*_rt.tsan.a)
+    runtime=$(ls "$(rustc --print sysroot)/lib/rustlib/$triple"/lib/librustc*_rt.tsan.a)
     for source in $here/all_calls.c "$2"; do
         clang $optimised -fsanitize=thread $include -c "$source" -o "$work/tsan_$(basename "$source").o" || return 1
     done
