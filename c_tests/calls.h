@@ -234,9 +234,9 @@ enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
 /* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
 enum { REVERSALS = 125, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 92, USED_PIECES = 5 };
 
-/* Quantities, and the status of one that is not finite. */
-enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE, APPROACH_COEFFICIENT,
-       FORCE_COEFFICIENT };
+#include "functions.h"
+
+/* The status of a value that is not finite. */
 static inline int32_t status_of_non_finite(int kind)
 {
     static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
@@ -245,27 +245,6 @@ static inline int32_t status_of_non_finite(int kind)
     return status[kind];
 }
 
-/* Arguments besides a contact, or an element if IS_ELEMENT. The n of IS_IWAN is not the length of an input. */
-enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32, TAKES_TABLE = 64 };
-enum { OUTPUTS = 5 }; /* the new state first */
-
-/* The arguments of the next call. A function takes some of them. */
-typedef struct {
-    const mslip_contact *contacts;
-    const mslip_element *elements;
-    const mslip_parameters *parameters;
-    const mslip_elliptic_parameters *elliptic_parameters;
-    mslip_contact *new_contact;
-    mslip_element *new_element;
-    const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
-    int32_t directions, normal_input, rule;
-    double scalar;
-    const double *input, *state;
-    double *workspace, *table, *buffer, *out[OUTPUTS];
-    int32_t *found_directions, *found_rule;
-    size_t *found_harmonics, *found_samples;
-} arguments;
 static arguments call;
 
 #define CALL(name, ...) \

@@ -4,6 +4,39 @@
    with valid arguments, for each rule of a workspace and each variant of an element; OTHER(name, arguments) one
    that initialises or checks memory. Each includer defines one of them before it includes this file. */
 
+#ifndef MICROSLIP_FUNCTIONS_H
+#define MICROSLIP_FUNCTIONS_H
+
+#include <microslip.h>
+
+/* Quantities. The normal components of displacements, and their coefficients, are only distinguished in the drivers. */
+enum { NONE, POSITION, FORCE, FORCE_AMPLITUDE, DISPLACEMENT, AMPLITUDE, APPROACH, NORMAL_FORCE, APPROACH_COEFFICIENT,
+       FORCE_COEFFICIENT };
+
+/* Arguments besides a contact, or an element if IS_ELEMENT. The n of IS_IWAN is not the length of an input. */
+enum { TAKES_COUNT = 1, TAKES_STATE = 2, TAKES_WORKSPACE = 4, IS_BATCH = 8, IS_IWAN = 16, IS_ELEMENT = 32, TAKES_TABLE = 64 };
+enum { OUTPUTS = 5 }; /* the new state first */
+
+/* The arguments of a call. A function takes some of them. */
+typedef struct {
+    const mslip_contact *contacts;
+    const mslip_element *elements;
+    const mslip_parameters *parameters;
+    const mslip_elliptic_parameters *elliptic_parameters;
+    mslip_contact *new_contact;
+    mslip_element *new_element;
+    const int32_t *index, *active;
+    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
+    int32_t directions, normal_input, rule;
+    double scalar;
+    const double *input, *state;
+    double *workspace, *table, *buffer, *out[OUTPUTS];
+    int32_t *found_directions, *found_rule;
+    size_t *found_harmonics, *found_samples;
+} arguments;
+
+#endif
+
 #ifdef CALL
 CALL(contact_init, call.parameters, call.new_contact)
 CALL(contact_init_elliptic, call.elliptic_parameters, call.new_contact)

@@ -23,11 +23,8 @@ struct sequence {
     size_t arrays;
 };
 
-struct call {
-    const char *name;
-    void (*make)(struct sequence *);
-};
-extern const struct call calls[];
+/* Their names. */
+extern const char *const calls[];
 extern const size_t number_of_calls;
 
 /* The element may be NULL. */

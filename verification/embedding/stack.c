@@ -62,7 +62,7 @@ int main(void)
             deepest = taken > deepest ? taken : deepest;
         }
         failed += deepest > LIMIT;
-        printf("%-28s %6zu bytes%s\n", calls[i].name, deepest, deepest > LIMIT ? ": exceeds the limit" : "");
+        printf("%-28s %6zu bytes%s\n", calls[i], deepest, deepest > LIMIT ? ": exceeds the limit" : "");
     }
     end_sequence(&sequence);
     return failed != 0;
