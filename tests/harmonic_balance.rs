@@ -93,7 +93,8 @@ fn case() -> Case {
     assert_eq!(words("contact.law")[0], "microslip");
     assert_eq!(numbers("contact.dof")[1], 0.0);
     assert_eq!(number("excitation.phase"), 0.0);
-    assert!(!variables.contains_key("contact.count") && !variables.contains_key("contact.displacement_reference"));
+    assert_eq!(words("contact.displacement_reference")[0], "centre point");
+    assert!(!variables.contains_key("contact.count"));
     let mass = matrix("model.mass");
     let mut excitation = DVector::zeros(mass.nrows());
     excitation[number("excitation.dof") as usize - 1] = number("excitation.amplitude");
