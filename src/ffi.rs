@@ -12,7 +12,6 @@ mod history;
 mod cycle;
 mod hbm;
 
-mod directions;
 mod element;
 
 mod batch;
@@ -26,9 +25,9 @@ pub use hbm::*;
 pub use history::*;
 
 use crate::constant_load::contact::Contact;
+use crate::element::Element;
 use crate::error::Error;
 use crate::parameters::{EllipticParameters, Parameters};
-use crate::varying_load::element::Element;
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.

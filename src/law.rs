@@ -1,95 +1,126 @@
-//! Interface between harmonic balance and a contact law: advancing along a periodic displacement, evaluation, differentiation.
-//!
-//! Between two events (a reversal, the closure of a loop, the onset of gross slip) the force follows one branch. On a branch that
-//! leaves reversal r, `dT = k (dδ - dδ_r) + dT_r` with the tangent stiffness k: the derivative depends only on the reversals on the
-//! stack.
+//! What the laws of elements have in common: results of steps and of load histories, and the trait by which the interface calls them.
 
-use crate::constant_load::sensitivity::Sensitivity;
+use crate::element::{Directions, Element};
+use crate::error::Error;
+use crate::fourier::HarmonicOutput;
+use crate::fourier::workspace::WorkspaceLayout;
+use crate::tag::Kind;
 
-/// A point of a load history.
+/// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
-    pub displacement: f64,
-    pub force: f64,
+pub struct StepResult<V, T> {
+    /// Tangential forces and normal force \[N\].
+    pub force: V,
+    /// Derivatives of the force with respect to the tangential displacements \[N/m\] and the normal component, column by column.
+    pub tangent: T,
+    /// \[J\]; 0 unless requested.
+    pub dissipated: f64,
 }
 
-/// Storage of a reversal on the stack: displacement, force, and a value private to the law.
-pub(crate) type Reversal = [f64; 3];
+impl<const M: usize, const MM: usize> StepResult<[f64; M], [f64; MM]> {
+    pub(crate) const NONE: Self = StepResult { force: [0.0; M], tangent: [0.0; MM], dissipated: 0.0 };
+}
 
-/// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
+/// Results of a step that are requested besides the force.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Response {
-    pub force: f64,
-    pub stiffness: f64,
+pub(crate) struct Requested {
+    pub tangent: bool,
+    pub energy: bool,
 }
 
-/// Range of displacements of a branch.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BranchRange {
-    /// Number of reversals on the stack up to the one that the branch leaves; 0 for the initial loading curve.
-    pub depth: usize,
-    /// +1 or -1.
-    pub direction: f64,
-    /// Displacement at which it ends; infinite in gross slip.
-    pub end: f64,
-    /// The contact is in gross slip: the force is constant.
-    pub gross_slip: bool,
+/// Outputs of a path, step after step; `None` is not computed.
+#[derive(Debug)]
+pub struct PathOutput<'a> {
+    /// `[T, N]` or `[Tx, Ty, N]` per step \[N\].
+    pub force: Option<&'a mut [f64]>,
+    /// A tangent per step, 2 x 2 or 3 x 3, column-major.
+    pub tangent: Option<&'a mut [f64]>,
+    /// One double per step \[J\].
+    pub dissipated: Option<&'a mut [f64]>,
 }
 
-/// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
-pub(crate) const BEYOND: usize = 6;
-
-/// Evaluates the response at displacements on one branch without gross slip.
-pub(crate) trait Evaluator: Copy {
-    fn at(&self, displacement: f64) -> Response;
-
-    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, with the same bits. All arrays, of
-    /// which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are overwritten.
-    fn along<const STIFFNESS: bool>(
-        &self,
-        count: usize,
-        displacement: &[f64],
-        scratch: [&mut [f64]; 2],
-        forces: &mut [f64],
-        stiffnesses: &mut [f64],
-    );
+impl PathOutput<'_> {
+    pub(crate) fn requested(&self) -> Requested {
+        Requested { tangent: self.tangent.is_some(), energy: self.dissipated.is_some() }
+    }
 }
 
-/// A contact law in the steady state of a periodic displacement.
-pub(crate) trait Law {
-    type Evaluator: Evaluator;
+/// Applies `step` to the displacements of a path one after the other, and writes the force, the tangent and the energy of each.
+#[inline(always)]
+pub(crate) fn advance_along<const M: usize, const MM: usize>(
+    path: &[f64],
+    output: PathOutput,
+    mut step: impl FnMut([f64; M]) -> StepResult<[f64; M], [f64; MM]>,
+) {
+    let PathOutput { force, tangent, dissipated } = output;
+    let mut forces = force.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
+    let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
+    let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
+    for displacement in path.as_chunks().0 {
+        let step = step(*displacement);
+        forces.next().into_iter().for_each(|force| *force = step.force);
+        tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
+        energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
+    }
+}
 
-    /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
-    fn begin(&mut self, displacement: f64) -> Response;
+/// Result of a step of a law.
+type StepOf<L> = StepResult<<L as ElementLaw>::Vector, <L as ElementLaw>::Tangent>;
 
-    /// Range of the present branch.
-    fn branch(&self) -> BranchRange;
+/// The law of elements with a number of tangential directions.
+pub(crate) trait ElementLaw: Sized {
+    /// A displacement; a force has as many components.
+    type Vector: Copy;
+    /// Derivative of the force by the displacement, column-major.
+    type Tangent: Copy;
+    /// Layout of a workspace of the harmonic force, and an opened one.
+    type Layout: WorkspaceLayout;
+    type Workspace<'a>;
 
-    /// Evaluator of the present branch.
-    fn evaluator(&self) -> Self::Evaluator;
+    const DIRECTIONS: Directions;
+    /// Components of a displacement.
+    const COMPONENTS: usize;
+    /// The least length of a state.
+    const STATE_LENGTH: usize;
+    /// Kind of the tag of a state for the other number of directions.
+    const OTHER_STATE: Kind;
 
-    /// Response at a displacement on the present branch.
-    fn response(&self, displacement: f64) -> Response;
+    fn state_init(state: &mut [f64]) -> Result<(), Error>;
+    fn state_check(state: &[f64]) -> Result<(), Error>;
+    fn check_header(state: &[f64]) -> Result<(), Error>;
+    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error>;
+    fn force_error(state: &[f64]) -> f64;
+    /// Copies what is in use of a state whose header was checked to one of the same length.
+    fn copy_used(from: &[f64], to: &mut [f64]);
 
-    /// Derivatives of the force at a displacement on the present branch, less those at the reversal that it leaves.
-    fn sensitivity(&self, displacement: f64) -> Sensitivity;
+    fn check_step(element: &Element, displacement: &Self::Vector) -> Result<(), Error>;
+    /// A step with checked arguments whose new state is discarded.
+    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    /// The same in place.
+    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    fn check_path(element: &Element, path: &[f64]) -> Result<(), Error>;
+    /// Steps in place along a path, with a state and displacements that were checked.
+    fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput);
+    /// The same whose new state is discarded.
+    fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput);
 
-    /// Applies a step from a point of the present branch, which may reverse, close loops and enter gross slip. Returns whether the
-    /// point is now a reversal on the stack.
-    fn advance(&mut self, from: Point, displacement: f64) -> bool;
+    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error>;
+    /// Coefficients of one component, 2H + 1.
+    fn coefficients(workspace: &Self::Workspace<'_>) -> usize;
+    fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
+    fn harmonic_force(
+        element: &Element,
+        workspace: &mut Self::Workspace<'_>,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error>;
 
-    /// Pushes a point of the present branch as the newest reversal; returns `false` if the stack is full.
-    fn reverse(&mut self, at: Point, direction: f64) -> bool;
-
-    /// Whether gross slip starts at the end of the present branch.
-    fn ends_in_gross_slip(&self) -> bool;
-
-    /// Continues on the branch that follows at the end of the present one.
-    fn pass_end(&mut self);
-
-    /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.
-    fn account_for(&mut self, from: f64, to: f64);
-
-    /// Energy \[J\] dissipated since `begin`, if requested.
-    fn dissipated(self) -> Option<f64>;
+    /// The error of a state that was rejected: the state of the other number of directions is distinguished.
+    #[cold]
+    fn state_error(error: Error, tag: f64) -> Error {
+        match error {
+            Error::BadState if Self::OTHER_STATE.count(tag).is_some() => Error::BadDirections,
+            _ => error,
+        }
+    }
 }

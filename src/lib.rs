@@ -2,8 +2,10 @@
 //! cylinders and elliptical Hertz contacts.
 //!
 //! - [`Parameters`] or [`EllipticParameters`] define a [`Contact`].
-//! - [`constant_load`]: monotonic curve, hysteresis, dissipated energy and complex stiffness under a constant normal force.
-//! - [`hbm`]: Fourier coefficients of the friction force for the harmonic balance method.
+//! - [`constant_load`]: monotonic curve, hysteresis, dissipated energy, complex stiffness and harmonic force under a constant normal
+//!   force.
+//! - [`element`]: the laws of a shape in tables, for a normal force that varies, with separation.
+//! - [`one_direction`], [`two_directions`]: states, steps and harmonic force of an element with one and with two tangential directions.
 //! - [`shape`]: normal and tangential laws of the contact shapes, independent of the load.
 //! - [`ffi`]: the C interface.
 #![no_std]
@@ -13,19 +15,21 @@ extern crate std;
 pub mod error;
 pub mod parameters;
 
-mod law;
+mod limits;
 mod numerics;
-mod range;
 mod simd;
 mod tag;
 
+mod fourier;
 pub mod shape;
 
+pub mod element;
+
+pub mod law;
+
 pub mod constant_load;
-
-pub mod varying_load;
-
-pub mod hbm;
+pub mod one_direction;
+pub mod two_directions;
 
 pub mod ffi;
 
@@ -33,6 +37,5 @@ pub use constant_load::complex_stiffness::ComplexStiffness;
 pub use constant_load::contact::Contact;
 pub use constant_load::curve::CurvePoint;
 pub use constant_load::hysteresis_loop::HysteresisLoop;
-pub use constant_load::sensitivity::{PARAMETERS, Sensitivity};
 pub use error::Error;
-pub use parameters::{EllipticParameters, Material, Parameters};
+pub use parameters::{EllipticParameters, Material, PARAMETERS, Parameters, Sensitivity};

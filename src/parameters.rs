@@ -1,6 +1,7 @@
 //! Input parameters: geometry, material and load (section 2.1 and Fig. 1 of the paper), and their validation.
 
 use crate::error::Error;
+use crate::limits::in_range;
 use crate::numerics::fp_class::{abs_le, in_0_to};
 
 /// Displacement of the centre point of the contact under a line of uniform traction: Eq. 5-10 of the paper.
@@ -88,6 +89,18 @@ impl Default for EllipticParameters {
     }
 }
 
+/// Number of parameters that forces are differentiated by.
+pub const PARAMETERS: usize = 6;
+
+/// Derivatives with respect to the normal force N, the friction coefficient, the half-width a of the flat, the edge radius R, the length
+/// L and E*, in this order.
+pub type Sensitivity = [f64; PARAMETERS];
+
+/// A multiple.
+pub(crate) fn times(factor: f64, sensitivity: Sensitivity) -> Sensitivity {
+    sensitivity.map(|derivative| factor * derivative)
+}
+
 /// `Ok` if `value` is finite and >= 0.
 fn not_negative(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
@@ -169,6 +182,12 @@ impl Pair {
         let [first, second] = [function(self.poisson_ratio[0]), function(self.poisson_ratio[1])];
         first + self.fraction[1] * (second - first)
     }
+}
+
+/// # Errors
+/// `OutOfRange` for a modulus of an unusable magnitude.
+pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
+    material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
 }
 
 #[cfg(test)]

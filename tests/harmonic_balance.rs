@@ -7,7 +7,7 @@
 mod common;
 
 use common::{harmonic, step, unloaded};
-use microslip::hbm::Rule;
+use microslip::constant_load::harmonic_force::Rule;
 use microslip::{Contact, Material, Parameters};
 use nalgebra::{DMatrix, DVector};
 use std::collections::HashMap;

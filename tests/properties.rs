@@ -4,7 +4,7 @@ mod common;
 
 use common::{advance, harmonic, unloaded};
 use microslip::constant_load::equivalents;
-use microslip::hbm::Rule;
+use microslip::constant_load::harmonic_force::Rule;
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use proptest::prelude::*;
 use std::f64::consts::PI;

@@ -3,10 +3,10 @@
 #[path = "golden/table.rs"]
 mod table;
 
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state as one_direction;
-use microslip::varying_load::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
+use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use table::{Row, geometry, table};
 

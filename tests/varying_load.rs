@@ -6,9 +6,9 @@ mod table;
 
 use microslip::constant_load::masing;
 use microslip::constant_load::state as constant_state;
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state::{Step, advance, force_error, state_init, state_length};
-use microslip::varying_load::tractions::tractions;
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction::tractions::tractions;
+use microslip::one_direction::{Step, advance, force_error, state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use proptest::prelude::*;
 use table::{Row, geometry, table};

@@ -11,7 +11,7 @@ use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::constant_load::masing::{check_step, step, step_with_energy};
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::varying_load::element::NormalInput;
+use microslip::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;

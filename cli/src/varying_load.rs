@@ -12,9 +12,9 @@ use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::{InputTable, Table};
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state::{advance, state_init, state_length};
-use microslip::varying_load::two_directions;
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction::{advance, state_init, state_length};
+use microslip::two_directions;
 
 const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 

@@ -3,9 +3,9 @@
 use microslip::constant_load::equivalents::{iwan, jenkins};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::{state as element_state, two_directions};
+use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{one_direction as element_state, two_directions};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -2,8 +2,8 @@
 
 mod common;
 use common::*;
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state::{advance, state_init, state_length};
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction::{advance, state_init, state_length};
 use microslip_fit::{
     Contact, Error, Estimate, Geometry, Measurement, NormalForce, Options, Report, ShapeParameter, Status, fit,
     fit_json,

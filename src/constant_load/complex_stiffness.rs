@@ -29,8 +29,9 @@
 //! is an integral of one sign; in gross slip the upper limit is fixed, and the integral of K' is differentiated under the integral
 //! sign.
 
-use crate::constant_load::contact::{Contact, MAX_DISPLACEMENT};
+use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
 use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};

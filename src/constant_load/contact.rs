@@ -3,11 +3,10 @@
 
 use crate::constant_load::complex_stiffness::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
-use crate::constant_load::sensitivity::Sensitivity;
 use crate::error::Error;
-use crate::numerics::fp_class::abs_le;
-use crate::parameters::{EllipticParameters, Material, Pair, Parameters};
-use crate::range::{exponent_of, in_range};
+use crate::limits::check_displacement;
+use crate::limits::{exponent_of, in_range};
+use crate::parameters::{EllipticParameters, Pair, Parameters, Sensitivity, check_moduli};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
@@ -15,14 +14,6 @@ use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::{HertzEllipse, RoundedFlat};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
-
-/// The bound keeps products with forces and energies representable.
-pub(crate) const MAX_DISPLACEMENT: f64 = 1e150;
-
-#[inline(always)]
-pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
-    if abs_le(displacement, MAX_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
-}
 
 /// An initialised contact: plain data of fixed size that may be copied, stored and sent.
 ///
@@ -277,14 +268,10 @@ const EMPTY: Contact = Contact {
     checksum: 0,
 };
 
-pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
-    material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::parameters::{CENTRE_POINT, RIGID_STRIP};
+    use crate::parameters::{CENTRE_POINT, Material, RIGID_STRIP};
     use core::f64::consts::LN_2;
 
     pub(crate) const TITANIUM: Material = Material { young_modulus: 114e9, poisson_ratio: 0.32 };

@@ -2,8 +2,9 @@
 //!
 //! The curve is odd: its points are computed on the positive half, and the sign is stored separately.
 
-use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::limits::check_displacement;
 use crate::numerics::fp_class::{abs_le, is_finite};
 use crate::shape::stick_zone::{Complement, StickZone};
 

@@ -6,9 +6,18 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
-use crate::law::{BEYOND, Response};
 use crate::shape::stick_zone::Complement;
 use crate::simd::dispatch;
+
+/// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Response {
+    pub force: f64,
+    pub stiffness: f64,
+}
+
+/// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
+pub(crate) const BEYOND: usize = 6;
 
 /// Evaluates force and stiffness on the monotonic curve.
 #[derive(Debug, Clone, Copy)]
@@ -294,8 +303,8 @@ impl CurveEvaluator<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::BEYOND;
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-    use crate::law::BEYOND;
     use std::vec;
     use std::vec::Vec;
 

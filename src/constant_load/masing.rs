@@ -2,13 +2,13 @@
 //!
 //! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
 
-use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::evaluator::CurveEvaluator;
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Transition};
+use crate::constant_load::evaluator::{BEYOND, CurveEvaluator, Response};
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
-use crate::law::{BEYOND, Evaluator, Point, Response};
+use crate::limits::check_displacement;
 use crate::simd::dispatch;
 
 /// Evaluates force and stiffness on a branch without gross slip.
@@ -53,16 +53,17 @@ impl BranchEvaluator<'_> {
         let force = if force > *limit { *limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
     }
-}
 
-impl Evaluator for BranchEvaluator<'_> {
+    /// At a displacement on the branch.
     #[inline(always)]
-    fn at(&self, displacement: f64) -> Response {
+    pub fn at(&self, displacement: f64) -> Response {
         self.on_branch(self.curve.at(self.distance(displacement)))
     }
 
+    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, with the same bits. All arrays, of
+    /// which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are overwritten.
     #[inline(always)]
-    fn along<const STIFFNESS: bool>(
+    pub fn along<const STIFFNESS: bool>(
         &self,
         count: usize,
         displacement: &[f64],
@@ -81,9 +82,7 @@ impl Evaluator for BranchEvaluator<'_> {
             stiffnesses: &mut [f64] => ()
         );
     }
-}
 
-impl BranchEvaluator<'_> {
     #[inline(always)]
     fn along_kernel<const STIFFNESS: bool>(
         &self,

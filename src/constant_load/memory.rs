@@ -11,7 +11,16 @@
 //! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`merge`]).
 
 use crate::constant_load::contact::Contact;
-use crate::law::{Point, Reversal};
+
+/// A point of a load history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Point {
+    pub displacement: f64,
+    pub force: f64,
+}
+
+/// A reversal on the stack: displacement, force, and the error from merged reversals.
+pub(crate) type Reversal = [f64; 3];
 
 fn point([displacement, force, _]: Reversal) -> Point {
     Point { displacement, force }

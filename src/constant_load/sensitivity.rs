@@ -21,21 +21,11 @@
 //! No term is a difference of larger ones, so small displacements keep their accuracy. σ is 0 for `MSLIP_CENTRE_POINT`. For an ellipse
 //! of bodies with given shapes b scales as (NR/E*)^(1/3), and all is elementary in the size c/b.
 
-use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
 use crate::error::Error;
-
-/// Number of parameters.
-pub const PARAMETERS: usize = 6;
-
-/// Derivatives with respect to the normal force N, the friction coefficient, the half-width a of the flat, the edge radius R, the length
-/// L and E*, in this order.
-pub type Sensitivity = [f64; PARAMETERS];
-
-/// A multiple.
-pub(crate) fn times(factor: f64, sensitivity: Sensitivity) -> Sensitivity {
-    sensitivity.map(|derivative| factor * derivative)
-}
+use crate::limits::check_displacement;
+use crate::parameters::{PARAMETERS, Sensitivity, times};
 
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without

@@ -10,8 +10,8 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{InitialCurve, Memory, force_error, push};
+use crate::constant_load::memory::{Point, Reversal};
 use crate::error::Error;
-use crate::law::{Point, Reversal};
 use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 

@@ -2,10 +2,10 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
+use crate::constant_load::evaluator::Response;
 use crate::constant_load::masing::BranchEvaluator;
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, push};
-use crate::constant_load::sensitivity::{Sensitivity, times};
-use crate::law::{BranchRange, Law, Point, Response, Reversal};
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Point, Reversal, push};
+use crate::parameters::{Sensitivity, times};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.
 #[derive(Debug)]
@@ -38,13 +38,10 @@ impl<'c, 's> SteadyState<'c, 's> {
     fn memory(&self, now: Point) -> Memory<'_> {
         Memory { initial: self.initial, now, reversals: self.reversals.get(..self.depth).unwrap_or(&[]) }
     }
-}
 
-impl<'c> Law for SteadyState<'c, '_> {
-    type Evaluator = BranchEvaluator<'c>;
-
+    /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
     #[inline(always)]
-    fn begin(&mut self, displacement: f64) -> Response {
+    pub fn begin(&mut self, displacement: f64) -> Response {
         let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
         let initial_curve = self.memory(Point { displacement, force: 0.0 }).branch(self.contact, 0, direction);
         let gross_slip = displacement.abs() > self.contact.slip_displacement;
@@ -53,23 +50,27 @@ impl<'c> Law for SteadyState<'c, '_> {
         self.response(displacement)
     }
 
+    /// The present branch; gross slip has no end.
     #[inline(always)]
-    fn branch(&self) -> BranchRange {
-        let Branch { depth, direction, end, gross_slip, .. } = self.branch;
-        BranchRange { depth, direction, end: if gross_slip { direction * f64::INFINITY } else { end }, gross_slip }
+    pub fn branch(&self) -> Branch {
+        let Branch { direction, end, gross_slip, .. } = self.branch;
+        Branch { end: if gross_slip { direction * f64::INFINITY } else { end }, ..self.branch }
     }
 
+    /// Evaluator of the present branch.
     #[inline(always)]
-    fn evaluator(&self) -> BranchEvaluator<'c> {
+    pub fn evaluator(&self) -> BranchEvaluator<'c> {
         self.branch.evaluator(self.contact)
     }
 
+    /// Response at a displacement on the present branch.
     #[inline(always)]
-    fn response(&self, displacement: f64) -> Response {
+    pub fn response(&self, displacement: f64) -> Response {
         self.branch.response(self.contact, displacement)
     }
 
-    fn sensitivity(&self, displacement: f64) -> Sensitivity {
+    /// Derivatives of the force at a displacement on the present branch, less those at the reversal that it leaves.
+    pub fn sensitivity(&self, displacement: f64) -> Sensitivity {
         let Branch { direction, scale, gross_slip, .. } = self.branch;
         if gross_slip || self.contact.is_frictionless() {
             return times(direction, self.contact.slip_sensitivity());
@@ -78,8 +79,10 @@ impl<'c> Law for SteadyState<'c, '_> {
         times(direction * scale, self.contact.sensitivity(distance))
     }
 
+    /// Applies a step from a point of the present branch, which may reverse, close loops and enter gross slip. Returns whether the
+    /// point is now a reversal on the stack.
     #[inline(always)]
-    fn advance(&mut self, from: Point, displacement: f64) -> bool {
+    pub fn advance(&mut self, from: Point, displacement: f64) -> bool {
         let energy = &mut self.energy;
         let reversals = self.reversals.get(..self.depth).unwrap_or(&[]);
         let memory = Memory { initial: self.initial, now: from, reversals };
@@ -97,8 +100,9 @@ impl<'c> Law for SteadyState<'c, '_> {
         transition.reversed
     }
 
+    /// Pushes a point of the present branch as the newest reversal; returns `false` if the stack is full.
     #[inline(always)]
-    fn reverse(&mut self, at: Point, direction: f64) -> bool {
+    pub fn reverse(&mut self, at: Point, direction: f64) -> bool {
         let has_room = self.depth < self.reversals.len();
         if has_room {
             (self.depth, _) = push(self.contact, self.initial.offset, self.reversals, self.depth, at);
@@ -107,26 +111,30 @@ impl<'c> Law for SteadyState<'c, '_> {
         has_room
     }
 
+    /// Whether gross slip starts at the end of the present branch.
     #[inline(always)]
-    fn ends_in_gross_slip(&self) -> bool {
+    pub fn ends_in_gross_slip(&self) -> bool {
         self.continuation().gross_slip
     }
 
+    /// Continues on the branch that follows at the end of the present one.
     #[inline(always)]
-    fn pass_end(&mut self) {
+    pub fn pass_end(&mut self) {
         self.branch = self.continuation();
         self.depth = self.branch.depth;
     }
 
+    /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.
     #[inline(always)]
-    fn account_for(&mut self, from: f64, to: f64) {
+    pub fn account_for(&mut self, from: f64, to: f64) {
         self.initial = self.initial.after_friction(self.contact, &self.branch, to);
         if let Some(energy) = &mut self.energy {
             energy.add(self.branch.segment(self.contact.slip_displacement, from, to));
         }
     }
 
-    fn dissipated(self) -> Option<f64> {
+    /// Energy \[J\] dissipated since `begin`, if requested.
+    pub fn dissipated(self) -> Option<f64> {
         self.energy.map(Dissipation::total)
     }
 }

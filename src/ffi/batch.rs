@@ -1,16 +1,16 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::cycle::write_complex_stiffness;
-use super::directions::{ElementLaw, with_law};
-
-use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status};
+use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status, with_law};
 use super::{element, history, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
-use crate::constant_load::contact::{Contact, check_displacement};
+use crate::constant_load::contact::Contact;
+use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
 use crate::constant_load::state;
+use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::hbm::{self, HarmonicOutput};
-use crate::varying_load::element::{Directions, Element};
+use crate::law::ElementLaw;
+use crate::limits::{check_coefficients, check_displacement};
 use core::ptr;
 use libc::size_t;
 
@@ -400,8 +400,8 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         unsafe {
             let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
             let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
-            let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| hbm::check_coefficients(u));
-            harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, hbm::harmonic_force)
+            let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
+            harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
         }
     };
     status(compute())
@@ -475,7 +475,7 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
             let outputs = [force, jacobian, dissipated];
-            with_law!(pointers::element_workspace_size(workspace)?.directions, L => {
+            with_law!(pointers::element_workspace_size(workspace)?.0, L => {
                 let mut workspace = pointers::element_workspace::<L>(workspace)?;
                 let one = L::COMPONENTS * L::coefficients(&workspace);
                 let (check, compute) = (L::check_motion, L::harmonic_force);

@@ -2,10 +2,11 @@
 
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, input, item, output, outputs, set, status};
-use crate::constant_load::contact::{Contact, check_displacement};
-use crate::constant_load::sensitivity::PARAMETERS;
+use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
+use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use libc::size_t;
 

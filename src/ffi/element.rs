@@ -1,17 +1,16 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::directions::{ElementLaw, OneDirection, with_law};
 use super::pointers::{
-    self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status,
+    self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
 };
 use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
+use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
+use crate::law::{ElementLaw, PathOutput, Requested};
+use crate::one_direction::tractions::tractions;
+use crate::one_direction::{self, OneDirection};
 use crate::parameters::{EllipticParameters, Parameters};
-use crate::varying_load::element::{Directions, Element, NormalInput, NormalPoint};
-use crate::varying_load::path::PathOutput;
-use crate::varying_load::state;
-use crate::varying_load::tractions::tractions;
-use crate::varying_load::two_directions::{self, Requested};
+use crate::two_directions;
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -212,7 +211,7 @@ unsafe fn normal_law(
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
     match directions_of(directions) {
-        Ok(Directions::One) => state::state_length(pieces),
+        Ok(Directions::One) => one_direction::state_length(pieces),
         Ok(Directions::Two) => two_directions::state_length(),
         Err(_) => 0,
     }
@@ -449,7 +448,8 @@ unsafe fn path<L: ElementLaw>(
         check_header::<L>(start)?;
         L::check_path(element, path)?;
         if state_new.is_null() {
-            return L::path_in_copy(element, start, path, output);
+            L::path_in_copy(element, start, path, output);
+            return Ok(());
         }
     }
     if !ptr::eq(state_old, state_new) {
@@ -458,7 +458,8 @@ unsafe fn path<L: ElementLaw>(
     }
     // SAFETY: as above.
     let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-    L::path(element, state, path, output)
+    L::path(element, state, path, output);
+    Ok(())
 }
 
 /// Pressure and shear traction \[Pa\] at x\[n\] \[m\] along the width after a load history; 0 outside the contact. Elliptical: on

@@ -1,13 +1,14 @@
 //! Harmonic balance: workspaces and harmonic force.
 
-use super::directions::{ElementLaw, with_law};
 use super::element::directions_of;
-use super::pointers::{self, check_alignment, input, memory, output, status};
+use super::pointers::{self, check_alignment, input, memory, output, status, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
-use crate::constant_load::sensitivity::PARAMETERS;
+use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
+use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::hbm::{self, HarmonicOutput, Rule};
-use crate::varying_load::element::{Directions, Element};
+use crate::fourier::workspace::WorkspaceLayout;
+use crate::law::ElementLaw;
+use crate::parameters::PARAMETERS;
 use libc::size_t;
 
 /// The rule of a constant of the C interface.
@@ -72,7 +73,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
         let header = unsafe { pointers::workspace_header(workspace) }?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
-        let (harmonics_found, samples_found, rule_found) = hbm::workspace_size(&header)?;
+        let (harmonics_found, samples_found, rule_found) = workspace_size(&header)?;
         let constant = match rule_found {
             Rule::UniformSampling => MSLIP_UNIFORM_SAMPLING,
             Rule::EventDriven => MSLIP_EVENT_DRIVEN,
@@ -106,7 +107,7 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    let length = |directions| with_law!(directions, L => L::workspace_length(harmonics, samples));
+    let length = |directions| with_law!(directions, L => <L as ElementLaw>::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()));
     check_element_rule(directions, rule).map_or(0, length)
 }
 
@@ -131,7 +132,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
         let directions = check_element_rule(directions, rule)?;
         // SAFETY: by the function's contract.
         let memory = unsafe { memory(workspace_length, workspace) }?;
-        with_law!(directions, L => L::workspace_init(harmonics, samples, memory))
+        with_law!(directions, L => <L as ElementLaw>::Layout::init(harmonics, samples, memory))
     };
     status(init())
 }
@@ -154,10 +155,10 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
         // SAFETY: by the function's contract.
-        let size = unsafe { pointers::element_workspace_size(workspace) }?;
+        let (found, size, _) = unsafe { pointers::element_workspace_size(workspace) }?;
         // SAFETY: aligned; NULL or valid for one item by the function's contract.
         unsafe {
-            directions.as_mut().into_iter().for_each(|output| *output = size.directions as i32);
+            directions.as_mut().into_iter().for_each(|output| *output = found as i32);
             harmonics.as_mut().into_iter().for_each(|output| *output = size.harmonics);
             samples.as_mut().into_iter().for_each(|output| *output = size.samples);
             rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
@@ -259,7 +260,7 @@ pub unsafe extern "C" fn mslip_harmonic_force(
         let (displacement, force, jacobian, dissipated) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
         let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
-        hbm::harmonic_force(contact, &mut workspace, displacement, output)
+        harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
     };
     status(compute())
 }
@@ -294,9 +295,9 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
         let (displacement, force, sensitivity) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
         let output = HarmonicOutput { force, jacobian: None, dissipated: None };
-        hbm::harmonic_force(contact, &mut workspace, displacement, output)?;
+        harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
         match sensitivity {
-            Some(sensitivity) => hbm::harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
+            Some(sensitivity) => harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
             None => Ok(()),
         }
     };

@@ -6,9 +6,9 @@ use super::mslip_contact;
 use super::pointers::{self, check_alignment, input, memory, output, outputs, requested, set, state_input, status};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing::{self, PathOutput, Step};
+use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::error::Error;
-use crate::law::Point;
 use core::{ptr, slice};
 use libc::size_t;
 

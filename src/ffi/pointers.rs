@@ -1,12 +1,14 @@
 //! Conversion of pointers to slices, and of results to status codes.
 
-use super::directions::{ElementLaw, WorkspaceSize};
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
+use crate::constant_load::harmonic_force::{Workspace, workspace_extent};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
+use crate::element::{Directions, Element};
+use crate::fourier::workspace::{Size, WorkspaceLayout};
+use crate::law::ElementLaw;
+
 use crate::error::Error;
-use crate::hbm::{self, Workspace};
-use crate::varying_load::element::Element;
 use core::mem::{self, MaybeUninit};
 use core::{ptr, slice};
 
@@ -260,18 +262,25 @@ pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 2], Error> {
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     // SAFETY: by the function's contract.
     let header = unsafe { workspace_header(pointer) }?;
-    let extent = hbm::workspace_extent(&header)?;
+    let extent = workspace_extent(&header)?;
     // SAFETY: the header of a workspace of that extent, by the function's contract.
     Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
 
-/// Directions, harmonics and samples of an initialised workspace of elements.
+/// Directions and size of a workspace of elements, and its number of doubles, from its header.
 ///
 /// # Safety
 /// As for [`workspace_header`].
-pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<WorkspaceSize, Error> {
+pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, Size, usize), Error> {
     // SAFETY: by the function's contract.
-    WorkspaceSize::read(&unsafe { workspace_header(pointer) }?)
+    let header = unsafe { workspace_header(pointer) }?;
+    let read_as = |directions| {
+        with_law!(directions, L => {
+            let layout = <L as ElementLaw>::Layout::read(&header)?;
+            Ok((directions, layout.size(), layout.length()))
+        })
+    };
+    read_as(Directions::One).or_else(|_: Error| read_as(Directions::Two))
 }
 
 /// An initialised workspace of elements with the number of directions of a law.
@@ -281,13 +290,31 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<WorkspaceSiz
 #[inline(never)]
 pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
     // SAFETY: by the function's contract.
-    let WorkspaceSize { directions, extent, .. } = unsafe { element_workspace_size(pointer) }?;
+    let (directions, _, extent) = unsafe { element_workspace_size(pointer) }?;
     if directions != L::DIRECTIONS {
         return Err(Error::BadDirections);
     }
     // SAFETY: the header of a workspace of that extent, by the function's contract.
     L::workspace(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
 }
+
+/// Evaluates an expression in which `$law` is the law for a number of directions.
+macro_rules! with_law {
+    ($directions:expr, $law:ident => $result:expr) => {
+        match $directions {
+            $crate::element::Directions::One => {
+                type $law = $crate::one_direction::OneDirection;
+                $result
+            }
+            $crate::element::Directions::Two => {
+                type $law = $crate::two_directions::TwoDirections;
+                $result
+            }
+        }
+    };
+}
+
+pub(super) use with_law;
 
 #[cfg(test)]
 mod tests {

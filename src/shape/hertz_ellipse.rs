@@ -18,8 +18,8 @@
 //! complete elliptic integrals that the arithmetic-geometric mean evaluates.
 
 use crate::error::Error;
+use crate::limits::in_range;
 use crate::parameters::{EllipticParameters, Pair};
-use crate::range::in_range;
 use crate::shape::rounded_punch::TINY;
 use crate::shape::{ORDER, Plane, Relation, Series, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};

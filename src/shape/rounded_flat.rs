@@ -14,8 +14,8 @@
 //! that three-dimensional contact mechanics gives at the size under the normal force of the parameters.
 
 use crate::error::Error;
+use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
-use crate::range::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
 use crate::shape::{ORDER, Plane, Relation, Reversed, Series, Shape, tractions};

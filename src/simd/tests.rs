@@ -1,13 +1,14 @@
 //! All calls that dispatch give the same bits on the vectors of this processor and on those of the baseline.
 
 use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
+use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force, harmonic_sensitivity};
 use crate::constant_load::masing::{self, PathOutput};
 use crate::constant_load::state::{state_init, state_length};
 use crate::constant_load::stiffness_table::StiffnessTable;
-use crate::hbm::{HarmonicOutput, Rule, harmonic_force, harmonic_sensitivity};
-use crate::varying_load::element::{Directions, Element, NormalInput};
-use crate::varying_load::{harmonic_force as one_direction, state, two_directions};
+use crate::element::{Directions, Element, NormalInput};
+use crate::one_direction::harmonic_force as line;
 use crate::{Contact, Material, Parameters};
+use crate::{one_direction, two_directions};
 use core::cell::Cell;
 use std::prelude::rust_2024::*;
 use std::vec;
@@ -111,7 +112,7 @@ fn the_harmonic_force() {
                 compare(&std::format!("{harmonics} {samples} {rule:?}"), || {
                     let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
                     rule.workspace_init(harmonics, samples, &mut memory).unwrap();
-                    let mut workspace = crate::hbm::Workspace::new(&mut memory).unwrap();
+                    let mut workspace = Workspace::new(&mut memory).unwrap();
                     let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], [0.0]);
                     let output = HarmonicOutput {
                         force: Some(&mut force),
@@ -147,12 +148,12 @@ fn an_element() {
         let unit = 0.5 * one.shift_under(60.0);
         compare("steps", || {
             let mut values = Vec::new();
-            let mut memory = [vec![0.0; state::state_length(32)], vec![0.0; two_directions::state_length()]];
-            state::state_init(&mut memory[0]).unwrap();
+            let mut memory = [vec![0.0; one_direction::state_length(32)], vec![0.0; two_directions::state_length()]];
+            one_direction::state_init(&mut memory[0]).unwrap();
             two_directions::state_init(&mut memory[1]).unwrap();
             for motion in scattered(600, 7, 1.0).as_chunks::<3>().0 {
                 let [u, v, w] = [2.0 * unit * motion[0], 2.0 * unit * motion[1], largest * (0.5 + 0.45 * motion[2])];
-                let line = state::advance(&one, &mut memory[0], [u, w], true).unwrap();
+                let line = one_direction::advance(&one, &mut memory[0], [u, w], true).unwrap();
                 values.extend(line.force.iter().chain(&line.tangent).chain([&line.dissipated]));
                 let plane = two_directions::advance(&two, &mut memory[1], [u, v, w]).unwrap();
                 values.extend(plane.force.iter().chain(&plane.tangent).chain([&plane.dissipated]));
@@ -165,16 +166,16 @@ fn an_element() {
             displacement.extend(scattered(n, 6, 0.5 * largest / n as f64));
             displacement[n] = 0.5 * largest;
             compare(&std::format!("one direction {harmonics} {samples}"), || {
-                let mut memory = vec![0.0; one_direction::workspace_length(harmonics, samples)];
-                one_direction::workspace_init(harmonics, samples, &mut memory).unwrap();
-                let mut workspace = one_direction::Workspace::new(&mut memory).unwrap();
+                let mut memory = vec![0.0; line::workspace_length(harmonics, samples)];
+                line::workspace_init(harmonics, samples, &mut memory).unwrap();
+                let mut workspace = line::Workspace::new(&mut memory).unwrap();
                 let (mut force, mut jacobian, mut dissipated) = (vec![0.0; 2 * n], vec![0.0; 4 * n * n], [0.0]);
                 let output = HarmonicOutput {
                     force: Some(&mut force),
                     jacobian: Some(&mut jacobian),
                     dissipated: dissipated.first_mut(),
                 };
-                one_direction::harmonic_force(&one, &mut workspace, &displacement, output).unwrap();
+                line::harmonic_force(&one, &mut workspace, &displacement, output).unwrap();
                 [force, jacobian, dissipated.to_vec()].concat()
             });
         }

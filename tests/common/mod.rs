@@ -2,9 +2,9 @@
 #![allow(dead_code, reason = "not every crate uses all of them")]
 
 use microslip::Contact;
+use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
-use microslip::hbm::{HarmonicOutput, Rule, Workspace, harmonic_force};
 
 /// Harmonic force and its Jacobian, column-major, and dissipated energy.
 #[inline(never)]

@@ -3,8 +3,8 @@
 use crate::curve::moved;
 use crate::sampler::{ElementCase, Sampler, text};
 use crate::tally::Tally;
-use microslip::varying_load::state;
-use microslip::varying_load::tractions::tractions;
+use microslip::one_direction as state;
+use microslip::one_direction::tractions::tractions;
 use reference::element::{Element as Exact, Kind, State, Step};
 use reference::family::{Given, Size};
 use reference::{Input, Real};
@@ -321,8 +321,8 @@ fn tractions_at(
 }
 
 /// The library's element and the same in multi-precision, if the library accepts it.
-pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::varying_load::element::Element, Exact)> {
-    use microslip::varying_load::element::{Directions, Element, NormalInput};
+pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::element::Element, Exact)> {
+    use microslip::element::{Directions, Element, NormalInput};
     let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
     let element = match input {
         Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, normal),

@@ -19,7 +19,7 @@ pub struct Case {
 
 /// An element of the library, and the same in multi-precision.
 pub struct ElementCase {
-    pub element: microslip::varying_load::element::Element,
+    pub element: microslip::element::Element,
     pub reference: reference::element::Element,
     pub kind: &'static str,
     pub input: Input,

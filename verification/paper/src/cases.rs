@@ -3,7 +3,7 @@
 //! In these units the results do not depend on the size, modulus and friction chosen here.
 
 use microslip::constant_load::{masing, state};
-use microslip::varying_load::element::{Directions, Element, NormalInput};
+use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};

@@ -1,8 +1,8 @@
 //! The error of the harmonic force of an element against the number of samples.
 
 use crate::cases::Case;
-use microslip::varying_load::element::{Element, NormalInput};
-use microslip::varying_load::harmonic_force::{
+use microslip::element::{Element, NormalInput};
+use microslip::one_direction::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
 use std::f64::consts::TAU;

@@ -3,8 +3,8 @@
 use crate::cases::Case;
 use crate::drawings::even;
 use crate::table::Table;
-use microslip::varying_load::element::{Element, NormalInput};
-use microslip::varying_load::state::{Step, advance, state_init, state_length};
+use microslip::element::{Element, NormalInput};
+use microslip::one_direction::{Step, advance, state_init, state_length};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;

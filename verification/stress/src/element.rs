@@ -6,8 +6,8 @@ pub mod two_directions;
 
 use crate::library::{in_all_rounding_directions, trapped};
 use crate::{Outcome, ensure};
-use microslip::varying_load::element::{Directions, NormalInput};
-use microslip::varying_load::state::{self, Step};
+use microslip::element::{Directions, NormalInput};
+use microslip::one_direction::{self as state, Step};
 use microslip::{EllipticParameters, Material, Parameters};
 use rand::Rng;
 use rand::rngs::SmallRng;
@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 
 /// An initialised element.
 pub struct Element {
-    pub library: microslip::varying_load::element::Element,
+    pub library: microslip::element::Element,
     pub input: Input,
 }
 
@@ -31,7 +31,7 @@ impl Element {
 
     /// `None` if rejected.
     pub fn with_directions(input: &Input, directions: Directions, normal: NormalInput) -> Option<Element> {
-        use microslip::varying_load::element::Element as Library;
+        use microslip::element::Element as Library;
         let library = trapped(|| match input {
             Input::Flat(parameters) => Library::rounded_flat(parameters, directions, normal),
             Input::Ellipse(parameters) => Library::elliptic(parameters, directions, normal),

@@ -3,8 +3,8 @@
 use crate::histories::{History, Row};
 use microslip::constant_load::masing;
 use microslip::constant_load::state as constant_state;
-use microslip::varying_load::element::Element;
-use microslip::varying_load::state;
+use microslip::element::Element;
+use microslip::one_direction as state;
 
 /// Steps of the law for each row, straight in both forces.
 pub const SUBSTEPS: u32 = 6;

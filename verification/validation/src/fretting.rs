@@ -7,8 +7,8 @@
 use crate::drive::displacement_at;
 use crate::table::Table;
 use microslip::parameters::RIGID_STRIP;
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::state;
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction as state;
 use microslip::{Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! Histories that the boundary-element code CONTACT computed, in `tests/golden/contact_code`, and their contacts. Files are in mm, N,
 //! MPa and mJ; here everything is in SI units.
 
-use microslip::varying_load::element::{Directions, Element, NormalInput};
+use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 
 /// The contacts of the files.

@@ -3,8 +3,8 @@
 
 use crate::table::Table;
 use microslip::Parameters;
-use microslip::varying_load::element::{Directions, Element, NormalInput};
-use microslip::varying_load::two_directions::{Step, advance, state_init, state_length};
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::two_directions::{Step, advance, state_init, state_length};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 

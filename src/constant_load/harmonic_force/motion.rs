@@ -1,0 +1,209 @@
+//! Periodic displacement in continuous time: instants of reversal, and of crossing a given displacement.
+
+use super::columns::synthesise;
+use crate::numerics::roots::bracketed_newton;
+use core::f64::consts::PI;
+
+/// An instant and its displacement.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant {
+    pub t: f64,
+    pub displacement: f64,
+}
+
+/// Buffers of the search for reversals on a uniform grid.
+pub(super) struct Grid<'a> {
+    /// Columns 1, cos t, sin t, cos 2t, ... over the first half of the grid.
+    pub columns: &'a [f64],
+    /// Receives the rate of the displacement on the grid.
+    pub rate: &'a mut [f64],
+    /// Receives the coefficients of the rate.
+    pub coefficients: &'a mut [f64],
+}
+
+/// A periodic displacement.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion<'a> {
+    pub mean: f64,
+    pub pairs: &'a [[f64; 2]],
+}
+
+impl<'a> Motion<'a> {
+    /// From the coefficients: the mean, then a cosine and a sine of each order.
+    pub fn new(coefficients: &'a [f64]) -> Motion<'a> {
+        let (mean, pairs) = coefficients.split_first().unwrap_or((&0.0, &[]));
+        Motion { mean: *mean, pairs: pairs.as_chunks().0 }
+    }
+
+    /// Displacement and its first three derivatives.
+    pub fn derivatives(&self, t: f64) -> [f64; 4] {
+        let (sine, cosine) = t.sin_cos();
+        let (mut c, mut s, mut k) = (cosine, sine, 1.0);
+        let [mut u, mut rate, mut second, mut third] = [self.mean, 0.0, 0.0, 0.0];
+        for [a, b] in self.pairs {
+            let (value, slope) = (a * c + b * s, k * (b * c - a * s));
+            u += value;
+            rate += slope;
+            second -= k * k * value;
+            third -= k * k * slope;
+            (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+            k += 1.0;
+        }
+        [u, rate, second, third]
+    }
+
+    /// Finds the reversals in chronological order. Returns their number, and whether the displacement is half-wave symmetric; then
+    /// only half a period is searched.
+    #[inline(always)]
+    pub fn find_reversals(&self, grid: Grid, instants: &mut [[f64; 2]]) -> (usize, bool) {
+        let Grid { columns, rate, coefficients } = grid;
+        let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
+        *constant = 0.0;
+        let mut k = 1.0;
+        for (pair, &[a, b]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.pairs) {
+            *pair = [k * b, -k * a];
+            k += 1.0;
+        }
+        let half = rate.len() / 2;
+        let half_wave_symmetric = synthesise(columns, half, rate, coefficients) && self.mean == 0.0;
+        let points = if half_wave_symmetric { half } else { 2 * half };
+        // A rate of 0 counts as positive. Under half-wave symmetry the rate at π is minus that at 0: if it is exactly 0 and positive
+        // before π, it has to count as negative at π, or the reversal there is missed.
+        if half_wave_symmetric
+            && rate.first() == Some(&0.0)
+            && half.checked_sub(1).and_then(|last| rate.get(last)).is_some_and(|rate| *rate > 0.0)
+            && let Some(opposite) = rate.get_mut(half)
+        {
+            *opposite = -f64::MIN_POSITIVE;
+        }
+        let step = PI / half.max(1) as f64;
+        let mut search = ReversalSearch { motion: self, instants, count: 0 };
+        let (Some(&last), Some(&first)) = (rate.last(), rate.first()) else { return (0, false) };
+        let successors = rate.iter().skip(1).chain([&first]);
+        let mut before = last;
+        for (j, (&here, &next)) in rate.iter().zip(successors).enumerate().take(points) {
+            let t = j as f64 * step;
+            let sign = if here < 0.0 { -1.0 } else { 1.0 };
+            if (next < 0.0) != (here < 0.0) {
+                let fraction = here.abs() / (here.abs() + next.abs()).max(f64::MIN_POSITIVE);
+                search.add(t, t + step, t + fraction * step, -sign);
+            } else if (before < 0.0) == (here < 0.0) {
+                let (left, middle, right) = (before.abs(), here.abs(), next.abs());
+                // The minimum of the parabola through the three is below the middle one by at most an eighth of this difference.
+                let second_difference = left + right - 2.0 * middle;
+                if middle < left && middle <= right && middle <= 0.25 * second_difference {
+                    search.add_pair(t - step, t, t + step, sign);
+                }
+            }
+            before = here;
+        }
+        (search.count, half_wave_symmetric)
+    }
+
+    /// Instant after `at` at which the displacement crosses `level`, on its monotonic course between the reversals `from` and `to`.
+    pub fn crossing(&self, at: Instant, from: Instant, to: Instant, level: f64) -> f64 {
+        let distance = (level - from.displacement).abs();
+        let fraction = distance / (to.displacement - from.displacement).abs().max(distance).max(f64::MIN_POSITIVE);
+        // First estimate: half a period of a cosine.
+        let start = from.t + (to.t - from.t) * ((1.0 - 2.0 * fraction).acos() / PI);
+        let sign = if to.displacement < from.displacement { -1.0 } else { 1.0 };
+        bracketed_newton(at.t, to.t, if start < at.t { at.t } else { start }, |t| {
+            let [u, rate, ..] = self.derivatives(t);
+            (sign * (u - level), sign * rate)
+        })
+    }
+}
+
+/// Reversals found so far.
+struct ReversalSearch<'a> {
+    motion: &'a Motion<'a>,
+    /// Instant and displacement of each.
+    instants: &'a mut [[f64; 2]],
+    count: usize,
+}
+
+impl ReversalSearch<'_> {
+    /// Adds the reversal between two instants at which the rate times `sign` increases through zero.
+    fn add(&mut self, low: f64, high: f64, start: f64, sign: f64) {
+        let t = bracketed_newton(low, high, start, |t| {
+            let [_, rate, second, _] = self.motion.derivatives(t);
+            (sign * rate, sign * second)
+        });
+        let [displacement, ..] = self.motion.derivatives(t);
+        if let Some(instant) = self.instants.get_mut(self.count) {
+            *instant = [t, displacement];
+            self.count += 1;
+        }
+    }
+
+    /// Adds two reversals if the rate times `sign`, positive at `low` and `high`, has a negative minimum between them.
+    #[cold]
+    fn add_pair(&mut self, low: f64, middle: f64, high: f64, sign: f64) {
+        let minimum = bracketed_newton(low, high, middle, |t| {
+            let [_, _, second, third] = self.motion.derivatives(t);
+            (sign * second, sign * third)
+        });
+        let [_, rate, ..] = self.motion.derivatives(minimum);
+        if sign * rate < 0.0 {
+            self.add(low, minimum, 0.5 * (low + minimum), -sign);
+            self.add(minimum, high, 0.5 * (minimum + high), sign);
+        }
+    }
+}
+
+/// φ at an instant: the row 1, cos t, sin t, cos 2t, ...
+#[inline(always)]
+pub(super) fn fill_phi(row: &mut [f64], t: f64) {
+    let (sine, cosine) = t.sin_cos();
+    let (mut c, mut s) = (cosine, sine);
+    let Some((constant, pairs)) = row.split_first_mut() else { return };
+    *constant = 1.0;
+    for pair in pairs.as_chunks_mut::<2>().0 {
+        *pair = [c, s];
+        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+    }
+}
+
+/// ∫ φ dt between two instants.
+#[inline(always)]
+pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
+    let ((sine0, cosine0), (sine1, cosine1)) = (from.sin_cos(), to.sin_cos());
+    let (mut c0, mut s0, mut c1, mut s1, mut k) = (cosine0, sine0, cosine1, sine1, 1.0);
+    let Some((constant, pairs)) = row.split_first_mut() else { return };
+    *constant = to - from;
+    for pair in pairs.as_chunks_mut::<2>().0 {
+        *pair = [(s1 - s0) / k, (c0 - c1) / k];
+        (c0, s0) = (c0 * cosine0 - s0 * sine0, s0 * cosine0 + c0 * sine0);
+        (c1, s1) = (c1 * cosine1 - s1 * sine1, s1 * cosine1 + c1 * sine1);
+        k += 1.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::columns::fill_columns;
+    use super::*;
+    use std::vec;
+
+    /// Two reversals between adjacent grid points: the rate has the same sign at both.
+    #[test]
+    fn pairs_of_reversals_between_grid_points_are_found() {
+        let (harmonics, points) = (4, 64);
+        let n = 2 * harmonics + 1;
+        let (mut columns, mut rate, mut row) = (vec![0.0; n * points / 2], vec![0.0; points], vec![0.0; n]);
+        fill_columns(&mut columns, points, points / 2);
+        for shift in [0.0, 0.02, 0.05, 0.1, 0.5] {
+            // The rate cos t + 1.001 cos 2t is negative over an interval of 0.05 about t = π; the grid step is 0.1.
+            let [[s1, c1], [s2, c2]] = [shift, 2.0 * shift].map(|angle: f64| <[f64; 2]>::from(angle.sin_cos()));
+            let mut coefficients = vec![0.0; n];
+            coefficients[1..5].copy_from_slice(&[s1, c1, 0.5005 * s2, 0.5005 * c2]);
+            let mut instants = vec![[0.0; 2]; points];
+            let grid = Grid { columns: &columns, rate: &mut rate, coefficients: &mut row };
+            assert_eq!(Motion::new(&coefficients).find_reversals(grid, &mut instants), (4, false), "{shift}");
+            for [t, displacement] in &instants[..4] {
+                let [u, rate, ..] = Motion::new(&coefficients).derivatives(*t);
+                assert!(rate.abs() < 1e-12 && u == *displacement, "{shift} {t} {rate}");
+            }
+        }
+    }
+}

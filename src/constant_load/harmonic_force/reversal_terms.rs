@@ -1,0 +1,197 @@
+//! Terms of the reversals of the Jacobian under uniform sampling.
+//!
+//! Reversal r on the stack has the derivative `dT_r = k_r (φ_r - φ_q) + dT_q`, with q the reversal before it; the oldest one lies on the
+//! initial loading curve: `dT_r = k_r φ_r`. With G_r the sum of φ over all samples whose force depends on dT_r, its terms
+//! `G_r ⊗ dT_r - (Σ k φ) ⊗ φ_r` are outer products with φ_r and φ_q. They are gathered when the reversal is removed from the stack:
+//!
+//! ```text
+//! Y_r = k_r G_r - Σ k φ,     Y_q -= k_r G_r,     G_q += G_r.
+//! ```
+
+use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, with_strips};
+use crate::fourier::workspace::Blocks;
+use crate::simd::dispatch;
+
+/// Doubles of a branch, and of a reversal on the stack, in the workspace.
+pub(super) const BRANCH: usize = 1;
+pub(super) const ENTRY: usize = 2;
+
+/// The branches along a period in the order of their samples, encoded as the bits of doubles.
+#[derive(Debug)]
+pub(super) struct Branches<'a> {
+    encoded: &'a mut [f64],
+    used: usize,
+}
+
+/// Consecutive samples on a branch.
+#[derive(Debug, Clone, Copy)]
+struct Branch {
+    /// Counted from the farthest sample.
+    first: usize,
+    count: usize,
+    /// Number of reversals on the stack.
+    depth: usize,
+}
+
+impl<'a> Branches<'a> {
+    pub fn new(encoded: &'a mut [f64]) -> Branches<'a> {
+        Branches { encoded, used: 0 }
+    }
+
+    pub fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    /// Appends a branch of `count` samples.
+    #[inline(always)]
+    pub fn push(&mut self, count: usize, depth: usize) {
+        if let Some(place) = self.encoded.get_mut(self.used) {
+            *place = f64::from_bits(count as u64 | (depth as u64) << 32);
+            self.used += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn iter(&self) -> impl Iterator<Item = Branch> {
+        let mut first = 1;
+        self.encoded.iter().take(self.used).map(move |word| {
+            let word = word.to_bits();
+            let branch = Branch { first, count: word as u32 as usize, depth: (word >> 32) as usize };
+            first += branch.count;
+            branch
+        })
+    }
+}
+
+/// Tables and memory.
+#[derive(Debug)]
+pub(super) struct ReversalTerms<'a> {
+    pub rows: Rows<'a>,
+    /// Sample and stiffness of each reversal on the stack.
+    pub entries: &'a mut [[f64; ENTRY]],
+    /// G and Y of each.
+    pub sums: &'a mut Blocks,
+    pub outer: OuterProducts<'a, 1>,
+}
+
+impl ReversalTerms<'_> {
+    /// Gathers the terms along the branches, from the farthest sample on, at which `stiffness` starts.
+    #[inline(always)]
+    pub fn gather(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+        with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness));
+    }
+
+    #[inline(always)]
+    fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+        let terms = self;
+        dispatch!(
+            ReversalTerms::strips_kernel::<N>,
+            [const N: usize] terms: &mut ReversalTerms,
+            branches: &Branches,
+            farthest: usize,
+            stiffness: &[f64] => ()
+        );
+    }
+
+    #[inline(always)]
+    fn strips_kernel<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+        let ReversalTerms { rows, entries, sums, outer } = self;
+        let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        for strip in 0..outer.strips::<N>() {
+            let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
+            let mut stack = Stack { rows, farthest, entries, sums, depth: 0, terms };
+            for branch in branches.iter() {
+                stack.pop(branch.depth);
+                if branch.depth > stack.depth {
+                    let before = branch.first - 1;
+                    stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
+                }
+                stack.add(&branch, stiffness);
+            }
+            stack.pop(0);
+        }
+    }
+}
+
+/// The stack of reversals with their sums, in strips of N blocks.
+struct Stack<'s, const N: usize> {
+    rows: RowStrips<'s, N>,
+    farthest: usize,
+    entries: &'s mut [[f64; ENTRY]],
+    sums: &'s mut [[Strip<N>; 2]],
+    depth: usize,
+    terms: Terms<'s, N, 1>,
+}
+
+impl<const N: usize> Stack<'_, N> {
+    /// The sample of the period.
+    #[inline(always)]
+    fn sample(&self, from_farthest: usize) -> usize {
+        (self.farthest + from_farthest) % self.rows.phi.len().max(1)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, sample: usize, stiffness: f64) {
+        let sample = self.sample(sample);
+        if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
+            (*entry, *sums) = ([sample as f64, stiffness], [[[0.0; 4]; N]; 2]);
+            self.depth += 1;
+        }
+    }
+
+    /// Removes reversals down to a depth.
+    #[inline(always)]
+    fn pop(&mut self, depth: usize) {
+        while self.depth > depth {
+            self.depth -= 1;
+            let top = self.depth;
+            let (Some(&[sample, stiffness]), Some(&[covered, mut y])) = (self.entries.get(top), self.sums.get(top))
+            else {
+                return;
+            };
+            add_scaled(&mut y, stiffness, &covered);
+            if let Some(phi) = self.rows.phi.get(sample as usize) {
+                self.terms.push([y], phi);
+            }
+            if let Some([covered_before, y_before]) = top.checked_sub(1).and_then(|index| self.sums.get_mut(index)) {
+                add_scaled(covered_before, 1.0, &covered);
+                add_scaled(y_before, -stiffness, &covered);
+            }
+        }
+    }
+
+    /// Adds the samples of a branch to the sums of the reversal that it leaves.
+    #[inline(always)]
+    fn add(&mut self, branch: &Branch, stiffness: &[f64]) {
+        let Branch { first, count, .. } = *branch;
+        let (from, to) = (self.sample(first), self.sample(first + count));
+        let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };
+        add_scaled(covered, 1.0, &self.rows.sum_between(from, to, count));
+        let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));
+        let (before_end, after_end) =
+            weights.split_at_checked(rows.len().saturating_sub(from)).unwrap_or((weights, &[]));
+        for (rows, weights) in [(rows.get(from..).unwrap_or(&[]), before_end), (rows, after_end)] {
+            subtract_weighted(y, rows, weights);
+        }
+    }
+}
+
+/// Subtracts rows times weights, four rows at a time to shorten the chain of dependent operations.
+#[inline(always)]
+fn subtract_weighted<const N: usize>(target: &mut Strip<N>, rows: &[Strip<N>], weights: &[f64]) {
+    let ((weight_blocks, last_weights), row_blocks) = (weights.as_chunks::<4>(), rows.as_chunks::<4>().0);
+    let mut sums = *target;
+    for ([a, b, c, d], weights) in row_blocks.iter().zip(weight_blocks) {
+        for block in 0..N {
+            for k in 0..4 {
+                let one = weights[0] * a[block][k] + weights[1] * b[block][k];
+                let two = weights[2] * c[block][k] + weights[3] * d[block][k];
+                sums[block][k] -= one + two;
+            }
+        }
+    }
+    for (row, weight) in rows.get(4 * weight_blocks.len()..).unwrap_or(&[]).iter().zip(last_weights) {
+        add_scaled(&mut sums, -weight, row);
+    }
+    *target = sums;
+}

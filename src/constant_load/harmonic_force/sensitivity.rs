@@ -1,0 +1,137 @@
+//! Derivatives of the harmonic force with respect to the parameters of the contact, for both quadrature rules.
+//!
+//! At a fixed displacement the instants of the reversals are fixed, and the force is continuous where a loop closes or gross slip starts.
+//! So the derivatives are those of the force along the branches: those at the reversal that a branch leaves, and its own.
+
+use super::columns::clear_opposite_parity;
+use crate::constant_load::steady_state::SteadyState;
+use crate::fourier::normalise;
+use crate::parameters::{PARAMETERS, Sensitivity, times};
+
+/// The derivatives at the reversals on the stack; both rules keep them where the Jacobian has its terms of the reversals.
+pub(super) struct ReversalSensitivities<'a>(&'a mut [Sensitivity]);
+
+impl<'a> ReversalSensitivities<'a> {
+    pub fn new(memory: &'a mut [f64]) -> ReversalSensitivities<'a> {
+        ReversalSensitivities(memory.as_chunks_mut().0)
+    }
+
+    /// Stores the derivatives at the reversal that the present branch leaves.
+    pub fn store(&mut self, law: &SteadyState, sensitivity: Sensitivity) {
+        if let Some(place) = law.branch().depth.checked_sub(1).and_then(|index| self.0.get_mut(index)) {
+            *place = sensitivity;
+        }
+    }
+
+    /// The derivatives at a displacement on the present branch.
+    pub fn at(&self, law: &SteadyState, displacement: f64) -> Sensitivity {
+        let start = law.branch().depth.checked_sub(1).and_then(|index| self.0.get(index));
+        let (start, along) = (start.copied().unwrap_or_default(), law.sensitivity(displacement));
+        core::array::from_fn(|parameter| start[parameter] + along[parameter])
+    }
+}
+
+/// Adds the outer product of a row over the coefficients and the derivatives.
+pub(super) fn add(sums: &mut [f64], weight: f64, row: &[f64], sensitivity: Sensitivity) {
+    for (column, derivative) in sums.chunks_exact_mut(row.len().max(1)).zip(times(weight, sensitivity)) {
+        column.iter_mut().zip(row).for_each(|(sum, phi)| *sum += derivative * phi);
+    }
+}
+
+/// Scales the sums, those of half a period if `half_wave_symmetric`, to coefficients.
+pub(super) fn complete(sums: &mut [f64], weight: f64, half_wave_symmetric: bool) {
+    let length = sums.len() / PARAMETERS;
+    for column in sums.chunks_exact_mut(length.max(1)) {
+        normalise(column, weight);
+        if half_wave_symmetric {
+            clear_opposite_parity(1, column);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constant_load::contact::tests::ellipse;
+    use crate::constant_load::harmonic_force::tests::{ODD, SHAPE, compute, scaled, workspace};
+    use crate::constant_load::harmonic_force::{Rule, Workspace, harmonic_sensitivity};
+    use crate::constant_load::sensitivity::tests::{cases, differences};
+    use crate::parameters::PARAMETERS;
+    use crate::{Contact, Error};
+    use std::vec;
+    use std::vec::Vec;
+
+    const RULES: [Rule; 2] = [Rule::UniformSampling, Rule::EventDriven];
+
+    fn sensitivity(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> Vec<f64> {
+        let mut sensitivity = vec![f64::NAN; PARAMETERS * displacement.len()];
+        harmonic_sensitivity(contact, &mut Workspace::new(memory).unwrap(), displacement, &mut sensitivity).unwrap();
+        sensitivity
+    }
+
+    /// Nested loops and odd harmonics, from microslip to gross slip; an odd number of samples too.
+    #[test]
+    fn derivatives_agree_with_differences() {
+        for case in cases() {
+            let contact = case.0(case.1);
+            for (shape, size) in
+                [&SHAPE[..], &ODD].into_iter().flat_map(|shape| [1e-6, 0.3, 0.9, 1.2, 4.0].map(|size| (shape, size)))
+            {
+                let motion = scaled(&contact, shape, size);
+                for (rule, samples) in [(RULES[0], 64), (RULES[0], 63), (RULES[1], 256)] {
+                    let mut memory = workspace(rule, shape.len() / 2, samples);
+                    let exact = sensitivity(&contact, &mut memory, &motion);
+                    let found = differences(&case, |contact| {
+                        compute(contact, &mut workspace(rule, shape.len() / 2, samples), &motion).0
+                    });
+                    for (exact, (found, scale)) in exact.chunks(shape.len()).zip(&found) {
+                        for (exact, found) in exact.iter().zip(found) {
+                            let error = ((exact - found) / scale / size.min(1.0)).abs();
+                            // Central differences with h = 1e-5, one-sided ones by a.
+                            assert!(error < 2e-6, "{:?} {size} {rule:?}: {error:e}", case.1);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// A contact of little friction slips all the time: its derivatives are those without friction.
+    #[test]
+    fn derivatives_without_friction_are_one_sided() {
+        for (with_friction, values) in cases() {
+            let [normal_force, friction_coefficient, other @ ..] = values;
+            let at = |normal: f64, friction: f64| {
+                let [a, radius, length, factor] = other;
+                with_friction([normal_force * normal, friction_coefficient * friction, a, radius, length, factor])
+            };
+            let displacement = scaled(&at(1.0, 1.0), &SHAPE, 1.0);
+            for rule in RULES {
+                let mut memory = workspace(rule, 3, 64);
+                let [none, little] =
+                    [0.0, 1e-9].map(|friction| sensitivity(&at(1.0, friction), &mut memory, &displacement));
+                for (none, little) in none.iter().zip(&little) {
+                    // It sticks for some times the square root of 1e-9 of the period after each reversal.
+                    assert!((none - little).abs() < 1e-3 * normal_force, "{none} {little}");
+                }
+                // The mean square of a wave that is +1 or -1 is 1; three harmonics hold most of it.
+                let square: f64 = none[7..14].iter().map(|derivative| derivative * derivative).sum();
+                assert!(square.sqrt() > 0.5 * normal_force);
+                assert_eq!(sensitivity(&at(1.0, 1.0), &mut memory, &[0.0; 7]), [0.0; 42]);
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_and_displacements_are_checked() {
+        let (contact, mut memory) = (ellipse(1e-4, 1e-4), workspace(RULES[0], 1, 8));
+        let mut check = |displacement: &[f64], length: usize| {
+            let mut sensitivity = [1.0; 20];
+            let mut workspace = Workspace::new(&mut memory).unwrap();
+            harmonic_sensitivity(&contact, &mut workspace, displacement, &mut sensitivity[..length])
+        };
+        assert_eq!(check(&[0.0; 2], 18), Err(Error::BadArraySize));
+        assert_eq!(check(&[0.0; 3], 17), Err(Error::BadArraySize));
+        assert_eq!(check(&[0.0, f64::NAN, 0.0], 18), Err(Error::BadDisplacement));
+        assert_eq!(check(&[0.0; 3], 18), Ok(()));
+    }
+}

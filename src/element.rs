@@ -1,0 +1,675 @@
+//! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all
+//! contact points of a geometry.
+
+use crate::limits::check_displacement;
+use crate::parameters::check_moduli;
+pub(crate) mod springs;
+mod table;
+
+use crate::error::Error;
+use crate::limits::in_range;
+use crate::numerics::fp_class::{in_0_to, le};
+use crate::parameters::{EllipticParameters, Pair, Parameters};
+use crate::shape::{HertzEllipse, Plane, Relation, RoundedFlat, Shape};
+use crate::tag::LAYOUT;
+use core::array::from_fn;
+use springs::{Pressed, PressedSlopes, Springs};
+use table::{PIECES, Table};
+
+/// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NormalInput {
+    /// The normal approach; not positive if the contact is open.
+    Approach = 0,
+    /// The normal force.
+    Force = 1,
+}
+
+/// Number of tangential directions: a displacement is `[u, w]` or `[u, v, w]`, a force `[T, N]` or `[Tx, Ty, N]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Directions {
+    /// The x direction.
+    One = 1,
+    /// The x and the y direction.
+    Two = 2,
+}
+
+/// An initialised element: plain data of fixed size that may be copied, stored and sent.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct Element {
+    /// E* of Eq. 2 \[Pa\].
+    pub composite_modulus: f64,
+    /// Coulomb's friction coefficient.
+    pub friction_coefficient: f64,
+    /// The largest normal force that the tables cover \[N\].
+    pub normal_force: f64,
+    /// Half-width at that force \[m\], and so are the following; elliptical: the semi-axis x.
+    pub half_width: f64,
+    /// Normal approach \[m\].
+    pub approach: f64,
+    /// dN/d(approach) \[N/m\].
+    pub normal_stiffness: f64,
+    /// dT/d(displacement) of a fully stuck contact, x direction \[N/m\].
+    pub tangential_stiffness: f64,
+    /// [`Directions`] as an integer.
+    pub directions: i32,
+    /// [`NormalInput`] as an integer.
+    pub normal_input: i32,
+    tag: u64,
+    /// Set by the C interface.
+    pub(crate) checksum: u64,
+    /// 1/(2 mu); 0 without friction.
+    pub(crate) per_two_mu: f64,
+    /// The largest normal force, approach and shift for which the laws hold.
+    largest_load: f64,
+    largest_approach: f64,
+    pub(crate) largest_shift: f64,
+    /// The contact counts as open up to this input, [`SMALLEST_LOAD`] of that of the tables.
+    smallest_input: f64,
+    /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
+    shift_per_approach: f64,
+    shift_per_load: f64,
+    flat: RoundedFlat,
+    ellipse: HertzEllipse,
+    /// N(U) or S(N): the quantity that the input does not give.
+    of_input: Table,
+    /// N(S).
+    load_of_shift: Table,
+    /// M at the middle of each quarter of `load_of_shift`.
+    potential: [f64; PIECES],
+    /// For two directions: S along y = `lateral[0]` U + `lateral[1]` N, the shift across under the normal force of the parameters, its
+    /// size w, and the springs.
+    lateral: [f64; 2],
+    shift: f64,
+    size: f64,
+    pub(crate) springs: Springs,
+}
+
+const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
+const ELLIPTIC: u64 = 1;
+const FORCE_INPUT: u64 = 2;
+const TWO_DIRECTIONS: u64 = 4;
+
+/// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
+/// below this part of that of the tables counts as open in a step. There squares and products would underflow.
+const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
+
+/// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalPoint {
+    /// The normal force \[N\] at a given approach, the approach \[m\] at a given force.
+    pub value: f64,
+    /// The normal stiffness \[N/m\] or compliance \[m/N\].
+    pub slope: f64,
+}
+
+/// The normal state of a contact that is closed: load, tangential shift, and their derivatives with respect to the input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Normal {
+    pub load: f64,
+    pub shift: f64,
+    pub load_slope: f64,
+    pub shift_slope: f64,
+}
+
+impl Normal {
+    pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
+}
+
+impl Element {
+    /// The element of a flat with rounded edges, or of a cylinder.
+    ///
+    /// # Errors
+    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
+        let mut element = EMPTY;
+        element.init_rounded_flat(parameters, directions, input).map(|()| element)
+    }
+
+    /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
+    ///
+    /// # Errors
+    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    pub fn elliptic(
+        parameters: &EllipticParameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<Element, Error> {
+        let mut element = EMPTY;
+        element.init_elliptic(parameters, directions, input).map(|()| element)
+    }
+
+    /// Initialises an element in place; unchanged on an error.
+    ///
+    /// # Errors
+    /// As for [`Element::rounded_flat`].
+    pub(crate) fn init_rounded_flat(
+        &mut self,
+        parameters: &Parameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
+        parameters.check()?;
+        let flat_half_width = parameters.flat_half_width.abs();
+        let parameters = &Parameters { flat_half_width, ..*parameters };
+        check_moduli(&parameters.material)?;
+        let Parameters { length, normal_force, friction_coefficient, .. } = *parameters;
+        if normal_force == 0.0 {
+            return Err(Error::BadNormalForce);
+        }
+        let flat = RoundedFlat::new(parameters)?;
+        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        in_range(&[normal_force], &[length, flat.half_width()])?;
+        // The load at b = 2L.
+        in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
+        self.init(&flat.plane(), [normal_force, friction_coefficient], directions, input)?;
+        self.composite_modulus = composite_modulus;
+        (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
+        (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
+        Ok(())
+    }
+
+    /// Initialises an element in place; unchanged on an error.
+    ///
+    /// # Errors
+    /// As for [`Element::elliptic`].
+    pub(crate) fn init_elliptic(
+        &mut self,
+        parameters: &EllipticParameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
+        parameters.check()?;
+        check_moduli(&parameters.material)?;
+        let EllipticParameters { normal_force, friction_coefficient, .. } = *parameters;
+        if normal_force == 0.0 {
+            return Err(Error::BadNormalForce);
+        }
+        let ellipse = HertzEllipse::new(parameters)?;
+        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
+        in_range(&[normal_force], &[])?;
+        // The approach, free of overflow.
+        for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
+            in_range(&[normal_force], &[axis, composite_modulus])?;
+        }
+        self.init(&ellipse.plane(), [normal_force, friction_coefficient], directions, input)?;
+        self.tag |= ELLIPTIC;
+        self.composite_modulus = composite_modulus;
+        (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
+        (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
+        Ok(())
+    }
+
+    /// Checks all ranges, then writes what depends on the shape only through its trait.
+    fn init(
+        &mut self,
+        plane: &Plane,
+        [normal_force, friction_coefficient]: [f64; 2],
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
+        let shape = plane.shape;
+        let largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
+        let w = shape.at_load(normal_force);
+        if w >= largest {
+            return Err(Error::LengthTooShort);
+        }
+        let (approach, shift) = (shape.approach(w), shape.shift(w));
+        for value in [approach, shift, normal_force] {
+            in_range(&[value], &[])?;
+            if friction_coefficient > 0.0 {
+                in_range(&[value, friction_coefficient], &[])?;
+            }
+        }
+        self.largest_load = shape.load(largest);
+        (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
+        self.smallest_input = SMALLEST_LOAD * if input == NormalInput::Force { normal_force } else { approach };
+        self.friction_coefficient = friction_coefficient;
+        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
+        self.normal_force = normal_force;
+        self.half_width = shape.half_width(w);
+        self.approach = approach;
+        self.normal_stiffness = 1.0 / shape.normal_compliance(w);
+        self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
+        (self.directions, self.normal_input) = (directions as i32, input as i32);
+        self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        self.checksum = 0;
+        self.lateral = [plane.per_approach[1], plane.per_load[1]];
+        (self.shift, self.size) = (shift, w);
+        if directions == Directions::Two {
+            self.springs.fill(plane, w);
+        } else {
+            self.springs = Springs::EMPTY;
+        }
+        // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
+        // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
+        let regular = |value: f64, largest: f64| value.min(largest / 2.25);
+        let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
+        self.load_of_shift.fill(regular(shift, self.largest_shift), &load_of_shift);
+        match input {
+            NormalInput::Approach => {
+                let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
+                self.of_input.fill(regular(approach, self.largest_approach), &load_of_approach);
+            }
+            NormalInput::Force => {
+                let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
+                // The load of the parameters without the rounding error of its size.
+                self.of_input.fill(normal_force, &shift_of_load);
+            }
+        }
+        for (value, middle) in self.potential.iter_mut().zip(self.load_of_shift.middles()) {
+            *value = shape.potential(shape.at_shift(middle));
+        }
+        Ok(())
+    }
+
+    /// The unit of shifts: S across the line under the normal force of the parameters \[m\].
+    pub(crate) fn shift_unit(&self) -> f64 {
+        self.shift
+    }
+
+    /// The normal state in the units of the springs, from a load > 0 and its shift.
+    pub(crate) fn pressed(&self, load: f64, shift: f64) -> Pressed {
+        let size = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force)) / self.size;
+        Pressed { size: size * size, ..self.pressed_without_size(load, shift) }
+    }
+
+    /// The same without the size.
+    pub(crate) fn pressed_without_size(&self, load: f64, shift: f64) -> Pressed {
+        let approach = (shift - self.shift_per_load * load) / self.shift_per_approach;
+        let lateral = self.lateral[0] * approach + self.lateral[1] * load;
+        let per_shift = 1.0 / self.shift;
+        Pressed { load: load / self.normal_force, shift: [shift * per_shift, lateral * per_shift], size: 0.0 }
+    }
+
+    /// Derivatives of the normal state with respect to the input.
+    pub(crate) fn pressed_slopes(&self, normal: &Normal) -> PressedSlopes {
+        let Normal { load, load_slope, shift_slope, .. } = *normal;
+        let approach = (shift_slope - self.shift_per_load * load_slope) / self.shift_per_approach;
+        let lateral = self.lateral[0] * approach + self.lateral[1] * load_slope;
+        let w = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force));
+        let size = self.shape().size_slope(w) * load_slope / self.size / self.size;
+        let per_shift = 1.0 / self.shift;
+        PressedSlopes {
+            load: load_slope / self.normal_force,
+            shift: [shift_slope * per_shift, lateral * per_shift],
+            size,
+        }
+    }
+
+    /// Whether the tag is that of an element initialised by this version.
+    pub(crate) fn is_initialised(&self) -> bool {
+        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS) == TAG
+    }
+
+    /// Checks the tag of an element that is used with the given number of directions.
+    ///
+    /// # Errors
+    /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
+    #[inline(always)]
+    pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
+        match self.tag & !(ELLIPTIC | FORCE_INPUT) {
+            tag if tag == TAG | tag_of(directions) => Ok(()),
+            _ if self.is_initialised() => Err(Error::BadDirections),
+            _ => Err(Error::BadElement),
+        }
+    }
+
+    /// The number of tangential directions according to the tag.
+    #[inline(always)]
+    pub(crate) fn tangential_directions(&self) -> Directions {
+        if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
+    }
+
+    /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[must_use]
+    #[inline(always)]
+    pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
+        let position = if self.by_approach() { self.of_input.position(approach) } else { None };
+        let (value, slope) = match position {
+            Some(at) => self.of_input.value_and_slope(approach, at),
+            None if approach <= 0.0 => (0.0, 0.0),
+            None => self.load_of_approach_outside(approach),
+        };
+        NormalPoint { value, slope }
+    }
+
+    /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
+    /// cylinder or an ellipse.
+    #[must_use]
+    #[inline(always)]
+    pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
+        let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
+        let Some(at) = position else { return self.approach_outside(normal_force) };
+        let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
+        let per_approach = 1.0 / self.shift_per_approach;
+        let value = per_approach * (shift - self.shift_per_load * normal_force);
+        NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
+    }
+
+    /// Values and slopes of [`Element::normal_force_at`] at four approaches, with the same bits.
+    #[inline(always)]
+    pub(crate) fn four_normal_forces(&self, approach: &[f64; 4]) -> [NormalPoint; 4] {
+        match if self.by_approach() { self.of_input.four::<true>(approach) } else { None } {
+            Some((value, slope)) => from_fn(|k| NormalPoint { value: value[k], slope: slope[k] }),
+            None => approach.map(|approach| self.normal_force_at(approach)),
+        }
+    }
+
+    /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are
+    /// proportional to each other, so that no power of a size underflows.
+    fn smallest_size(&self) -> f64 {
+        self.shape().at_load(SMALLEST_LOAD * self.normal_force)
+    }
+
+    #[inline(never)]
+    fn approach_outside(&self, normal_force: f64) -> NormalPoint {
+        let shape = self.shape();
+        if normal_force > 0.0 && normal_force < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.approach(w) / shape.load(w);
+            return NormalPoint { value: slope * normal_force, slope };
+        }
+        let w = shape.at_load(normal_force);
+        let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
+        NormalPoint { value: shape.approach(w), slope }
+    }
+
+    /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
+    #[must_use]
+    pub fn half_width_under(&self, normal_force: f64) -> f64 {
+        let shape = self.shape();
+        let load = normal_force.max(SMALLEST_LOAD * self.normal_force);
+        if normal_force > 0.0 { shape.half_width(shape.at_load(load)) } else { 0.0 }
+    }
+
+    /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
+    #[must_use]
+    pub fn shift_under(&self, load: f64) -> f64 {
+        if load > 0.0 { self.shift_of_load(load).0 } else { 0.0 }
+    }
+
+    /// The normal force \[N\] at a tangential shift \[m\].
+    #[must_use]
+    pub fn load_under(&self, shift: f64) -> f64 {
+        self.load_at_shift(shift).0
+    }
+
+    /// Whether the normal component of a displacement is the approach.
+    pub(crate) fn by_approach(&self) -> bool {
+        self.tag & FORCE_INPUT == 0
+    }
+
+    /// The family of sizes.
+    pub(crate) fn shape(&self) -> &dyn Shape {
+        if self.tag & ELLIPTIC == 0 { &self.flat } else { &self.ellipse }
+    }
+
+    /// Checks a normal component.
+    ///
+    /// # Errors
+    /// `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
+    /// `LengthTooShort` if the contact would become too wide for its length.
+    #[inline(always)]
+    pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
+        if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
+    }
+
+    /// Checks a normal approach.
+    ///
+    /// # Errors
+    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
+        check_displacement(approach)?;
+        if le(approach, self.largest_approach) { Ok(()) } else { Err(Error::LengthTooShort) }
+    }
+
+    /// Checks a normal force.
+    ///
+    /// # Errors
+    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
+    /// its length.
+    #[inline(always)]
+    pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
+        if !in_0_to(1e150, normal_force) {
+            return Err(Error::BadNormalForce);
+        }
+        if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
+    }
+
+    /// Whether an input that was checked closes the contact.
+    #[inline(always)]
+    pub(crate) fn is_closed(&self, input: f64) -> bool {
+        input > self.smallest_input
+    }
+
+    /// The normal state at an input that closes the contact.
+    #[inline(always)]
+    pub(crate) fn normal(&self, input: f64) -> Normal {
+        let (value, slope) = match self.of_input.position(input) {
+            Some(at) => self.of_input.value_and_slope(input, at),
+            None => self.outside(input),
+        };
+        if self.by_approach() {
+            Normal {
+                load: value,
+                shift: self.shift_per_approach * input + self.shift_per_load * value,
+                load_slope: slope,
+                shift_slope: self.shift_per_approach + self.shift_per_load * slope,
+            }
+        } else {
+            Normal { load: input, shift: value, load_slope: 1.0, shift_slope: slope }
+        }
+    }
+
+    /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
+    #[inline(always)]
+    pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        if input.iter().all(|input| *input > 0.0) {
+            return self.four_closed::<SLOPES>(input);
+        }
+        // A closed contact in place of each open one.
+        let substitute = self.of_input.smallest();
+        let mut closed = *input;
+        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
+        let mut states = self.four_closed::<SLOPES>(&closed);
+        for values in &mut states {
+            for (value, input) in values.iter_mut().zip(input) {
+                *value = if *input > 0.0 { *value } else { 0.0 };
+            }
+        }
+        states
+    }
+
+    #[inline(always)]
+    fn four_closed<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
+        let (value, slope) = match self.of_input.four::<SLOPES>(input) {
+            Some(values) => values,
+            None => self.four_outside(input),
+        };
+        if !self.by_approach() {
+            return [*input, value, [1.0; 4], slope];
+        }
+        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
+        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            shift[k] = ratio * input[k] + per_load * value[k];
+            shift_slope[k] = ratio + per_load * slope[k];
+        }
+        [value, shift, slope, shift_slope]
+    }
+
+    #[inline(never)]
+    fn four_outside(&self, input: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
+        for ((value, slope), &input) in value.iter_mut().zip(&mut slope).zip(input) {
+            (*value, *slope) = match self.of_input.position(input) {
+                Some(at) => self.of_input.value_and_slope(input, at),
+                None => self.outside(input),
+            };
+        }
+        (value, slope)
+    }
+
+    /// N and, if requested, 1/K_t at four shifts S >= 0.
+    #[inline(always)]
+    pub(crate) fn four_loads<const SLOPES: bool>(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        match self.load_of_shift.four::<SLOPES>(shift) {
+            Some(values) => values,
+            None => self.four_loads_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn four_loads_outside(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut load, mut stiffness) = ([0.0; 4], [0.0; 4]);
+        for ((load, stiffness), &shift) in load.iter_mut().zip(&mut stiffness).zip(shift) {
+            (*load, *stiffness) = self.load_at_shift(shift);
+        }
+        (load, stiffness)
+    }
+
+    /// N(U) or S(N) and its slope, from the shape.
+    #[inline(never)]
+    fn outside(&self, input: f64) -> (f64, f64) {
+        if self.by_approach() {
+            return self.load_of_approach_outside(input);
+        }
+        self.shift_of_load(input)
+    }
+
+    /// S(N) and its slope, from the shape.
+    fn shift_of_load(&self, load: f64) -> (f64, f64) {
+        let shape = self.shape();
+        if load < SMALLEST_LOAD * self.normal_force {
+            let w = self.smallest_size();
+            let slope = shape.shift(w) / shape.load(w);
+            return (slope * load, slope);
+        }
+        let w = shape.at_load(load);
+        (shape.shift(w), shape.tangential_compliance(w))
+    }
+
+    #[inline(never)]
+    fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
+        let shape = self.shape();
+        if approach < self.approach {
+            let w = self.smallest_size();
+            let smallest = shape.approach(w);
+            if approach < smallest {
+                let slope = shape.load(w) / smallest;
+                return (slope * approach, slope);
+            }
+        }
+        let w = shape.at_approach(approach);
+        (shape.load(w), 1.0 / shape.normal_compliance(w))
+    }
+
+    /// N and 1/K_t at a shift S >= 0.
+    #[inline(always)]
+    pub(crate) fn load_at_shift(&self, shift: f64) -> (f64, f64) {
+        match self.load_of_shift.position(shift) {
+            Some(at) => self.load_of_shift.value_and_slope(shift, at),
+            None => self.load_at_shift_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
+        match self.size_at_shift(shift) {
+            Ok(w) => (self.shape().load(w), 1.0 / self.shape().tangential_compliance(w)),
+            Err(slope) => (slope * shift.max(0.0), slope),
+        }
+    }
+
+    /// 1/K_t at first touch: 0 unless the contact has a flat.
+    fn touching_stiffness(&self) -> f64 {
+        let shape = self.shape();
+        if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
+    }
+
+    /// N'' at a shift S > 0.
+    #[inline(always)]
+    pub(crate) fn curvature_at_shift(&self, shift: f64) -> f64 {
+        match self.load_of_shift.position(shift) {
+            Some(at) => self.load_of_shift.curvature(shift, at),
+            None => self.curvature_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn curvature_outside(&self, shift: f64) -> f64 {
+        let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
+        let [_, _, curvature, ..] = self.shape().series(w, Relation::LoadOfShift);
+        2.0 * curvature / (shift * shift)
+    }
+
+    /// The size at a shift outside the tables; below the smallest size, N/S as an error.
+    fn size_at_shift(&self, shift: f64) -> Result<f64, f64> {
+        let shape = self.shape();
+        if shift <= 0.0 {
+            return Err(self.touching_stiffness());
+        }
+        let smallest = self.smallest_size();
+        let smallest_shift = shape.shift(smallest);
+        if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
+    }
+
+    /// M at a shift S >= 0.
+    pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
+        match self.load_of_shift.position(shift) {
+            Some(at) => {
+                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
+                middle + self.load_of_shift.integral_from_middle(shift, at)
+            }
+            None => match self.size_at_shift(shift) {
+                Ok(w) => self.shape().potential(w),
+                Err(slope) => 0.5 * slope * shift * shift,
+            },
+        }
+    }
+}
+
+/// Bits of the tag.
+const fn tag_of(directions: Directions) -> u64 {
+    match directions {
+        Directions::One => 0,
+        Directions::Two => TWO_DIRECTIONS,
+    }
+}
+
+/// An element without tables.
+const EMPTY: Element = Element {
+    composite_modulus: 0.0,
+    friction_coefficient: 0.0,
+    normal_force: 0.0,
+    half_width: 0.0,
+    approach: 0.0,
+    normal_stiffness: 0.0,
+    tangential_stiffness: 0.0,
+    directions: 0,
+    normal_input: 0,
+    tag: 0,
+    checksum: 0,
+    per_two_mu: 0.0,
+    largest_load: 0.0,
+    largest_approach: 0.0,
+    largest_shift: 0.0,
+    smallest_input: 0.0,
+    shift_per_approach: 0.0,
+    shift_per_load: 0.0,
+    flat: RoundedFlat::EMPTY,
+    ellipse: HertzEllipse::EMPTY,
+    of_input: Table::EMPTY,
+    load_of_shift: Table::EMPTY,
+    potential: [0.0; PIECES],
+    lateral: [0.0; 2],
+    shift: 0.0,
+    size: 0.0,
+    springs: Springs::EMPTY,
+};
+
+const _: () = assert!(size_of::<Element>() <= 45_000);

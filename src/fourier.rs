@@ -1,0 +1,60 @@
+//! What the harmonic forces of all laws use: outputs, Fourier transforms, and their tables and memory.
+//!
+//! - [`workspace`]: header and layout of workspaces;
+//! - `folded`: synthesis and sums over uniformly spaced samples, folded by symmetry;
+//! - `rows`: 1, cos t, sin t, ... at the samples, their sums and outer products;
+//! - `sampled_jacobian`: the Jacobian from Fourier sums and outer products.
+
+pub(crate) mod folded;
+pub(crate) mod rows;
+pub(crate) mod sampled_jacobian;
+pub(crate) mod workspace;
+
+use crate::error::Error;
+use crate::limits::check_coefficients;
+use core::f64::consts::PI;
+
+/// Outputs: the coefficients of the force, its Jacobian (column-major) and the energy; `None` is not computed.
+#[derive(Debug)]
+pub struct HarmonicOutput<'a> {
+    /// 2H + 1 coefficients of the force \[N\].
+    pub force: Option<&'a mut [f64]>,
+    /// (2H + 1)² derivatives of force i with respect to displacement j \[N/m\] at `i + (2H + 1) j`.
+    pub jacobian: Option<&'a mut [f64]>,
+    /// Energy dissipated per period \[J\].
+    pub dissipated: Option<&'a mut f64>,
+}
+
+impl HarmonicOutput<'_> {
+    /// Whether something is requested.
+    pub(crate) fn is_requested(&self) -> bool {
+        self.force.is_some() || self.jacobian.is_some() || self.dissipated.is_some()
+    }
+
+    /// Checks the n coefficients of a displacement, and the lengths of the outputs.
+    ///
+    /// # Errors
+    /// `BadArraySize`, `BadDisplacement`.
+    pub(crate) fn check(&self, n: usize, displacement: &[f64]) -> Result<(), Error> {
+        let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+        if displacement.len() != n || !fits(&self.force, n) || !fits(&self.jacobian, n * n) {
+            return Err(Error::BadArraySize);
+        }
+        check_coefficients(displacement)
+    }
+}
+
+/// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.
+pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
+    let fraction = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;
+    2.0 * PI * fraction
+}
+
+/// Scales Fourier sums to coefficients: the constant by `weight`, harmonics by twice that.
+#[inline(always)]
+pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
+    sums.iter_mut().for_each(|sum| *sum *= 2.0 * weight);
+    if let Some(constant) = sums.first_mut() {
+        *constant *= 0.5;
+    }
+}

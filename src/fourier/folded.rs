@@ -1,0 +1,365 @@
+//! Fourier synthesis and sums over uniformly spaced samples, folded by symmetry.
+//!
+//! With `t = 2π n/N`, cosines keep and sines change their sign under n -> N - n. If N is even, moreover, even orders keep and odd
+//! orders change their sign under n -> n + N/2. So four (two if N is odd) partial series over the positions 0 <= n <= N/4 (N/2)
+//! give all samples, and four folded sums of the samples give all Fourier sums.
+//!
+//! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
+
+use super::angle;
+use super::workspace::{Blocks, Parts, padded};
+use crate::error::Error;
+use crate::simd::dispatch;
+
+/// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
+pub(crate) fn sample_length(samples: usize) -> usize {
+    padded(samples + 1)
+}
+
+/// Blocks of four positions.
+fn position_blocks(samples: usize) -> usize {
+    let positions = if samples.is_multiple_of(2) { samples / 4 + 1 } else { samples / 2 + 1 };
+    positions.div_ceil(4)
+}
+
+/// Number of doubles in the table for orders up to `orders`, an even number.
+pub(crate) fn table_length(samples: usize, orders: usize) -> usize {
+    4 * position_blocks(samples) * (1 + 2 * orders)
+}
+
+/// Number of doubles of scratch memory: folded sums, and four partial sums of each function.
+pub(crate) fn scratch_length(samples: usize, orders: usize) -> usize {
+    4 * (SYMMETRIES * position_blocks(samples) + 1 + 2 * orders)
+}
+
+/// Cosines of odd orders, sines of odd orders, cosines of even orders, sines of even orders.
+const SYMMETRIES: usize = 4;
+
+/// Fills the table: the weights of the positions, then for each block of positions cos and sin of the orders 1, 2, ...
+pub(crate) fn fill_table(table: &mut [f64], samples: usize, orders: usize) {
+    let blocks = table.as_chunks_mut::<4>().0.split_at_mut_checked(position_blocks(samples));
+    let Some((weights, rows)) = blocks else { return };
+    for ((first, weights), rows) in (0..).step_by(4).zip(weights).zip(rows.chunks_exact_mut((2 * orders).max(1))) {
+        let positions = [first, first + 1, first + 2, first + 3];
+        *weights = positions.map(|n| weight(n, samples));
+        for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
+            *cosines = positions.map(|n| angle(order, n, samples).cos());
+            *sines = positions.map(|n| angle(order, n, samples).sin());
+        }
+    }
+}
+
+/// Weight of a position in the folded sums: 1/2 if a fold maps its samples onto themselves, 0 beyond the last position.
+fn weight(n: usize, samples: usize) -> f64 {
+    let (is_even, twice) = (samples.is_multiple_of(2), 4 * n);
+    if n == 0 || (is_even && twice == samples) {
+        0.5
+    } else if (is_even && twice > samples) || 2 * n > samples {
+        0.0
+    } else {
+        1.0
+    }
+}
+
+/// Tables and scratch memory for a number of samples.
+#[derive(Debug)]
+pub(crate) struct FoldedFourier<'a> {
+    samples: usize,
+    orders: usize,
+    weights: &'a Blocks,
+    /// Cosines and sines of two orders each; for each block of positions those of all orders.
+    quads: &'a [[[f64; 4]; SYMMETRIES]],
+    /// Blocks of folded sums.
+    folded: usize,
+    scratch: &'a mut Blocks,
+}
+
+impl<'a> FoldedFourier<'a> {
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
+        let table: &'a Blocks = parts.take(table_length(samples, orders))?.as_chunks().0;
+        let (weights, rows) = table.split_at_checked(position_blocks(samples)).unwrap_or((&[], &[]));
+        let folded = SYMMETRIES * position_blocks(samples);
+        Ok(FoldedFourier { samples, orders, weights, quads: rows.as_chunks().0, folded, scratch: &mut [] })
+    }
+
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take_scratch(&mut self, parts: &mut Parts<'a>) -> Result<(), Error> {
+        self.scratch = parts.take(scratch_length(self.samples, self.orders))?.as_chunks_mut().0;
+        Ok(())
+    }
+
+    /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
+    #[inline(always)]
+    pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
+        let fourier = self;
+        dispatch!(FoldedFourier::synthesis_kernel, fourier: &FoldedFourier, coefficients: &[f64], values: &mut [f64] => ());
+    }
+
+    #[inline(always)]
+    pub fn synthesis_kernel(&self, coefficients: &[f64], values: &mut [f64]) {
+        let Some((&constant, pairs)) = coefficients.split_first() else { return };
+        let (quads, last) = pairs.as_chunks::<4>();
+        let (samples, half) = (self.samples, self.samples / 2);
+        for (first, row_quads) in (0..).step_by(4).zip(self.quads.chunks_exact((self.orders / 2).max(1))) {
+            let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
+            let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
+            for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
+                for k in 0..4 {
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                    even_cosines[k] += c * rows[2][k];
+                    even_sines[k] += d * rows[3][k];
+                }
+            }
+            if let (&[a, b], Some(rows)) = (last, row_quads.get(quads.len())) {
+                for k in 0..4 {
+                    odd_cosines[k] += a * rows[0][k];
+                    odd_sines[k] += b * rows[1][k];
+                }
+            }
+            if samples.is_multiple_of(2) {
+                let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
+                let (even_mirrored, odd_mirrored) =
+                    (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
+                store(values, first, add(even, odd));
+                store(values, half + first, subtract(even, odd));
+                store_reversed(values, half.checked_sub(first), subtract(even_mirrored, odd_mirrored));
+                store_reversed(values, samples.checked_sub(first), add(even_mirrored, odd_mirrored));
+            } else {
+                let (cosines, sines) = (add(even_cosines, odd_cosines), add(even_sines, odd_sines));
+                store(values, first, add(cosines, sines));
+                store_reversed(values, samples.checked_sub(first), subtract(cosines, sines));
+            }
+        }
+        continue_periodically(values, samples);
+    }
+
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`. Continues the values periodically.
+    #[inline(always)]
+    pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
+        let fourier = self;
+        dispatch!(FoldedFourier::sum_kernel, fourier: &mut FoldedFourier, values: &mut [f64], sums: &mut [f64] => ());
+    }
+
+    #[inline(always)]
+    pub fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
+        continue_periodically(values, self.samples);
+        self.fold(values);
+        let (folded, totals) = self.scratch.split_at_mut_checked(self.folded).unwrap_or((&mut [], &mut []));
+        let folded = folded.as_chunks::<SYMMETRIES>().0;
+        let stride = (self.orders / 2).max(1);
+        // The constant, then blocks of four sums for each pair of orders.
+        let mut total = [0.0; 4];
+        for [_, _, even_cosines, _] in folded {
+            for k in 0..4 {
+                total[k] += even_cosines[k];
+            }
+        }
+        let Some((constant, totals)) = totals.split_first_mut() else { return };
+        *constant = total;
+        let count = sums.len().saturating_sub(1).div_ceil(4);
+        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
+            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
+            for (block, folded) in folded.iter().enumerate() {
+                let Some(rows) = self.quads.get(quad + block * stride) else { break };
+                for k in 0..4 {
+                    a[k] += folded[0][k] * rows[0][k];
+                    b[k] += folded[1][k] * rows[1][k];
+                    c[k] += folded[2][k] * rows[2][k];
+                    d[k] += folded[3][k] * rows[3][k];
+                }
+            }
+            *totals = [a, b, c, d];
+        }
+        // Summed from memory, which keeps the loop above vectorised along the positions.
+        let Some((first, sums)) = sums.split_first_mut() else { return };
+        *first = sum_of(*constant);
+        for (sum, total) in sums.iter_mut().zip(totals.iter()) {
+            *sum = sum_of(*total);
+        }
+    }
+
+    /// The folded sums of the samples at each position, at the front of the scratch memory.
+    #[inline(always)]
+    fn fold(&mut self, values: &[f64]) {
+        let (samples, half) = (self.samples, self.samples / 2);
+        let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
+        let upwards = |first: usize| values.get(first..).unwrap_or(&[]).as_chunks::<4>().0.iter();
+        let downwards = |first: usize| values.get(..=first).unwrap_or(&[]).as_rchunks::<4>().1.iter().rev();
+        let mut blocks = upwards(0).zip(downwards(samples)).zip(upwards(half)).zip(downwards(half));
+        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
+            if samples.is_multiple_of(2) {
+                // Checked one by one only if there are few samples.
+                let [here, mirrored, opposite, mirrored_opposite] = match blocks.next() {
+                    Some((((a, b), c), d)) => [*a, reversed(*b), *c, reversed(*d)],
+                    None => [
+                        load(values, first),
+                        load_reversed(values, samples.checked_sub(first)),
+                        load(values, half + first),
+                        load_reversed(values, half.checked_sub(first)),
+                    ],
+                };
+                let (e, o) = (add(here, opposite), subtract(here, opposite));
+                let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
+                *folded = [
+                    times(*weights, add(o, om)),
+                    times(*weights, subtract(o, om)),
+                    times(*weights, add(e, em)),
+                    times(*weights, subtract(e, em)),
+                ];
+            } else {
+                let (here, mirrored) = (load(values, first), load_reversed(values, samples.checked_sub(first)));
+                let (cosines, sines) =
+                    (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
+                *folded = [cosines, sines, cosines, sines];
+            }
+        }
+    }
+}
+
+/// Fills the values beyond the period.
+#[inline(always)]
+pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
+    if let Some((period, beyond)) = values.split_at_mut_checked(samples) {
+        beyond.iter_mut().zip(period.iter().cycle()).for_each(|(value, continued)| *value = *continued);
+    }
+}
+
+/// Completes values that were evaluated in half a period from a sample and keep (+1) or change (-1) their sign after it.
+#[inline(always)]
+pub(crate) fn continue_half_wave(values: &mut [f64], start: usize, samples: usize, sign: f64) {
+    let half = samples / 2;
+    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
+        return;
+    };
+    // The evaluated half starts in either half of the period.
+    let turn = if start < half { start } else { start - half };
+    let from_first = start < half;
+    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
+        if (index >= turn) == from_first {
+            *second = sign * *first;
+        } else {
+            *first = sign * *second;
+        }
+    }
+}
+
+#[inline(always)]
+fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
+}
+
+#[inline(always)]
+fn subtract(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
+}
+
+#[inline(always)]
+fn times(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
+}
+
+#[inline(always)]
+fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
+    (a + c) + (b + d)
+}
+
+/// Four consecutive values; those outside the array are 0, with the sign that keeps compilers from an instruction that valgrind does
+/// not know.
+#[inline(always)]
+fn load(values: &[f64], first: usize) -> [f64; 4] {
+    match values.get(first..).and_then(<[f64]>::first_chunk) {
+        Some(block) => *block,
+        None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(-0.0)),
+    }
+}
+
+#[inline(always)]
+fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    [d, c, b, a]
+}
+
+/// Four consecutive values downwards from `first`.
+#[inline(always)]
+fn load_reversed(values: &[f64], first: Option<usize>) -> [f64; 4] {
+    let Some(first) = first else { return [0.0; 4] };
+    match first.checked_sub(3).and_then(|last| values.get(last..)).and_then(<[f64]>::first_chunk) {
+        Some(&[a, b, c, d]) => [d, c, b, a],
+        None => [0, 1, 2, 3].map(|k| first.checked_sub(k).and_then(|at| values.get(at)).copied().unwrap_or(-0.0)),
+    }
+}
+
+#[inline(always)]
+fn store(values: &mut [f64], first: usize, block: [f64; 4]) {
+    match values.get_mut(first..).and_then(<[f64]>::first_chunk_mut) {
+        Some(place) => *place = block,
+        None => values.iter_mut().skip(first).zip(block).for_each(|(place, value)| *place = value),
+    }
+}
+
+#[inline(always)]
+fn store_reversed(values: &mut [f64], first: Option<usize>, block: [f64; 4]) {
+    let Some(first) = first else { return };
+    match first.checked_sub(3).and_then(|last| values.get_mut(last..)).and_then(<[f64]>::first_chunk_mut) {
+        Some(place) => *place = [block[3], block[2], block[1], block[0]],
+        None => {
+            for (place, value) in values.iter_mut().take(first + 1).rev().zip(block) {
+                *place = value;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    #[test]
+    fn series_and_sums_are_those_of_the_definition() {
+        for samples in (3..40).chain([63, 64, 66, 100]) {
+            for harmonics in [1, 2, 3, 5, 9].into_iter().filter(|h| 2 * h < samples) {
+                let orders = 2 * harmonics;
+                let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples, orders)];
+                fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
+                let mut parts = Parts::of(&mut memory);
+                let mut fourier = FoldedFourier::take(&mut parts, samples, orders).unwrap();
+                fourier.take_scratch(&mut parts).unwrap();
+                let function = |c: usize, n: usize| {
+                    let angle = angle(c.div_ceil(2), n, samples);
+                    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
+                };
+                let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
+                let mut values = vec![f64::NAN; sample_length(samples)];
+                fourier.synthesise(&coefficients, &mut values);
+                for (n, value) in values.iter().enumerate() {
+                    let exact: f64 = (0..).zip(&coefficients).map(|(c, a)| a * function(c, n % samples)).sum();
+                    assert!((value - exact).abs() < 1e-14, "{samples} {harmonics} {n}: {value} {exact}");
+                }
+                for last in [2 * harmonics, 2 * orders] {
+                    let mut sums = vec![f64::NAN; last + 1];
+                    fourier.sum(&mut values, &mut sums);
+                    for (c, sum) in sums.iter().enumerate() {
+                        let exact: f64 = (0..samples).map(|n| values[n] * function(c, n)).sum();
+                        assert!((sum - exact).abs() < 1e-13, "{samples} {harmonics} {c}: {sum} {exact}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
+        let (samples, orders) = (22, 6);
+        let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples, orders)];
+        fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
+        let fourier = FoldedFourier::take(&mut Parts::of(&mut memory), samples, orders).unwrap();
+        let mut values = vec![0.0; sample_length(samples)];
+        fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);
+        assert!((0..11).all(|n| values[n] == -values[n + 11]));
+    }
+}

@@ -1,0 +1,275 @@
+//! Rows over the coefficients at uniformly spaced samples, and sums of outer products of rows.
+//!
+//! φ is the row 1, cos t, sin t, cos 2t, ... at a sample. The sum of φ over consecutive samples is a difference of antiderivatives. The
+//! rows of many harmonics are divided into strips whose length is known to the compiler, and that stay in registers.
+
+use super::angle;
+use super::workspace::{Blocks, Parts};
+use crate::error::Error;
+use core::f64::consts::PI;
+
+/// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
+pub(crate) fn row_blocks(harmonics: usize) -> usize {
+    let blocks = (2 * harmonics + 1).div_ceil(4);
+    if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(5) }
+}
+
+/// Blocks of a row that are gathered together, and kept in registers: all up to 5.
+fn strip_blocks(row_blocks: usize) -> usize {
+    row_blocks.min(5)
+}
+
+/// A strip of a row.
+pub(crate) type Strip<const N: usize> = [[f64; 4]; N];
+
+/// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
+/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
+pub(crate) fn fill_rows(table: &mut [f64], harmonics: usize, samples: usize) {
+    let (rows, antiderivatives) = table.split_at_mut_checked(table.len() / 2).unwrap_or((&mut [], &mut []));
+    let width = (4 * strip_blocks(row_blocks(harmonics))).max(4);
+    let fill = |values: &mut [f64], function: &dyn Fn(usize, usize) -> f64| {
+        for (index, strip) in values.chunks_exact_mut(width).enumerate() {
+            let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
+            for (c, value) in (first..).zip(strip) {
+                *value = if c <= 2 * harmonics { function(c, n) } else { 0.0 };
+            }
+        }
+    };
+    let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
+    fill(rows, &|c, n| {
+        let angle = angle(c.div_ceil(2), n, samples);
+        if is_sine(c) { angle.sin() } else { angle.cos() }
+    });
+    fill(antiderivatives, &|c, n| {
+        let order = c.div_ceil(2);
+        if order == 0 {
+            return 0.0;
+        }
+        // Sums of a geometric series: the angle half a step before the sample.
+        let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
+        let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
+        scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
+    });
+}
+
+#[inline(always)]
+pub(crate) fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
+    for block in 0..N {
+        for k in 0..4 {
+            target[block][k] += scale * row[block][k];
+        }
+    }
+}
+
+#[inline(always)]
+pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
+    let mut scaled = *row;
+    scaled.as_flattened_mut().iter_mut().for_each(|value| *value *= scale);
+    scaled
+}
+
+/// Tables of φ and of its antiderivatives A.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    harmonics: usize,
+    samples: usize,
+    phi: &'a Blocks,
+    antiderivatives: &'a Blocks,
+}
+
+/// Number of doubles of [`Rows`].
+pub(crate) fn rows_length(harmonics: usize, samples: usize) -> usize {
+    8 * row_blocks(harmonics) * samples
+}
+
+/// One strip of all rows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RowStrips<'a, const N: usize> {
+    /// Whether the strips hold the constant.
+    is_first: bool,
+    pub phi: &'a [Strip<N>],
+    antiderivatives: &'a [Strip<N>],
+}
+
+impl<'a> Rows<'a> {
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, samples: usize) -> Result<Rows<'a>, Error> {
+        let blocks = row_blocks(harmonics) * samples;
+        let (phi, antiderivatives) = (parts.take_blocks(blocks)?, parts.take_blocks(blocks)?);
+        Ok(Rows { harmonics, samples, phi, antiderivatives })
+    }
+
+    /// Blocks of a row.
+    #[inline(always)]
+    pub fn blocks(&self) -> usize {
+        row_blocks(self.harmonics)
+    }
+
+    /// The strips of all samples; N is that of [`with_strips`].
+    #[inline(always)]
+    pub fn strips<const N: usize>(&self, strip: usize) -> RowStrips<'a, N> {
+        let range = strip * self.samples..(strip + 1) * self.samples;
+        RowStrips {
+            is_first: strip == 0,
+            phi: self.phi.as_chunks().0.get(range.clone()).unwrap_or(&[]),
+            antiderivatives: self.antiderivatives.as_chunks().0.get(range).unwrap_or(&[]),
+        }
+    }
+}
+
+impl<const N: usize> RowStrips<'_, N> {
+    /// The sum of φ over `count` samples, from sample `from` to the one before `to`.
+    #[inline(always)]
+    pub fn sum_between(&self, from: usize, to: usize, count: usize) -> Strip<N> {
+        let (Some(last), Some(first)) = (self.antiderivatives.get(to), self.antiderivatives.get(from)) else {
+            return [[0.0; 4]; N];
+        };
+        let mut sum = *last;
+        add_scaled(&mut sum, -1.0, first);
+        if let (true, Some([constant, ..])) = (self.is_first, sum.first_mut()) {
+            *constant = count as f64;
+        }
+        sum
+    }
+}
+
+/// Calls a function for the strips of a row, with their number of blocks as its generic parameter.
+macro_rules! with_strips {
+    ($row_blocks:expr, $object:ident.$function:ident($($argument:expr),*)) => {
+        match $row_blocks {
+            1 => $object.$function::<1>($($argument),*),
+            3 => $object.$function::<3>($($argument),*),
+            _ => $object.$function::<5>($($argument),*),
+        }
+    };
+}
+
+pub(crate) use with_strips;
+
+/// `Σ Y_j ⊗ φ_j` over some samples j, with D rows Y_j. Of all rows, the first strips come first.
+#[derive(Debug)]
+pub(crate) struct OuterProducts<'a, const D: usize> {
+    row_blocks: usize,
+    capacity: usize,
+    count: usize,
+    y: &'a mut Blocks,
+    phi: &'a mut Blocks,
+}
+
+/// Number of doubles of [`OuterProducts`] for the given number of samples.
+pub(crate) fn outer_products_length<const D: usize>(harmonics: usize, capacity: usize) -> usize {
+    4 * (D + 1) * row_blocks(harmonics) * capacity
+}
+
+/// One strip of the rows of [`OuterProducts`].
+#[derive(Debug)]
+pub(crate) struct Terms<'a, const N: usize, const D: usize> {
+    count: &'a mut usize,
+    y: &'a mut [[Strip<N>; D]],
+    phi: &'a mut [Strip<N>],
+}
+
+impl<const N: usize, const D: usize> Terms<'_, N, D> {
+    /// Appends a term.
+    #[inline(always)]
+    pub fn push(&mut self, y: [Strip<N>; D], phi: &Strip<N>) {
+        if let (Some(y_place), Some(phi_place)) = (self.y.get_mut(*self.count), self.phi.get_mut(*self.count)) {
+            (*y_place, *phi_place) = (y, *phi);
+            *self.count += 1;
+        }
+    }
+
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        *self.count
+    }
+
+    /// Rows Y of a term.
+    #[inline(always)]
+    pub fn y(&mut self, term: usize) -> Option<&mut [Strip<N>; D]> {
+        self.y.get_mut(term)
+    }
+}
+
+impl<'a, const D: usize> OuterProducts<'a, D> {
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, capacity: usize) -> Result<OuterProducts<'a, D>, Error> {
+        let blocks = row_blocks(harmonics) * capacity;
+        let (y, phi) = (parts.take_blocks(D * blocks)?, parts.take_blocks(blocks)?);
+        Ok(OuterProducts { row_blocks: row_blocks(harmonics), capacity, count: 0, y, phi })
+    }
+
+    /// Whether there are no terms.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Number of strips of N blocks.
+    #[inline(always)]
+    pub fn strips<const N: usize>(&self) -> usize {
+        (self.row_blocks / N).max(1)
+    }
+
+    /// A strip of the terms, without any: the same number must be appended to each strip.
+    #[inline(always)]
+    pub fn terms<const N: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
+        let range = strip * self.capacity..(strip + 1) * self.capacity;
+        self.count = 0;
+        Terms {
+            count: &mut self.count,
+            y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()).unwrap_or(&mut []),
+            phi: self.phi.as_chunks_mut().0.get_mut(range).unwrap_or(&mut []),
+        }
+    }
+
+    /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
+    #[inline(always)]
+    pub fn products(&self, index: usize, products: &mut Blocks) {
+        with_strips!(self.row_blocks, self.products_of(index, products));
+    }
+
+    #[inline(always)]
+    fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
+        let y_rows = self.y.as_chunks::<N>().0.as_chunks::<D>().0;
+        let phi_rows = self.phi.as_chunks::<N>().0;
+        let strips = self.strips::<N>();
+        let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
+        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
+            columns.fill([[0.0; 4]; N]);
+            let phi = phi_rows.get(terms(strip)).unwrap_or(&[]);
+            for row_strip in 0..strips {
+                let y_rows = y_rows.get(terms(row_strip)).unwrap_or(&[]);
+                for block in 0..y_rows.len().div_ceil(IN_CACHE) {
+                    let (y_rows, phi) = (in_cache(y_rows, block), in_cache(phi, block));
+                    for pair in 0..2 * N {
+                        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+                        for (y, phi) in y_rows.iter().zip(phi) {
+                            let Some(row) = y.get(index) else { break };
+                            let phi = phi.as_flattened();
+                            add_scaled(&mut one, phi[2 * pair], row);
+                            add_scaled(&mut two, phi[2 * pair + 1], row);
+                        }
+                        for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
+                            if let Some(place) = columns.get_mut(column * strips + row_strip) {
+                                add_scaled(place, 1.0, &sums);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Terms whose rows stay in the first cache.
+const IN_CACHE: usize = 32;
+
+/// A block of [`IN_CACHE`] values, or what is left of them.
+#[inline(always)]
+fn in_cache<T>(values: &[T], block: usize) -> &[T] {
+    let rest = values.get(block * IN_CACHE..).unwrap_or(&[]);
+    rest.get(..IN_CACHE).unwrap_or(rest)
+}

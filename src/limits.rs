@@ -1,0 +1,37 @@
+//! Limits of inputs: displacements, and products and quotients of parameters whose intermediate results could overflow or underflow.
+
+use crate::error::Error;
+use crate::numerics::fp_class::abs_le;
+
+/// The bound keeps products with forces and energies representable.
+pub(crate) const MAX_DISPLACEMENT: f64 = 1e150;
+
+/// # Errors
+/// `BadDisplacement` unless it is finite and at most 1e150 in magnitude.
+#[inline(always)]
+pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
+    if abs_le(displacement, MAX_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
+}
+
+/// Rejects coefficients that are not finite or too large.
+///
+/// # Errors
+/// `BadDisplacement`.
+pub(crate) fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
+    displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
+}
+
+/// Largest exponent of 2 of an intermediate product: squares remain representable.
+pub(crate) const LARGEST_EXPONENT: i32 = 500;
+
+/// The exponent of 2 of a quotient of products, from the exponents of the factors alone, so that nothing overflows.
+pub(crate) fn exponent_of(numerators: &[f64], denominators: &[f64]) -> i32 {
+    let exponent = |value: &f64| ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+    numerators.iter().map(exponent).sum::<i32>() - denominators.iter().map(exponent).sum::<i32>()
+}
+
+/// # Errors
+/// `OutOfRange` if a quotient of products is not between 2^-500 and 2^500.
+pub(crate) fn in_range(numerators: &[f64], denominators: &[f64]) -> Result<(), Error> {
+    if exponent_of(numerators, denominators).abs() <= LARGEST_EXPONENT { Ok(()) } else { Err(Error::OutOfRange) }
+}

@@ -1,0 +1,287 @@
+//! The memory diagram in characteristic coordinates, and the step of Coulomb's law in it.
+//!
+//! With `P(S) = o + ∫ D dS` from the centre of the contact to S, the coordinates `ξ = P - mu S` and `η = P + mu S` turn the
+//! diagram into a curve from (o, o) to the point of the whole contact, (u - mu S_b, u + mu S_b), on which ξ does not rise and η
+//! does not fall because |D| <= mu. It is a polygon: its knots are stored from the centre outwards. A step to the point (ξ1, η1)
+//! removes all knots outside the quadrant ξ > ξ1, η < η1:
+//!
+//! - none removed: the straight piece to the new point is appended, everything sticks;
+//! - all removed: gross slip, the new diagram is one straight piece of slope ±mu, parallel to an axis;
+//! - otherwise the polygon is cut where it leaves the quadrant, and closed by a line parallel to an axis: the slip zone.
+//!
+//! This covers a load that rises, falls or stays, slip of either direction, and its erasure by a falling load.
+
+use crate::element::{Element, Normal};
+
+/// A knot of the diagram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Knot {
+    pub xi: f64,
+    pub eta: f64,
+    /// Normal force of the size S of the knot.
+    pub load: f64,
+    /// Tangential force of the diagram up to the knot.
+    pub force: f64,
+}
+
+impl From<[f64; 4]> for Knot {
+    fn from([xi, eta, load, force]: [f64; 4]) -> Knot {
+        Knot { xi, eta, load, force }
+    }
+}
+
+impl From<Knot> for [f64; 4] {
+    fn from(Knot { xi, eta, load, force }: Knot) -> [f64; 4] {
+        [xi, eta, load, force]
+    }
+}
+
+impl Knot {
+    /// The centre of the contact: the displacement at which the diagram starts.
+    pub const fn centre(displacement: f64) -> Knot {
+        Knot { xi: displacement, eta: displacement, load: 0.0, force: 0.0 }
+    }
+
+    /// S.
+    pub fn shift(&self, friction_coefficient: f64) -> f64 {
+        0.5 * (self.eta - self.xi) / friction_coefficient
+    }
+
+    /// D of the piece that ends at this knot.
+    pub fn slope_from(&self, inner: &Knot, friction_coefficient: f64) -> f64 {
+        let (falling, rising) = (inner.xi - self.xi, self.eta - inner.eta);
+        // Exactly ±mu in a slip zone, which is parallel to an axis.
+        if falling <= 0.0 && rising <= 0.0 {
+            0.0
+        } else if falling <= 0.0 {
+            friction_coefficient
+        } else if rising <= 0.0 {
+            -friction_coefficient
+        } else {
+            friction_coefficient * ((rising - falling) / (rising + falling))
+        }
+    }
+}
+
+/// Force and derivatives at the end of a step: ∂T/∂u and ∂T/∂(input).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Response {
+    pub force: f64,
+    pub by_displacement: f64,
+    pub by_input: f64,
+}
+
+/// A diagram that a step changes.
+pub(crate) trait Diagram {
+    /// Knots from the centre outwards, at least one.
+    fn knots(&self) -> &[[f64; 4]];
+
+    /// Keeps the given number of knots from the centre outwards, and appends others.
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]);
+}
+
+/// A diagram that is read only: its changes are discarded.
+impl Diagram for &[[f64; 4]] {
+    #[inline(always)]
+    fn knots(&self) -> &[[f64; 4]] {
+        self
+    }
+
+    #[inline(always)]
+    fn replace<const N: usize>(&mut self, _: usize, _: [Knot; N]) {}
+}
+
+/// The step to a closed contact with the given normal state at the displacement u.
+#[inline(always)]
+pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> Response {
+    let mu = element.friction_coefficient;
+    let Normal { load, shift, load_slope, shift_slope } = *normal;
+    let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
+    // Coulomb's bound, of which a sum of forces may be off by rounding.
+    let bounded = |force: f64, bound: f64| if force > bound { bound } else { force };
+    let end = |force: f64| Knot { xi, eta, load, force: -bounded(-bounded(force, mu * load), mu * load) };
+    let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
+    let knots = diagram.knots();
+    let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
+    let (stays, beyond) = knots.split_at_checked(kept).unwrap_or((knots, &[]));
+    let Some(inner) = stays.last().copied().map(Knot::from) else {
+        let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
+        // A size below the rounding of displacements keeps the direction of its slip.
+        let before = knots.last().map_or(0.0, |&[.., force]| force);
+        let (sign, origin) = match (centre <= xi, centre >= eta) {
+            (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
+            (true, false) => (mu, xi),
+            _ => (-mu, eta),
+        };
+        let force = sign * load;
+        diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
+        return Response { force, by_displacement: 0.0, by_input: sign * load_slope };
+    };
+    let Some(outer) = beyond.first().copied().map(Knot::from) else {
+        // Everything sticks: a piece with D = Δu/ΔS.
+        let (falling, rising) = (inner.xi - xi, eta - inner.eta);
+        let per_shift = 1.0 / (rising + falling);
+        let slope = mu * ((rising - falling) * per_shift);
+        let rise = element.per_two_mu * (rising + falling);
+        // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
+        // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
+        let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
+        let share = rise / shift.min(element.largest_shift - shift).max(rise);
+        let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
+            element.load_at_shift(shift - 0.5 * rise).1
+        } else {
+            (load - inner.load) * (2.0 * mu * per_shift)
+        };
+        let end = end(inner.force + slope * (load - inner.load));
+        diagram.replace(kept, [end]);
+        let by_input = slope * (load_slope - secant * shift_slope);
+        return Response { force: end.force, by_displacement: secant, by_input };
+    };
+    // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
+    let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
+    let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
+    let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
+        (true, true) => shares([to_xi, to_eta], [falling, rising]),
+        // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
+        (true, false) => [0.0, BEYOND],
+        _ => [BEYOND, 0.0],
+    };
+    let slope = outer.slope_from(&inner, mu);
+    if to_side == to_other {
+        // The contact recedes through the piece, or stays: nothing slips.
+        let stays = (outer.xi, outer.eta) == (xi, eta);
+        let end = end(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
+        diagram.replace(kept, [end]);
+        return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
+    }
+    let (cut_xi, cut_eta, sign) = if to_side < to_other {
+        (xi, inner.eta + rising * to_side, mu)
+    } else {
+        (inner.xi - falling * to_other, eta, -mu)
+    };
+    // A step to the same displacement changes nothing, to the bit.
+    let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
+    let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
+    let (cut_load, cut_stiffness) = element.load_at_shift((element.per_two_mu * (cut_eta - cut_xi)).max(0.0));
+    let cut = if at_outer {
+        outer
+    } else {
+        let force = inner.force + slope * (cut_load - inner.load);
+        Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force }
+    };
+    let end = end(cut.force + sign * (load - cut.load));
+    if cut.xi > xi || cut.eta < eta {
+        diagram.replace(kept, [cut, end]);
+    } else {
+        diagram.replace(kept, [end]);
+    }
+    let by_input = sign * (load_slope - cut_stiffness * shift_slope);
+    Response { force: end.force, by_displacement: cut_stiffness, by_input }
+}
+
+/// Beyond the end of a piece.
+const BEYOND: f64 = 2.0;
+
+/// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
+#[cold]
+#[inline(never)]
+fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
+    let share = |distance: f64, length: f64| if length >= distance { distance / length } else { BEYOND };
+    [share(distances[0], lengths[0]), share(distances[1], lengths[1])]
+}
+
+/// The diagram in a state, or in other memory of the caller.
+pub(crate) struct Polygon<'a> {
+    friction_coefficient: f64,
+    knots: &'a mut [[f64; 4]],
+    pub used: usize,
+    /// Whether no piece of the old diagram is left.
+    pub anew: bool,
+    /// Change of the force beyond merged pieces.
+    change: f64,
+    /// Sum of the magnitudes of these changes.
+    pub error: f64,
+}
+
+impl Diagram for Polygon<'_> {
+    #[inline(always)]
+    fn knots(&self) -> &[[f64; 4]] {
+        self.knots.get(..self.used).unwrap_or(&[])
+    }
+
+    #[inline(always)]
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
+        self.anew = kept == 0;
+        self.used = kept;
+        match self.knots.get_mut(kept..).and_then(<[_]>::first_chunk_mut) {
+            Some(places) => {
+                *places = new.map(Into::into);
+                self.used += N;
+            }
+            None => new.into_iter().for_each(|knot| self.push(knot)),
+        }
+    }
+}
+
+impl Polygon<'_> {
+    #[inline(always)]
+    pub fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
+        let knots = knots.as_chunks_mut().0;
+        Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }
+    }
+
+    /// Appends a knot; if there is no room, two pieces are merged.
+    #[cold]
+    #[inline(never)]
+    pub fn push(&mut self, mut knot: Knot) {
+        knot.force += self.change;
+        if self.used == self.knots.len() {
+            let change = self.merge(knot);
+            self.change += change;
+            self.error += change.abs();
+            knot.force += change;
+        }
+        if let Some(place) = self.knots.get_mut(self.used) {
+            *place = knot.into();
+            self.used += 1;
+        }
+    }
+
+    /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
+    ///
+    /// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram.
+    /// Tangential forces beyond change by the integral of the change of D over N. This also bounds the change of all later forces:
+    /// every size s is a slider of limit `mu (S_b - S)` that carries the displacement of the diagram from s to S_b with the weight
+    /// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
+    /// direction.
+    fn merge(&mut self, next: Knot) -> f64 {
+        let knot = |index: usize| {
+            if index < self.used { self.knots.get(index).copied().map_or(next, Knot::from) } else { next }
+        };
+        let change_without = |index: usize| {
+            let (inner, outer) = (knot(index - 1), knot(index + 1));
+            let slope = outer.slope_from(&inner, self.friction_coefficient);
+            inner.force + slope * (outer.load - inner.load) - outer.force
+        };
+        let (mut least, mut removed) = (f64::INFINITY, 0);
+        for index in 1..self.used {
+            let change = change_without(index);
+            if change.abs() < least.abs() {
+                (least, removed) = (change, index);
+            }
+        }
+        if removed == 0 {
+            return 0.0;
+        }
+        let outer = self.knots.get_mut(removed..self.used).unwrap_or(&mut []);
+        for index in 1..outer.len() {
+            if let Some(&[xi, eta, load, force]) = outer.get(index)
+                && let Some(place) = outer.get_mut(index - 1)
+            {
+                *place = [xi, eta, load, force + least];
+            }
+        }
+        self.used -= 1;
+        least
+    }
+}

@@ -1,0 +1,412 @@
+//! Harmonic force of a periodic motion with varying normal force and separation, by uniform sampling.
+//!
+//! The motion is u and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
+//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
+//! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
+//! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts. It is known
+//! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
+//!
+//! - `samples`: normal states, characteristic coordinates, entry into the steady state;
+//! - `runs`: the memory diagram along the period, without evaluating any force;
+//! - `forces`: the tangential forces;
+//! - `jacobian`: their exact derivatives;
+//! - `energy`: dissipation.
+
+mod energy;
+mod forces;
+mod jacobian;
+mod runs;
+mod samples;
+
+pub use crate::fourier::HarmonicOutput;
+
+use crate::element::Element;
+use crate::error::Error;
+use crate::fourier::folded::{self, FoldedFourier, continue_half_wave, sample_length};
+use crate::fourier::normalise;
+use crate::fourier::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
+use crate::fourier::sampled_jacobian::{self, Assembly};
+use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::limits::check_coefficients;
+use crate::tag::Kind;
+use forces::Forces;
+use jacobian::{Context, Cuts, PIECE, Sensitivity};
+use runs::{KNOT, PeriodicPath, RUN};
+use samples::{Part, Samples};
+
+/// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
+#[must_use]
+pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
+    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+}
+
+/// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
+///
+/// # Errors
+/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
+    Layout::init(harmonics, samples, workspace)
+}
+
+/// Lengths of the parts of a workspace.
+pub(crate) struct Layout(Size);
+
+/// Arrays over the samples.
+const SAMPLE_ARRAYS: usize = 19;
+
+impl Layout {
+    /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
+    fn capacity(&self) -> usize {
+        self.0.samples + 4
+    }
+
+    fn pieces_length(&self) -> usize {
+        4 * row_blocks(self.0.harmonics) * self.capacity()
+    }
+}
+
+impl WorkspaceLayout for Layout {
+    const KIND: Kind = Kind::ElementSampling;
+
+    fn of(size: Size) -> Layout {
+        Layout(size)
+    }
+
+    fn size(&self) -> Size {
+        self.0
+    }
+
+    fn max_rows(&self) -> usize {
+        2 * self.0.samples + 16
+    }
+
+    fn tables_length(&self) -> usize {
+        folded::table_length(self.0.samples, 2 * self.0.harmonics) + rows_length(self.0.harmonics, self.0.samples)
+    }
+
+    fn length(&self) -> usize {
+        let Size { harmonics, samples } = self.0;
+        let path = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
+        HEADER
+            + self.tables_length()
+            + folded::scratch_length(samples, 2 * harmonics)
+            + SAMPLE_ARRAYS * sample_length(samples)
+            + path
+            + 2 * self.pieces_length()
+            + outer_products_length::<2>(harmonics, samples)
+            + sampled_jacobian::memory_length(harmonics)
+    }
+
+    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
+        let Size { harmonics, samples } = self.0;
+        let table = tables.take(folded::table_length(samples, 2 * harmonics))?;
+        folded::fill_table(table, samples, 2 * harmonics);
+        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
+        Ok(())
+    }
+}
+
+/// An opened workspace.
+#[derive(Debug)]
+pub struct Workspace<'a> {
+    size: Size,
+    fourier: FoldedFourier<'a>,
+    samples: Samples<'a>,
+    path: PeriodicPath<'a>,
+    forces: Forces<'a>,
+    sensitivity: Sensitivity<'a>,
+    assembly: Assembly<'a>,
+}
+
+impl<'a> Workspace<'a> {
+    /// Opens an initialised workspace.
+    ///
+    /// # Errors
+    /// `BadWorkspace` if uninitialised or too short.
+    #[inline(always)]
+    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        let (layout, mut parts) = Layout::open(memory)?;
+        let size = layout.0;
+        let Size { harmonics, samples: count } = size;
+        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
+        let rows = Rows::take(&mut parts, harmonics, count)?;
+        fourier.take_scratch(&mut parts)?;
+        let mut array = || parts.take(sample_length(count));
+        let samples = Samples {
+            count,
+            displacement: array()?,
+            input: array()?,
+            load: array()?,
+            shift: array()?,
+            load_slope: array()?,
+            shift_slope: array()?,
+            stiffness: array()?,
+            xi: array()?,
+            eta: array()?,
+        };
+        let cut_shift = array()?;
+        let forces = Forces {
+            force: array()?,
+            cut_load: array()?,
+            cut_stiffness: array()?,
+            slope: array()?,
+            last_cut_force: array()?,
+            last_cut_load: array()?,
+        };
+        let (own, places) = ([array()?, array()?], array()?);
+        let path = PeriodicPath {
+            knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
+            runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
+            cut_shift,
+        };
+        let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
+        let stored = parts.take(2 * layout.pieces_length())?.as_chunks_mut().0;
+        let outer = OuterProducts::take(&mut parts, harmonics, count)?;
+        let assembly = Assembly::take(&mut parts, size)?;
+        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
+        Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
+    }
+
+    /// 2H + 1.
+    #[must_use]
+    #[inline(always)]
+    pub fn coefficients(&self) -> usize {
+        self.size.coefficients()
+    }
+}
+
+/// Properties of a motion.
+#[derive(Debug, Clone, Copy)]
+struct Motion {
+    /// The normal component is constant.
+    constant: bool,
+    /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
+    /// have changed places, and the tangential force its sign.
+    half_wave: bool,
+    /// The contact is open at all samples.
+    open: bool,
+}
+
+/// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
+const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Harmonic force of a periodic motion, given by its 2 (2H + 1) coefficients: those of u \[m\], then those of the normal component,
+/// the approach \[m\] or the normal force \[N\].
+///
+/// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
+/// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners.
+///
+/// # Errors
+/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
+/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
+/// wide for its length.
+pub fn harmonic_force(
+    element: &Element,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    let coefficients = workspace.coefficients();
+    let HarmonicOutput { force, jacobian, dissipated } = output;
+    let n = 2 * coefficients;
+    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+    if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
+        return Err(Error::BadArraySize);
+    }
+    check_coefficients(displacement)?;
+    let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
+    let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
+    let has_friction = !motion.open && element.friction_coefficient > 0.0;
+    let needs_forces = force.is_some() || jacobian.is_some();
+    let mut part = None;
+    if has_friction && (needs_forces || dissipated.is_some()) {
+        let Workspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
+        fourier.synthesise(tangential, samples.displacement);
+        let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
+        if needs_forces {
+            let extent = path.evaluate(element, samples, part);
+            let runs = path.runs(extent, part, samples.count);
+            let cut_shift = path.cuts(extent);
+            if jacobian.is_none() {
+                forces.evaluate::<false>(element, samples, cut_shift, runs);
+            } else {
+                forces.evaluate::<true>(element, samples, cut_shift, runs.clone());
+                let context = Context { element, samples, part };
+                let cuts = Cuts {
+                    shifts: path.cut_shift,
+                    loads: forces.cut_load,
+                    stiffnesses: forces.cut_stiffness,
+                    slopes: forces.slope,
+                };
+                sensitivity.gather(&context, &cuts, &runs);
+            }
+        }
+    }
+    if let Some(dissipated) = dissipated {
+        let Workspace { samples, path, .. } = workspace;
+        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
+        *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
+    }
+    if let Some(force) = force {
+        workspace.write_force(element, input, motion, part.as_ref(), force);
+    }
+    if let Some(jacobian) = jacobian {
+        workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
+    }
+    Ok(())
+}
+
+/// Rows of N.
+fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
+    column.get_mut(coefficients..).unwrap_or(&mut [])
+}
+
+impl Workspace<'_> {
+    /// Checks a motion: all of a batch are checked before the first output is written.
+    ///
+    /// # Errors
+    /// Those of [`harmonic_force`].
+    pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+        check_coefficients(displacement)?;
+        let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
+        let mean = input.first().copied().unwrap_or(0.0);
+        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+            return Ok(());
+        }
+        self.press(element, tangential, input, false).map(|_| ())
+    }
+
+    /// Evaluates the normal states of the samples.
+    ///
+    /// # Errors
+    /// `BadNormalForce`, `LengthTooShort`.
+    fn press(
+        &mut self,
+        element: &Element,
+        tangential: &[f64],
+        input: &[f64],
+        with_slopes: bool,
+    ) -> Result<Motion, Error> {
+        let Workspace { fourier, samples, .. } = self;
+        let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
+        let has = |coefficients: &[f64], parity: usize| {
+            coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
+        };
+        let swing: f64 = harmonics.iter().map(|value| value.abs()).sum();
+        let mut motion = Motion {
+            constant: swing == 0.0,
+            half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
+            open: false,
+        };
+        let rounding = if element.by_approach() {
+            motion.open = !element.is_closed(mean + swing);
+            f64::MAX
+        } else {
+            NORMAL_FORCE_ROUNDING * (mean.abs() + swing)
+        };
+        if motion.open {
+            return Ok(motion);
+        }
+        let (mut least, mut largest) = (mean, mean);
+        if !motion.constant {
+            fourier.synthesise(input, samples.input);
+            [least, largest] = samples.range_of_input();
+        }
+        if least < -rounding {
+            return Err(Error::BadNormalForce);
+        }
+        element.check_input(largest.max(0.0))?;
+        motion.open = !element.is_closed(largest);
+        if motion.open {
+            return Ok(motion);
+        }
+        if motion.constant {
+            samples.input.fill(mean);
+            samples.press_constantly(&element.normal(mean));
+        } else {
+            if !element.is_closed(least) {
+                let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
+                samples.input.iter_mut().for_each(|input| *input = open(*input));
+            }
+            if with_slopes {
+                samples.press::<true>(element);
+            } else {
+                samples.press::<false>(element);
+            }
+        }
+        Ok(motion)
+    }
+
+    fn write_force(
+        &mut self,
+        element: &Element,
+        input: &[f64],
+        motion: Motion,
+        part: Option<&Part>,
+        force: &mut [f64],
+    ) {
+        let Workspace { size, fourier, samples, forces, .. } = self;
+        let weight = 1.0 / samples.count as f64;
+        let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
+        if let Some(part) = part {
+            if motion.half_wave {
+                continue_half_wave(forces.force, part.start, samples.count, -1.0);
+            }
+            fourier.sum(forces.force, tangential);
+            normalise(tangential, weight);
+        } else {
+            tangential.fill(0.0);
+        }
+        if !element.by_approach() && !motion.open {
+            // Rounding below 0 counts as 0.
+            normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
+        } else if motion.constant || motion.open {
+            normal.fill(0.0);
+            if let (Some(constant), false, Some(load)) = (normal.first_mut(), motion.open, samples.load.first()) {
+                *constant = *load;
+            }
+        } else {
+            fourier.sum(samples.load, normal);
+            normalise(normal, weight);
+        }
+    }
+
+    fn write_jacobian(&mut self, element: &Element, motion: Motion, part: Option<&Part>, jacobian: &mut [f64]) {
+        let Workspace { size, fourier, samples, sensitivity, assembly, .. } = self;
+        let coefficients = size.coefficients();
+        let (by_displacement, by_input) =
+            jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
+        for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
+            if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
+                if motion.half_wave {
+                    continue_half_wave(own, part.start, samples.count, sign);
+                }
+                fourier.sum(own, assembly.sums);
+                let symmetry = if motion.half_wave { Some(sign) } else { None };
+                assembly.write(&sensitivity.outer, index, symmetry, columns, 2 * coefficients);
+            } else {
+                columns.fill(0.0);
+            }
+            for column in columns.chunks_exact_mut(2 * coefficients) {
+                lower(column, coefficients).fill(0.0);
+            }
+        }
+        if motion.open && element.by_approach() {
+            return;
+        }
+        if motion.constant || !element.by_approach() {
+            let slope = if element.by_approach() { samples.load_slope.first().copied().unwrap_or(0.0) } else { 1.0 };
+            let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
+            for (index, column) in columns.enumerate() {
+                column.iter_mut().skip(index).take(1).for_each(|diagonal| *diagonal = slope);
+            }
+        } else {
+            fourier.sum(samples.load_slope, assembly.sums);
+            assembly.write_sums(by_input, 2 * coefficients, coefficients);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

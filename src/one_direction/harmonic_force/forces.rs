@@ -1,0 +1,135 @@
+//! Tangential forces of the samples, run by run.
+
+use crate::element::Element;
+use crate::one_direction::harmonic_force::runs::{Kind, Place, Run, Runs};
+use crate::one_direction::harmonic_force::samples::{Samples, at};
+use crate::simd::dispatch;
+use core::ops::Range;
+
+/// Arrays of the tangential forces.
+#[derive(Debug)]
+pub(super) struct Forces<'a> {
+    /// T of the samples.
+    pub force: &'a mut [f64],
+    /// N at the packed boundaries of the slip zones, and 1/K_t.
+    pub cut_load: &'a mut [f64],
+    pub cut_stiffness: &'a mut [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slope: &'a mut [f64],
+    /// T and N at the boundary of the slip zone at the last sample of a run.
+    pub last_cut_force: &'a mut [f64],
+    pub last_cut_load: &'a mut [f64],
+}
+
+impl Forces<'_> {
+    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones: whole blocks of four.
+    #[inline(always)]
+    fn evaluate_cuts<const SLOPES: bool>(&mut self, element: &Element, cut_shift: &[[f64; 4]]) {
+        let loads = self.cut_load.as_chunks_mut::<4>().0;
+        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+        for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
+            let (loads, stiffnesses) = element.four_loads::<SLOPES>(shift);
+            *load = loads;
+            if SLOPES {
+                *stiffness = stiffnesses;
+            }
+        }
+    }
+
+    /// `[N, T]` at the end of a piece.
+    #[inline(always)]
+    fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
+        if place == Place::CENTRE {
+            [0.0; 2]
+        } else if place.is_end() {
+            [at(samples.load, place.sample()), at(self.force, place.sample())]
+        } else {
+            [at(self.last_cut_load, place.sample()), at(self.last_cut_force, place.sample())]
+        }
+    }
+
+    /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.
+    #[inline(always)]
+    pub fn evaluate<const SLOPES: bool>(
+        &mut self,
+        element: &Element,
+        samples: &Samples,
+        cut_shift: &[[f64; 4]],
+        runs: Runs,
+    ) {
+        let forces = self;
+        dispatch!(
+            Forces::kernel::<SLOPES>,
+            [const SLOPES: bool] forces: &mut Forces,
+            element: &Element,
+            samples: &Samples,
+            cut_shift: &[[f64; 4]],
+            runs: Runs => ()
+        );
+    }
+
+    #[inline(always)]
+    fn kernel<const SLOPES: bool>(&mut self, element: &Element, samples: &Samples, cut_shift: &[[f64; 4]], runs: Runs) {
+        self.evaluate_cuts::<SLOPES>(element, cut_shift);
+        let friction_coefficient = element.friction_coefficient;
+        for run in runs {
+            let range = run.first..run.first + run.count;
+            let inner = self.at_place(samples, run.inner);
+            let loads = samples.load.get(range.clone()).unwrap_or(&[]);
+            let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
+            let mu = run.sign * friction_coefficient;
+            match run.kind {
+                Kind::Open => forces.fill(0.0),
+                Kind::GrossSlip => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
+                Kind::Stuck => {
+                    let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
+                    stick(samples, &run, range, mu, slopes, inner, forces);
+                }
+                Kind::Slip => {
+                    let [inner_load, inner_force] = inner;
+                    let slope = friction_coefficient * run.parameter;
+                    let cuts = self.cut_load.get(run.packed..run.packed + run.count).unwrap_or(&[]);
+                    for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
+                        *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
+                    }
+                    let last = run.first + run.count - 1;
+                    let cut_load = cuts.last().copied().unwrap_or(0.0);
+                    if let (Some(force), Some(load)) =
+                        (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
+                    {
+                        (*force, *load) = (inner_force + slope * (cut_load - inner_load), cut_load);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Slopes and forces of samples that stick.
+#[inline(always)]
+fn stick(
+    samples: &Samples,
+    run: &Run,
+    range: Range<usize>,
+    mu: f64,
+    slopes: &mut [f64],
+    [mut load_before, mut force_before]: [f64; 2],
+    forces: &mut [f64],
+) {
+    let before = samples.before(run.first);
+    let [mut xi_before, mut eta_before] =
+        if run.inner == Place::CENTRE { [run.parameter; 2] } else { [at(samples.xi, before), at(samples.eta, before)] };
+    let xi = samples.xi.get(range.clone()).unwrap_or(&[]);
+    let eta = samples.eta.get(range.clone()).unwrap_or(&[]);
+    for ((slope, &xi), &eta) in slopes.iter_mut().zip(xi).zip(eta) {
+        let (falling, rising) = (xi_before - xi, eta - eta_before);
+        *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
+        (xi_before, eta_before) = (xi, eta);
+    }
+    let loads = samples.load.get(range).unwrap_or(&[]);
+    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(loads) {
+        force_before += slope * (load - load_before);
+        *force = force_before;
+        load_before = load;
+    }
+}

@@ -1,0 +1,444 @@
+//! Derivatives of the tangential forces by the motion, gathered piece by piece.
+//!
+//! With f = dN/dS = 1/K_t the force of a diagram P(S) is `T = ∫ f dP`. If P moves by δP(S) at fixed S,
+//!
+//! ```text
+//! dT = f(S_b) du - Σ_pieces ∫ f' δP dS,     with f(0) δo added for the piece at the centre.
+//! ```
+//!
+//! - A slip zone is a line of the sample j that made it last, δP = dλ, λ = ξ_j or η_j: `∫ = (f_2 - f_1) dλ`.
+//! - A stuck piece from sample i to j has `δP = e_i + (e_j - e_i)(S - S_i)/(S_j - S_i)` with `e = du - D dS`:
+//!   `∫ = (f_2 - f_i) e_i + g (e_j - e_i)`, `g = [(S_2 - S_i) f_2 - (N_2 - N_i)]/(S_j - S_i)`.
+//! - The part with D = 0 never moves.
+//!
+//! S_2 is the outer end of the piece, which later samples cut. What depends on the sample itself is a weighted sum over
+//! `φ ⊗ φ`, composed of Fourier sums of the weights. Everything else is gathered by pieces: each sums φ of the later samples times
+//! its weight, which is constant while it is covered, so that differences of antiderivatives of φ give the sums. Once the piece is
+//! removed, the sum is added to those of the one or two samples that made it; in the end `J += Σ Y_j ⊗ φ_j`.
+
+use crate::element::Element;
+use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
+use crate::fourier::workspace::Blocks;
+use crate::one_direction::harmonic_force::runs::{EMPTY_RUN, Kind, Run, Runs, closing};
+use crate::one_direction::harmonic_force::samples::{Part, Samples, at};
+use crate::simd::dispatch;
+
+/// Doubles of a piece in the workspace.
+pub(super) const PIECE: usize = 6;
+
+/// How a piece was made, in 3 bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Made(u64);
+
+impl Made {
+    /// The part with D = 0.
+    const NEVER: Made = Made(0);
+    /// By slip, forwards or backwards.
+    const FORWARDS: Made = Made(1);
+    const BACKWARDS: Made = Made(2);
+    /// By sticking, between two samples.
+    const BY_STICKING: Made = Made(3);
+    /// By sticking, since the contact closed after the sample before.
+    const SINCE_CLOSING: Made = Made(4);
+}
+
+/// A piece of the diagram, and its weights for the later samples.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    made: Made,
+    /// The sample that made it.
+    sample: usize,
+    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
+    weights: [f64; 2],
+    since: usize,
+    /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
+    parameter: f64,
+    /// A run of slip that cut it, not yet added to its sums.
+    cut: Cut,
+    /// Whether sums were stored.
+    stored: bool,
+}
+
+/// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    step: usize,
+    count: usize,
+    packed: usize,
+}
+
+const NO_CUT: Cut = Cut { step: 0, count: 0, packed: 0 };
+
+impl Piece {
+    #[inline(always)]
+    fn encoded(&self) -> [f64; PIECE] {
+        let word = self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
+        let Cut { step, count, packed } = self.cut;
+        let cut = [(step as u64) | (count as u64) << 32, packed as u64].map(f64::from_bits);
+        [f64::from_bits(word), self.weights[0], self.weights[1], self.parameter, cut[0], cut[1]]
+    }
+
+    #[inline(always)]
+    fn decoded([word, constant, linear, parameter, cut, packed]: [f64; PIECE]) -> Piece {
+        let (word, cut) = (word.to_bits(), cut.to_bits());
+        Piece {
+            made: Made(word & 7),
+            sample: ((word >> 4) & ((1 << 30) - 1)) as usize,
+            weights: [constant, linear],
+            since: (word >> 34) as usize,
+            parameter,
+            cut: Cut { step: cut as u32 as usize, count: (cut >> 32) as usize, packed: packed.to_bits() as usize },
+            stored: word & 8 != 0,
+        }
+    }
+
+    fn is_stuck(&self) -> bool {
+        self.made.0 >= Made::BY_STICKING.0
+    }
+}
+
+/// Inner end of a stuck piece.
+#[derive(Debug, Clone, Copy)]
+struct InnerEnd {
+    shift: f64,
+    load: f64,
+    stiffness: f64,
+}
+
+impl InnerEnd {
+    /// Weights of the constant and of the linear part if the outer end has the given S, N and f.
+    #[inline(always)]
+    fn weights_to(&self, inverse_width: f64, [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
+        let linear = (shift - self.shift) * stiffness - (load - self.load);
+        [stiffness - self.stiffness, linear * inverse_width]
+    }
+}
+
+/// Tables and memory.
+#[derive(Debug)]
+pub(super) struct Sensitivity<'a> {
+    pub rows: Rows<'a>,
+    pub pieces: &'a mut [[f64; PIECE]],
+    /// Sums of φ times both weights of pieces that were cut repeatedly.
+    pub stored: &'a mut Blocks,
+    /// Term of each sample among the outer products, or -1.
+    pub places: &'a mut [f64],
+    /// Rows Y by u and by the input.
+    pub outer: OuterProducts<'a, 2>,
+    /// Weights of φ ⊗ φ for the derivatives by u and by the input.
+    pub own: [&'a mut [f64]; 2],
+}
+
+/// 1/width of a stuck piece: S rises, or rounding made two values equal.
+#[inline(always)]
+fn inverse(width: f64) -> f64 {
+    1.0 / width.max(1e-300)
+}
+
+/// The motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Context<'c> {
+    pub element: &'c Element,
+    pub samples: &'c Samples<'c>,
+    pub part: &'c Part,
+}
+
+impl Context<'_> {
+    /// The sample after the given number of samples from the start.
+    #[inline(always)]
+    fn sample_at(&self, step: usize) -> usize {
+        let sample = self.part.start + step;
+        if sample >= self.samples.count { sample - self.samples.count } else { sample }
+    }
+
+    /// The inner end of the stuck piece that a sample made.
+    #[inline(always)]
+    fn inner_end(&self, made: Made, sample: usize) -> InnerEnd {
+        let samples = self.samples;
+        let before = samples.before(sample);
+        if made == Made::SINCE_CLOSING {
+            return InnerEnd { shift: 0.0, load: 0.0, stiffness: 0.0 };
+        }
+        let (shift, load) = (at(samples.shift, before), at(samples.load, before));
+        InnerEnd { shift, load, stiffness: at(samples.stiffness, before) }
+    }
+}
+
+impl Sensitivity<'_> {
+    /// Gathers the derivatives along the runs.
+    #[inline(never)]
+    pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+        with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
+    }
+
+    #[inline(always)]
+    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+        let sensitivity = self;
+        dispatch!(
+            Sensitivity::strips_kernel::<N>,
+            [const N: usize] sensitivity: &mut Sensitivity,
+            context: &Context,
+            cuts: &Cuts,
+            runs: &Runs => ()
+        );
+    }
+
+    #[inline(always)]
+    fn strips_kernel<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+        let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
+        let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        for strip in 0..outer.strips::<N>() {
+            places.fill(-1.0);
+            let (rows, terms) = (rows.strips(strip), outer.terms(strip));
+            let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
+            gathering.gather(runs.clone(), own_by_u, own_by_input);
+        }
+    }
+}
+
+/// Boundaries of the slip zones, packed: S, N and f.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cuts<'c> {
+    pub shifts: &'c [f64],
+    pub loads: &'c [f64],
+    pub stiffnesses: &'c [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slopes: &'c [f64],
+}
+
+/// The derivatives in strips of N blocks.
+struct Gathering<'c, const N: usize> {
+    context: &'c Context<'c>,
+    cuts: &'c Cuts<'c>,
+    rows: RowStrips<'c, N>,
+    /// Piece k ends at knot k: pieces are counted from the centre.
+    pieces: &'c mut [[f64; PIECE]],
+    depth: usize,
+    stored: &'c mut [[Strip<N>; 2]],
+    places: &'c mut [f64],
+    terms: Terms<'c, N, 2>,
+}
+
+impl<const N: usize> Gathering<'_, N> {
+    #[inline(always)]
+    fn gather(&mut self, runs: Runs, by_u: &mut [f64], by_input: &mut [f64]) {
+        let Context { element, samples, .. } = *self.context;
+        let mut now = 0;
+        let end = Run { kind: Kind::Open, count: 0, ..EMPTY_RUN };
+        for run in runs.chain([end]) {
+            let range = run.first..run.first + run.count;
+            let last = range.end.saturating_sub(1);
+            let kept = match run.kind {
+                Kind::Slip => run.kept,
+                Kind::Stuck => run.kept.saturating_sub(1),
+                Kind::Open | Kind::GrossSlip => 0,
+            };
+            self.remove_beyond(kept, now);
+            let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
+            let by_input = by_input.get_mut(range.clone()).unwrap_or(&mut []);
+            let mu = run.sign * element.friction_coefficient;
+            let made = if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS };
+            let line = Piece {
+                made,
+                sample: last,
+                weights: [at(samples.stiffness, last), 0.0],
+                since: now + run.count,
+                parameter: 0.0,
+                cut: NO_CUT,
+                stored: false,
+            };
+            match run.kind {
+                Kind::Open => {
+                    by_u.fill(0.0);
+                    by_input.fill(0.0);
+                }
+                Kind::GrossSlip => {
+                    by_u.fill(0.0);
+                    let slopes = samples.load_slope.get(range).unwrap_or(&[]);
+                    by_input.iter_mut().zip(slopes).for_each(|(weight, slope)| *weight = mu * slope);
+                    self.push(&line);
+                }
+                Kind::Stuck => {
+                    by_input.fill(0.0);
+                    let stiffnesses = samples.stiffness.get(range).unwrap_or(&[]);
+                    by_u.iter_mut().zip(stiffnesses).for_each(|(weight, stiffness)| *weight = *stiffness);
+                    self.stick(&run, now);
+                }
+                Kind::Slip => {
+                    let cuts = self.cuts.stiffnesses.get(run.packed..run.packed + run.count).unwrap_or(&[]);
+                    let stiffnesses = samples.stiffness.get(range.clone()).unwrap_or(&[]);
+                    let slopes = samples.shift_slope.get(range).unwrap_or(&[]);
+                    for ((((by_u, by_input), cut), stiffness), slope) in
+                        by_u.iter_mut().zip(by_input).zip(cuts).zip(stiffnesses).zip(slopes)
+                    {
+                        *by_u = *cut;
+                        *by_input = mu * slope * (stiffness - cut);
+                    }
+                    if self.depth < run.kept {
+                        self.push(&Piece { made: Made::NEVER, ..line });
+                    }
+                    self.cut(self.depth.saturating_sub(1), Cut { step: now, count: run.count, packed: run.packed });
+                    let cut = cuts.last().copied().unwrap_or(0.0);
+                    self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
+                }
+            }
+            now += run.count;
+        }
+    }
+
+    #[inline(always)]
+    fn piece(&self, index: usize) -> Option<Piece> {
+        self.pieces.get(index).copied().map(Piece::decoded)
+    }
+
+    #[inline(always)]
+    fn push(&mut self, piece: &Piece) {
+        if let Some(place) = self.pieces.get_mut(self.depth) {
+            *place = piece.encoded();
+            self.depth += 1;
+        }
+    }
+
+    /// Pushes a piece for each sample of a run that sticks.
+    #[inline(always)]
+    fn stick(&mut self, run: &Run, now: usize) {
+        let Context { samples, part, .. } = *self.context;
+        let closes = part.opens && samples.is_open(samples.before(run.first));
+        let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
+        let mut inner = self.context.inner_end(made, run.first);
+        for step in 0..run.count {
+            let sample = run.first + step;
+            let [shift, load, stiffness] =
+                [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
+            let parameter = inverse(shift - inner.shift);
+            let weights = inner.weights_to(parameter, [shift, load, stiffness]);
+            self.push(&Piece { made, sample, weights, since: now + step, parameter, cut: NO_CUT, stored: false });
+            inner = InnerEnd { shift, load, stiffness };
+            made = Made::BY_STICKING;
+        }
+    }
+
+    /// Adds the sum of φ over steps with constant weights.
+    #[inline(always)]
+    fn add_covered(&self, sums: &mut [Strip<N>; 2], weights: [f64; 2], since: usize, now: usize) {
+        if now <= since {
+            return;
+        }
+        let covered = self.rows.sum_between(self.context.sample_at(since), self.context.sample_at(now), now - since);
+        let [constant, linear] = sums;
+        add_scaled(constant, weights[0], &covered);
+        add_scaled(linear, weights[1], &covered);
+    }
+
+    /// The sums of a piece before a step; updates its weights to those at its last cut.
+    #[inline(always)]
+    fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
+        let mut sums = [[[0.0; 4]; N]; 2];
+        if let (true, Some(stored)) = (piece.stored, self.stored.get(index)) {
+            sums = *stored;
+        }
+        let Cut { step, count, packed } = piece.cut;
+        if count == 0 {
+            self.add_covered(&mut sums, piece.weights, piece.since, now);
+            return sums;
+        }
+        self.add_covered(&mut sums, piece.weights, piece.since, step);
+        let first = self.context.sample_at(step);
+        let rows = self.rows.phi.get(first..first + count).unwrap_or(&[]);
+        let packed = packed..packed + count;
+        let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
+        let [constant, linear] = &mut sums;
+        if piece.is_stuck() {
+            let inner = self.context.inner_end(piece.made, piece.sample);
+            let (shifts, loads) =
+                (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
+            for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
+                piece.weights = inner.weights_to(piece.parameter, [shift, load, stiffness]);
+                add_scaled(constant, piece.weights[0], row);
+                add_scaled(linear, piece.weights[1], row);
+            }
+        } else {
+            for (row, &stiffness) in rows.iter().zip(stiffnesses) {
+                piece.weights[0] = stiffness - piece.parameter;
+                add_scaled(constant, piece.weights[0], row);
+            }
+        }
+        self.add_covered(&mut sums, piece.weights, step + count, now);
+        sums
+    }
+
+    /// Cuts a piece by a run of slip.
+    #[inline(always)]
+    fn cut(&mut self, index: usize, cut: Cut) {
+        let Some(mut piece) = self.piece(index) else { return };
+        if piece.made == Made::NEVER {
+            return;
+        }
+        if piece.cut.count > 0 {
+            let sums = self.sums(index, &mut piece, cut.step);
+            if let Some(place) = self.stored.get_mut(index) {
+                *place = sums;
+            }
+            (piece.stored, piece.since) = (true, cut.step);
+        }
+        piece.cut = cut;
+        if let Some(place) = self.pieces.get_mut(index) {
+            *place = piece.encoded();
+        }
+    }
+
+    #[inline(always)]
+    fn remove_beyond(&mut self, kept: usize, now: usize) {
+        while self.depth > kept {
+            self.depth -= 1;
+            self.remove(self.depth, now);
+        }
+    }
+
+    /// Adds the sums of a piece that is removed to those of the samples that made it: `dT = -V_1 e_i - V_2 (e_j - e_i)`.
+    #[inline(always)]
+    fn remove(&mut self, index: usize, now: usize) {
+        let Context { element, samples, .. } = *self.context;
+        let Some(mut piece) = self.piece(index) else { return };
+        if piece.made == Made::NEVER || (!piece.stored && piece.cut.count == 0 && now <= piece.since) {
+            return;
+        }
+        let [constant, linear] = self.sums(index, &mut piece, now);
+        let (made, sample) = (piece.made, piece.sample);
+        let shift_slope = at(samples.shift_slope, sample);
+        if !piece.is_stuck() {
+            let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };
+            self.add(sample, &constant, [-1.0, mu * shift_slope]);
+            return;
+        }
+        let slope = at(self.cuts.slopes, sample);
+        self.add(sample, &linear, [-1.0, slope * shift_slope]);
+        let mut difference = linear;
+        add_scaled(&mut difference, -1.0, &constant);
+        let before = samples.before(sample);
+        if made == Made::BY_STICKING {
+            self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
+        } else {
+            let closing = closing(samples, element.by_approach(), sample);
+            self.add(before, &difference, closing.before);
+            self.add(sample, &difference, closing.after);
+        }
+    }
+
+    /// Adds a row times the derivatives by u and by the input to the rows Y of a sample.
+    #[inline(always)]
+    fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
+        let Some(place) = self.places.get_mut(sample) else { return };
+        if *place < 0.0 {
+            *place = self.terms.count() as f64;
+            if let Some(phi) = self.rows.phi.get(sample) {
+                self.terms.push([scaled(by_u, row), scaled(by_input, row)], phi);
+            }
+        } else if let Some(y) = self.terms.y(*place as usize) {
+            let [mut u_row, mut input_row] = *y;
+            add_scaled(&mut u_row, by_u, row);
+            add_scaled(&mut input_row, by_input, row);
+            *y = [u_row, input_row];
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Normal states and characteristic coordinates of the samples.
+
+use crate::element::{Element, Normal};
+use crate::fourier::folded::continue_periodically;
+use crate::simd::dispatch;
+
+/// Arrays over the samples of a period, continued periodically to whole blocks of four.
+#[derive(Debug)]
+pub(super) struct Samples<'a> {
+    pub count: usize,
+    pub displacement: &'a mut [f64],
+    /// Normal approach or force.
+    pub input: &'a mut [f64],
+    /// N, S and their derivatives with respect to the input; 0 if open.
+    pub load: &'a mut [f64],
+    pub shift: &'a mut [f64],
+    pub load_slope: &'a mut [f64],
+    pub shift_slope: &'a mut [f64],
+    /// 1/K_t of the whole contact.
+    pub stiffness: &'a mut [f64],
+    /// u - mu S and u + mu S.
+    pub xi: &'a mut [f64],
+    pub eta: &'a mut [f64],
+}
+
+/// The part of a period that is evaluated.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    /// First sample: one at which the steady state is known.
+    pub start: usize,
+    /// A whole period, or half of it if the motion is half-wave symmetric.
+    pub length: usize,
+    /// Whether some samples are open.
+    pub opens: bool,
+}
+
+/// Samples before and after the end of the arrays.
+pub(super) fn ranges(part: &Part, samples: usize) -> [core::ops::Range<usize>; 2] {
+    let end = part.start + part.length;
+    if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
+}
+
+pub(super) fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(0.0)
+}
+
+impl Samples<'_> {
+    pub fn before(&self, sample: usize) -> usize {
+        sample.checked_sub(1).unwrap_or(self.count.saturating_sub(1))
+    }
+
+    /// Displacement and normal component.
+    pub fn motion(&self, sample: usize) -> [f64; 2] {
+        [at(self.displacement, sample), at(self.input, sample)]
+    }
+
+    pub fn is_open(&self, sample: usize) -> bool {
+        at(self.input, sample) <= 0.0
+    }
+
+    /// The normal state of all samples under a constant input > 0.
+    #[inline(always)]
+    pub fn press_constantly(&mut self, normal: &Normal) {
+        self.load.fill(normal.load);
+        self.shift.fill(normal.shift);
+        self.load_slope.fill(normal.load_slope);
+        self.shift_slope.fill(normal.shift_slope);
+        self.stiffness.fill(normal.load_slope / normal.shift_slope);
+    }
+
+    /// The least and the largest input.
+    pub fn range_of_input(&self) -> [f64; 2] {
+        let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
+        for block in self.input.as_chunks::<4>().0 {
+            for k in 0..4 {
+                least[k] = if block[k] < least[k] { block[k] } else { least[k] };
+                largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
+            }
+        }
+        [least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max)]
+    }
+
+    /// The normal states of all samples, with derivatives if requested.
+    #[inline(always)]
+    pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
+        let samples = self;
+        dispatch!(Samples::press_kernel::<SLOPES>, [const SLOPES: bool] samples: &mut Samples, element: &Element => ());
+    }
+
+    #[inline(always)]
+    fn press_kernel<const SLOPES: bool>(&mut self, element: &Element) {
+        let blocks = self
+            .input
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(self.load.as_chunks_mut::<4>().0)
+            .zip(self.shift.as_chunks_mut::<4>().0)
+            .zip(self.load_slope.as_chunks_mut::<4>().0)
+            .zip(self.shift_slope.as_chunks_mut::<4>().0)
+            .zip(self.stiffness.as_chunks_mut::<4>().0);
+        for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
+            let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
+            (*load, *shift) = (loads, shifts);
+            if SLOPES {
+                (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
+                // 0 if open.
+                let mut quotients = [0.0; 4];
+                for k in 0..4 {
+                    quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
+                }
+                *stiffness = quotients;
+            }
+        }
+        // The values beyond the period, which the characteristic coordinates are computed from.
+        continue_periodically(self.shift, self.count);
+    }
+
+    /// Characteristic coordinates, and the part of the period to evaluate.
+    ///
+    /// The definition starts at the sample of largest normal force with D = 0 everywhere and evaluates the second of two periods. With
+    /// X the largest ξ and Y the smallest η, the state is the same at one sample of the first period whatever the history:
+    ///
+    /// - at an open sample: it is empty;
+    /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
+    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
+    ///   At the sample where that is attained everything beyond is slip zone.
+    #[inline(always)]
+    pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
+        let samples = self;
+        dispatch!(Samples::entry_kernel, samples: &mut Samples, element: &Element, half_wave_symmetric: bool => Part)
+    }
+
+    #[inline(always)]
+    fn entry_kernel(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
+        let mu = element.friction_coefficient;
+        let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
+        let mut least_input = [f64::MAX; 4];
+        let blocks = self
+            .displacement
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(self.shift.as_chunks::<4>().0)
+            .zip(self.input.as_chunks::<4>().0)
+            .zip(self.xi.as_chunks_mut::<4>().0)
+            .zip(self.eta.as_chunks_mut::<4>().0);
+        for ((((displacement, shift), input), xi), eta) in blocks {
+            for k in 0..4 {
+                let reach = mu * shift[k];
+                xi[k] = displacement[k] - reach;
+                eta[k] = displacement[k] + reach;
+                largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
+                smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
+                least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
+            }
+        }
+        let largest = largest.into_iter().fold(f64::MIN, f64::max);
+        let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
+        let opens = least_input.iter().any(|least| *least <= 0.0);
+        let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
+        let start = if opens {
+            self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
+        } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
+            first(self.xi, largest)
+        } else {
+            first(self.eta, smallest)
+        };
+        Part { start, length: if half_wave_symmetric { self.count / 2 } else { self.count }, opens }
+    }
+}

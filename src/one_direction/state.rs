@@ -1,0 +1,193 @@
+//! The state of an element in the caller's memory, and steps from it.
+//!
+//! ```text
+//! [tag with the number of knots, displacement, normal component, N, S, dN/d(input), dS/d(input), force error,
+//!      ξ, η, N and T of each knot, from the centre outwards]
+//! ```
+
+use crate::element::{Element, Normal};
+use crate::error::Error;
+use crate::numerics::fp_class::is_finite;
+use crate::one_direction::Step;
+use crate::one_direction::diagram::Polygon;
+use crate::one_direction::step::{Point, step};
+use crate::tag::Kind;
+
+const HEADER: usize = 8;
+const PER_KNOT: usize = 4;
+/// Pieces that every state holds.
+const MIN_PIECES: usize = 4;
+
+/// Number of doubles in a state that holds `pieces` pieces of the diagram exactly; fewer than 4 count as 4.
+#[must_use]
+pub const fn state_length(pieces: usize) -> usize {
+    let pieces = if pieces < MIN_PIECES { MIN_PIECES } else { pieces };
+    // One knot more than pieces.
+    pieces.saturating_add(1).saturating_mul(PER_KNOT).saturating_add(HEADER)
+}
+
+/// Initialises a state: open, at displacement 0 and normal component 0.
+///
+/// # Errors
+/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
+pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
+    if state.len() < state_length(0) {
+        return Err(Error::StateTooShort);
+    }
+    state.fill(0.0);
+    if let Some(tag) = state.first_mut() {
+        *tag = Kind::ElementState.tag(1);
+    }
+    Ok(())
+}
+
+/// Checks the length, the tag and the number of knots of a state.
+///
+/// # Errors
+/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that is no state of that length.
+#[inline(always)]
+pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
+    if state.len() < state_length(0) {
+        return Err(Error::StateTooShort);
+    }
+    check_tag(state.first().copied().unwrap_or(0.0), state.len())
+}
+
+/// Rejects the tag of what is no state of that length.
+#[inline(always)]
+pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
+    match Kind::ElementState.count(tag) {
+        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
+        _ => Err(Error::BadState),
+    }
+}
+
+/// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
+#[must_use]
+pub fn force_error(state: &[f64]) -> f64 {
+    state.get(ERROR).copied().unwrap_or(0.0)
+}
+
+const ERROR: usize = 7;
+
+impl Point {
+    #[inline(always)]
+    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Point {
+        Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
+    }
+
+    #[inline(always)]
+    fn write(&self, used: usize, header: &mut [f64; HEADER]) {
+        let Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
+        let tag = Kind::ElementState.tag(used);
+        *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
+    }
+}
+
+/// A state whose header was checked: the tangential displacement, the normal force, and the knots.
+pub(crate) struct View<'a> {
+    pub displacement: f64,
+    pub input: f64,
+    pub load: f64,
+    pub shift: f64,
+    pub knots: &'a [[f64; PER_KNOT]],
+}
+
+pub(crate) fn view(state: &[f64]) -> View<'_> {
+    let (header, knots) = parts(state);
+    let Point { displacement, input, normal, .. } = Point::read(header);
+    View { displacement, input, load: normal.load, shift: normal.shift, knots }
+}
+
+/// Header and knots in use of a state whose header was checked.
+#[inline(always)]
+fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
+    let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
+    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
+    let knots = knots.as_chunks().0;
+    (header, knots.get(..used).unwrap_or(knots))
+}
+
+/// A step in place, with a state and a displacement that were checked.
+#[inline(always)]
+pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
+    let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
+    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
+    let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
+    let (step, mut to) = step(element, &Point::read(header), &mut polygon, displacement, with_energy);
+    to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
+    to.write(polygon.used, header);
+    step
+}
+
+/// A step whose new state is discarded, with a state and a displacement that were checked.
+#[inline(always)]
+pub(crate) fn trial(element: &Element, state: &[f64], displacement: [f64; 2], with_energy: bool) -> Step {
+    let (header, mut knots) = parts(state);
+    step(element, &Point::read(header), &mut knots, displacement, with_energy).0
+}
+
+/// Copies what is in use of a state whose header was checked to one of the same length.
+#[inline(always)]
+pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
+    let used = HEADER + PER_KNOT * parts(from).1.len();
+    if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
+        to.copy_from_slice(from);
+    }
+}
+
+/// Copies a state whose header was checked into one that may hold fewer pieces.
+pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
+    let (Some((header, target)), Some(source)) = (to.split_first_chunk_mut::<HEADER>(), from.first_chunk::<HEADER>())
+    else {
+        return;
+    };
+    let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
+    parts(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
+    *header = *source;
+    header[0] = Kind::ElementState.tag(polygon.used);
+    header[ERROR] += polygon.error;
+}
+
+/// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
+/// process.
+///
+/// # Errors
+/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+pub fn state_check(state: &[f64]) -> Result<(), Error> {
+    check_header(state)?;
+    let (header, knots) = parts(state);
+    let Point { displacement, normal, error, .. } = Point::read(header);
+    let Normal { load, shift, load_slope, shift_slope } = normal;
+    let finite =
+        header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));
+    if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
+        return Err(Error::BadState);
+    }
+    let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
+        return Err(Error::BadState);
+    };
+    // A knot is located by ξ and η: its load has their rounding errors, relative to the size of the contact.
+    let rounding = 16.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) * load;
+    let (size, allowed) = (0.5 * (last_eta - last_xi), rounding.min(f64::MAX));
+    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+            next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+        }
+        _ => true,
+    };
+    let centred = xi == eta && *first == 0.0 && *last <= load;
+    // A frictionless or an open contact is its centre.
+    let complete = knots.len() == 1 || (*last == load && *last_xi <= displacement && *last_eta >= displacement);
+    if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
+}
+
+/// Length of a state for a path whose new state is discarded.
+pub(crate) const COPY_LENGTH: usize = state_length(256);
+
+/// Copies a state whose header was checked to a buffer for a path: of the same length, but for at most [`COPY_LENGTH`].
+pub(crate) fn copy_of<'b>(element: &Element, state: &[f64], buffer: &'b mut [f64; COPY_LENGTH]) -> &'b mut [f64] {
+    let copied = buffer.get_mut(..state.len().min(COPY_LENGTH)).unwrap_or(&mut []);
+    copy(element, state, copied);
+    copied
+}

@@ -1,0 +1,112 @@
+//! A step from a point and its diagram, and the contact that opens or closes in it.
+
+use crate::element::{Element, Normal};
+use crate::one_direction::Step;
+use crate::one_direction::diagram::{self, Diagram, Knot, Response};
+use crate::one_direction::energy::{self, Path};
+
+/// The point from which a step starts: displacements, normal state, and the error from merged pieces.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Point {
+    pub displacement: f64,
+    pub input: f64,
+    pub normal: Normal,
+    pub error: f64,
+}
+
+/// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
+#[inline(always)]
+pub(crate) fn step(
+    element: &Element,
+    from: &Point,
+    diagram: &mut impl Diagram,
+    [displacement, input]: [f64; 2],
+    with_energy: bool,
+) -> (Step, Point) {
+    if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
+        return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
+    }
+    let normal = if input.to_bits() == from.input.to_bits() { from.normal } else { element.normal(input) };
+    let dissipated = if with_energy {
+        let shift = [from.normal.shift, normal.shift];
+        energy::dissipated(element, diagram.knots(), &Path { shift, displacement: displacement - from.displacement })
+    } else {
+        0.0
+    };
+    let Response { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
+    let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
+    let step = Step { force: [force, normal.load], tangent, dissipated };
+    (step, Point { displacement, input, normal, error: from.error })
+}
+
+/// A step from or to an open contact, and every step without friction: the diagram starts anew.
+#[inline(never)]
+fn opening_or_closing(
+    element: &Element,
+    from: &Point,
+    diagram: &mut impl Diagram,
+    [displacement, input]: [f64; 2],
+    with_energy: bool,
+) -> (Step, Point) {
+    let friction = element.friction_coefficient > 0.0;
+    let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
+    let normal = if closed { element.normal(input) } else { Normal::OPEN };
+    let to = Point { displacement, input, normal, error: 0.0 };
+    // The straight path passes N = 0 at this fraction; with the force as input at its open end.
+    let start = if was_closed { from.input } else { from.input.min(0.0) };
+    let end = if closed { input } else { input.min(0.0) };
+    let fraction = match (was_closed, closed) {
+        (true, false) | (false, true) if element.by_approach() => start / (start - end),
+        (true, false) => 1.0,
+        _ => 0.0,
+    };
+    let crossing = from.displacement + fraction * (displacement - from.displacement);
+    let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
+    if !closed || !friction {
+        if with_energy && was_closed && friction {
+            let path = Path { shift: [from.normal.shift, 0.0], displacement: crossing - from.displacement };
+            step.dissipated = energy::dissipated(element, diagram.knots(), &path);
+        }
+        diagram.replace(0, [Knot::centre(displacement)]);
+        return (step, to);
+    }
+    let centre = Knot::centre(crossing);
+    let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
+    if with_energy {
+        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing };
+        step.dissipated = energy::dissipated(element, &touching.knots, &path);
+    }
+    let Response { force, mut by_displacement, mut by_input } =
+        diagram::step(element, &mut touching, displacement, &normal);
+    if touching.sticks && element.by_approach() {
+        // The start of the path moves with its end.
+        let distance = end - start;
+        by_input -= by_displacement * ((displacement - from.displacement) / distance) * (start / distance);
+        by_displacement *= end / distance;
+    }
+    step.force[0] = force;
+    (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);
+    (step, to)
+}
+
+/// The diagram at first touch: its centre, not yet in the diagram that it replaces.
+struct Touching<'a, D> {
+    knots: [[f64; 4]; 1],
+    /// Whether the contact sticks to the displacement at which it closed.
+    sticks: bool,
+    diagram: &'a mut D,
+}
+
+impl<D: Diagram> Diagram for Touching<'_, D> {
+    fn knots(&self) -> &[[f64; 4]] {
+        &self.knots
+    }
+
+    fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
+        self.sticks = kept > 0;
+        match new[..] {
+            [end] if self.sticks => self.diagram.replace(0, [self.knots[0].into(), end]),
+            _ => self.diagram.replace(0, new),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The law for two tangential directions. A displacement is `[u, v, w]` or `[u, v, N]`, a force `[Tx, Ty, N]`.
+//!
+//! The contact is a family of nested sizes, as in one direction, but slip has a direction of its own at each point. Springs at nodes of
+//! the family carry the displacement of the sizes within; the tractions at one point of each shell are a triangular map of them, and
+//! Coulomb's law holds at these points, with slip in the direction of the traction.
+//!
+//! - `element::springs`: the nodes of a shape and the map, independent of the load;
+//! - `edge`: the shell that ends at the present size;
+//! - `slip`: Coulomb's law at the points, by Newton's method;
+//! - `fine`: correction by a finer bank of springs;
+//! - `spring_state`, `step`, `tangent`: the state of the springs, a step, and its derivatives, as `columns`;
+//! - `stick`: a step in which nothing slips;
+//! - `load_path`: a step between contacts that may be open;
+//! - `state`, `advance`: the state in the caller's memory, and a step of it;
+//! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
+//!
+//! A motion on a line parallel to x is that of one direction: as long as v does not change, the state is the memory diagram of
+//! [`crate::one_direction`]. The first step with a change of v turns it into springs (`from_diagram`), the next separation back.
+
+pub mod harmonic_force;
+
+mod advance;
+mod columns;
+mod edge;
+mod fine;
+mod from_diagram;
+mod load_path;
+mod slip;
+mod spring_state;
+mod state;
+mod step;
+mod stick;
+mod tangent;
+
+use crate::element::{Directions, Element};
+use crate::error::Error;
+use crate::law::{self, ElementLaw, Requested, advance_along};
+use crate::limits::check_displacement;
+use crate::tag::Kind;
+
+pub use crate::law::PathOutput;
+pub use state::{force_error, state_check, state_init, state_length};
+
+/// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
+pub type Step = law::StepResult<[f64; 3], [f64; 9]>;
+
+/// The law of elements with two tangential directions.
+pub(crate) struct TwoDirections;
+
+impl ElementLaw for TwoDirections {
+    type Vector = [f64; 3];
+    type Tangent = [f64; 9];
+    type Layout = harmonic_force::Layout;
+    type Workspace<'a> = harmonic_force::Workspace<'a>;
+
+    const DIRECTIONS: Directions = Directions::Two;
+    const COMPONENTS: usize = 3;
+    const STATE_LENGTH: usize = state_length();
+    const OTHER_STATE: Kind = Kind::ElementState;
+
+    fn state_init(state: &mut [f64]) -> Result<(), Error> {
+        state_init(state)
+    }
+
+    fn state_check(state: &[f64]) -> Result<(), Error> {
+        state_check(state)
+    }
+
+    #[inline(always)]
+    fn check_header(state: &[f64]) -> Result<(), Error> {
+        state::check_header(state)
+    }
+
+    #[inline(always)]
+    fn check_tag(tag: f64, _state_length: usize) -> Result<(), Error> {
+        state::check_tag(tag)
+    }
+
+    fn force_error(state: &[f64]) -> f64 {
+        force_error(state)
+    }
+
+    #[inline(always)]
+    fn copy_used(from: &[f64], to: &mut [f64]) {
+        state::copy_used(from, to);
+    }
+
+    #[inline(always)]
+    fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
+        check_displacement(u)?;
+        check_displacement(v)?;
+        element.check_input(input)
+    }
+
+    #[inline(always)]
+    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
+        advance::trial(element, old, displacement, requested)
+    }
+
+    #[inline(always)]
+    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3], requested: Requested) -> Step {
+        advance::advance_checked(element, state, displacement, requested)
+    }
+
+    fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
+        path.as_chunks().0.iter().try_for_each(|displacement| Self::check_step(element, displacement))
+    }
+
+    fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) {
+        let requested = output.requested();
+        advance_along(path, output, |displacement| Self::advance(element, state, displacement, requested));
+    }
+
+    fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
+        let mut copy = [0.0; state_length()];
+        state::copy_used(state, &mut copy);
+        Self::path(element, &mut copy, path, output);
+    }
+
+    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error> {
+        harmonic_force::Workspace::new(memory)
+    }
+
+    fn coefficients(workspace: &Self::Workspace<'_>) -> usize {
+        workspace.coefficients()
+    }
+
+    fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {
+        workspace.check(element, motion)
+    }
+
+    fn harmonic_force(
+        element: &Element,
+        workspace: &mut Self::Workspace<'_>,
+        motion: &[f64],
+        output: harmonic_force::HarmonicOutput,
+    ) -> Result<(), Error> {
+        harmonic_force::harmonic_force(element, workspace, motion, output)
+    }
+}
+
+/// A step in place.
+///
+/// # Errors
+/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
+pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
+    state::check_header(state)?;
+    TwoDirections::check_step(element, &displacement)?;
+    Ok(TwoDirections::advance(element, state, displacement, Requested { tangent: true, energy: true }))
+}
+
+/// Advances a state through displacements, three doubles per step.
+///
+/// # Errors
+/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
+pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
+    state::check_header(state)?;
+    TwoDirections::check_path(element, path)?;
+    TwoDirections::path(element, state, path, output);
+    Ok(())
+}

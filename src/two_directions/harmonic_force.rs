@@ -1,0 +1,546 @@
+//! Harmonic force of a periodic motion in two tangential directions, by uniform sampling.
+//!
+//! The motion is u, v and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
+//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
+//! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
+//! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts.
+//!
+//! The Jacobian is the exact derivative of these steps: the derivatives of the memory with respect to all coefficients are carried
+//! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
+//! springs.
+
+use super::Requested;
+use super::columns::{row, row_mut};
+use super::load_path::Passage;
+use super::spring_state::Memory;
+use super::state::Header;
+use super::step::Course;
+use super::tangent::{self, MotionColumns, ROWS, SCRATCH, Taken};
+use crate::element::Element;
+use crate::element::springs::PressedSlopes;
+use crate::error::Error;
+use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::limits::check_coefficients;
+use crate::one_direction::harmonic_force as one_direction;
+use crate::tag::Kind;
+use core::f64::consts::TAU;
+
+pub use crate::fourier::HarmonicOutput;
+
+/// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
+#[must_use]
+pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
+    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+}
+
+/// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
+///
+/// # Errors
+/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
+    Layout::init(harmonics, samples, workspace)
+}
+
+/// Rows of columns besides the derivatives of the memory and their scratch memory: the motion, and the force.
+const MOTION_ROWS: usize = 10;
+
+pub(crate) struct Layout(Size);
+
+impl Layout {
+    fn one_direction_length(&self) -> usize {
+        padded(one_direction::workspace_length(self.0.harmonics, self.0.samples))
+    }
+
+    /// Coefficients of the motion in whole vectors.
+    fn columns(&self) -> usize {
+        padded(3 * self.0.coefficients())
+    }
+
+    /// Doubles of the motion, the force and the Jacobian of one direction.
+    fn line_length(&self) -> usize {
+        let n = 2 * self.0.coefficients();
+        padded(n) + padded(n) + padded(n * n)
+    }
+}
+
+impl WorkspaceLayout for Layout {
+    const KIND: Kind = Kind::TwoDirectionsSampling;
+
+    fn of(size: Size) -> Layout {
+        Layout(size)
+    }
+
+    fn size(&self) -> Size {
+        self.0
+    }
+
+    fn max_rows(&self) -> usize {
+        8 * self.0.samples + 256
+    }
+
+    fn tables_length(&self) -> usize {
+        padded(self.0.coefficients() * self.0.samples) + self.one_direction_length()
+    }
+
+    fn length(&self) -> usize {
+        HEADER
+            + self.tables_length()
+            + 4 * self.0.samples
+            + (ROWS + SCRATCH + MOTION_ROWS) * self.columns()
+            + self.line_length()
+    }
+
+    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
+        let Size { harmonics, samples } = self.0;
+        let n = self.0.coefficients();
+        let basis = tables.take(n * samples)?;
+        for (sample, values) in basis.chunks_exact_mut(n).enumerate() {
+            for (c, value) in values.iter_mut().enumerate() {
+                let turn = (c.div_ceil(2) * sample).checked_rem(samples).unwrap_or(0) as f64 / samples as f64;
+                let angle = TAU * turn;
+                *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
+            }
+        }
+        one_direction::workspace_init(harmonics, samples, tables.take(self.one_direction_length())?)
+    }
+}
+
+/// An opened workspace.
+#[derive(Debug)]
+pub struct Workspace<'a> {
+    size: Size,
+    /// Values of `[1, cos t, sin t, ...]`, sample after sample.
+    basis: &'a [f64],
+    one_direction: one_direction::Workspace<'a>,
+    /// u, v, normal component.
+    samples: &'a mut [[f64; 4]],
+    /// Derivatives of the memory, their scratch memory, and those of the motion and of the force.
+    memory: &'a mut [f64],
+    scratch: &'a mut [f64],
+    motion: &'a mut [f64],
+    line: &'a mut [f64],
+}
+
+impl<'a> Workspace<'a> {
+    /// Opens an initialised workspace.
+    ///
+    /// # Errors
+    /// `BadWorkspace` if uninitialised or too short.
+    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        let (layout, mut parts) = Layout::open(memory)?;
+        let (size, columns) = (layout.0, layout.columns());
+        let basis = parts.take(size.coefficients() * size.samples)?;
+        let one_direction = one_direction::Workspace::new(parts.take(layout.one_direction_length())?)?;
+        Ok(Workspace {
+            size,
+            basis,
+            one_direction,
+            samples: parts.take_blocks(size.samples)?,
+            memory: parts.take(ROWS * columns)?,
+            scratch: parts.take(SCRATCH * columns)?,
+            motion: parts.take(MOTION_ROWS * columns)?,
+            line: parts.take(layout.line_length())?,
+        })
+    }
+
+    /// 2H + 1.
+    #[must_use]
+    pub fn coefficients(&self) -> usize {
+        self.size.coefficients()
+    }
+
+    /// Checks a motion: all of a batch are checked before the first output is written.
+    ///
+    /// # Errors
+    /// Those of [`harmonic_force`].
+    pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+        check_coefficients(displacement)?;
+        let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
+        let mean = input.first().copied().unwrap_or(0.0);
+        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+            return Ok(());
+        }
+        self.synthesise(element, displacement)
+    }
+
+    /// Computes and checks the motion at the samples.
+    fn synthesise(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
+        let n = self.coefficients();
+        let input = displacement.get(2 * n..).unwrap_or(&[]);
+        let rounding = 8.0 * f64::EPSILON * input.iter().map(|value| value.abs()).sum::<f64>();
+        for (sample, basis) in self.samples.iter_mut().zip(self.basis.chunks_exact(n)) {
+            *sample = [0.0; 4];
+            for (values, place) in displacement.chunks_exact(n).zip(sample.iter_mut()) {
+                *place = values.iter().zip(basis).map(|(value, basis)| value * basis).sum();
+            }
+            if !element.by_approach() {
+                if sample[2] < -rounding {
+                    return Err(Error::BadNormalForce);
+                }
+                sample[2] = sample[2].max(0.0);
+            }
+            element.check_input(sample[2])?;
+        }
+        Ok(())
+    }
+
+    fn sample(&self, index: usize) -> [f64; 3] {
+        let [u, v, input, _] = self.samples.get(index).copied().unwrap_or([0.0; 4]);
+        [u, v, input]
+    }
+}
+
+/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal component, the
+/// approach \[m\] or the normal force \[N\].
+///
+/// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
+/// with respect to the coefficients of the motion.
+///
+/// # Errors
+/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
+/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
+/// too wide for its length.
+#[expect(clippy::too_many_lines, reason = "one period, in its order")]
+pub fn harmonic_force(
+    element: &Element,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+) -> Result<(), Error> {
+    let (n, count) = (workspace.coefficients(), workspace.size.samples);
+    let HarmonicOutput { mut force, mut jacobian, mut dissipated } = output;
+    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
+    if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
+        return Err(Error::BadArraySize);
+    }
+    check_coefficients(displacement)?;
+    workspace.synthesise(element, displacement)?;
+    let on_line = displacement.iter().skip(n).take(n).all(|value| *value == 0.0);
+    if on_line {
+        let with_jacobian = jacobian.is_some();
+        line(element, workspace, displacement, force.as_deref_mut(), with_jacobian, dissipated.as_deref_mut())?;
+        if !with_jacobian {
+            return Ok(());
+        }
+        (force, dissipated) = (None, None);
+    }
+    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
+    if let Some(force) = &mut force {
+        force.fill(0.0);
+    }
+    if let Some(jacobian) = &mut jacobian {
+        jacobian.fill(0.0);
+        workspace.memory.fill(0.0);
+    }
+    // The first sample of largest normal force.
+    let mut largest = 0;
+    for (index, sample) in workspace.samples.iter().enumerate() {
+        let so_far = workspace.samples.get(largest).map_or(f64::MIN, |sample| sample[2]);
+        largest = if sample[2] > so_far { index } else { largest };
+    }
+    let top = workspace.sample(largest);
+    let mut from = Header::NONE;
+    let mut memory = Memory::RELAXED;
+    let mut course = Course::new();
+    let frictionless = element.friction_coefficient == 0.0;
+    if !frictionless {
+        let press = Passage::new(element, &from, [0.0, 0.0, top[2]]);
+        press.advance(element, &mut memory, Requested { tangent: false, energy: false }, &mut course);
+        from = press.to;
+    }
+    let mut energy = 0.0;
+    let per_sample = 1.0 / count as f64;
+    let mut before = largest;
+    for step in 0..=2 * count {
+        let index = (largest + step).checked_rem(count).unwrap_or(0);
+        let counts = step > count;
+        let to = workspace.sample(index);
+        let (values, slope) = if frictionless {
+            let normal = if element.is_closed(to[2]) { Some(element.normal(to[2])) } else { None };
+            ([0.0, 0.0, normal.map_or(0.0, |normal| normal.load)], normal.map_or(0.0, |normal| normal.load_slope))
+        } else {
+            let passage = Passage::new(element, &from, to);
+            let old = requested.tangent.then_some(if passage.was_closed { memory } else { Memory::RELAXED });
+            let result = passage.advance(element, &mut memory, requested, &mut course);
+            if let Some(old) = old {
+                if !passage.closed || !passage.was_closed {
+                    workspace.memory.fill(0.0);
+                }
+                if passage.closed {
+                    // The first displacement begins at rest, not at a sample.
+                    let start = if step == 0 { None } else { Some(before) };
+                    differentiate(element, workspace, &passage, [&old, &memory], &course, &from, [start, Some(index)]);
+                } else {
+                    workspace.motion.fill(0.0);
+                }
+            }
+            from = passage.to;
+            energy += if counts { result.dissipated } else { 0.0 };
+            (result.force, result.tangent[8])
+        };
+        before = index;
+        if !counts {
+            continue;
+        }
+        let basis = row(workspace.basis, n, index);
+        let weight = |c: usize, value: f64| if c == 0 { per_sample * value } else { 2.0 * per_sample * value };
+        if let Some(force) = &mut force {
+            for (places, value) in force.chunks_exact_mut(n).zip(values) {
+                for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
+                    *place += weight(c, *basis) * value;
+                }
+            }
+        }
+        if let Some(jacobian) = &mut jacobian {
+            let columns = padded(3 * n);
+            let (x, y) = (row(workspace.motion, columns, 8), row(workspace.motion, columns, 9));
+            for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
+                let normal = if j >= 2 * n { slope * basis.get(j - 2 * n).copied().unwrap_or(0.0) } else { 0.0 };
+                let at = |values: &[f64]| if frictionless { 0.0 } else { values.get(j).copied().unwrap_or(0.0) };
+                for (places, value) in column.chunks_exact_mut(n).zip([at(x), at(y), normal]) {
+                    for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
+                        *place += weight(c, *basis) * value;
+                    }
+                }
+            }
+        }
+    }
+    if let Some(dissipated) = dissipated {
+        *dissipated = energy;
+    }
+    if on_line && let Some(jacobian) = jacobian {
+        merge_line(workspace, jacobian);
+    }
+    Ok(())
+}
+
+/// Derivatives of the memory and of the force at the end of a step between samples; those of the force are rows 8 and 9 of the motion.
+fn differentiate(
+    element: &Element,
+    workspace: &mut Workspace,
+    passage: &Passage,
+    memories: [&Memory; 2],
+    course: &Course,
+    from: &Header,
+    samples: [Option<usize>; 2],
+) {
+    let n = workspace.coefficients();
+    let columns = padded(3 * n);
+    let [start, end] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
+    let slopes = element.pressed_slopes(&passage.normal);
+    let before = if passage.was_closed && start.len() == n {
+        element.pressed_slopes(&element.normal(from.input))
+    } else {
+        PressedSlopes::default()
+    };
+    let rows = &mut *workspace.motion;
+    rows.fill(0.0);
+    let mut put = |r: usize, block: usize, factor: f64, basis: &[f64]| {
+        let place = row_mut(rows, columns, r).get_mut(block * n..(block + 1) * n).unwrap_or(&mut []);
+        for (place, basis) in place.iter_mut().zip(basis) {
+            *place += factor * basis;
+        }
+    };
+    for k in 0..2 {
+        put(k, k, passage.per_distance(), end);
+        put(k, k, -passage.per_distance(), start);
+        let [by_start, by_end] = passage.per_input(k);
+        put(k, 2, by_start, start);
+        put(k, 2, by_end, end);
+        put(3 + k, 2, slopes.shift[k], end);
+        put(6 + k, 2, before.shift[k], start);
+    }
+    put(2, 2, slopes.load, end);
+    put(5, 2, slopes.size, end);
+    // At the first displacement the load was that of its sample from the beginning.
+    if start.is_empty() {
+        for k in 0..2 {
+            put(6 + k, 2, slopes.shift[k], end);
+        }
+    }
+    let (rows, forces) = workspace.motion.split_at_mut((8 * columns).min(workspace.motion.len()));
+    let (x, y) = forces.split_at_mut(columns.min(forces.len()));
+    let y = y.get_mut(..columns).unwrap_or(&mut []);
+    let motion = MotionColumns {
+        by: [row(rows, columns, 0), row(rows, columns, 1)],
+        load: row(rows, columns, 2),
+        shift: [row(rows, columns, 3), row(rows, columns, 4)],
+        size: row(rows, columns, 5),
+        before: [row(rows, columns, 6), row(rows, columns, 7)],
+    };
+    let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
+    tangent::step(&taken, &motion, workspace.memory, workspace.scratch, [&mut *x, &mut *y]);
+    let unit = element.friction_coefficient * element.normal_force;
+    x.iter_mut().chain(y).for_each(|value| *value *= unit);
+}
+
+/// Force, energy and Jacobian of one direction, for a motion with v = 0; the Jacobian remains in the workspace.
+fn line(
+    element: &Element,
+    workspace: &mut Workspace,
+    displacement: &[f64],
+    force: Option<&mut [f64]>,
+    with_jacobian: bool,
+    dissipated: Option<&mut f64>,
+) -> Result<(), Error> {
+    let n = workspace.coefficients();
+    let mut parts = Parts::of(workspace.line);
+    let (motion, result, matrix) = (parts.take(2 * n)?, parts.take(2 * n)?, parts.take(4 * n * n)?);
+    let blocks = displacement.chunks_exact(n);
+    for (place, values) in motion.chunks_exact_mut(n).zip(blocks.step_by(2)) {
+        place.copy_from_slice(values);
+    }
+    let jacobian = if with_jacobian { Some(matrix) } else { None };
+    let requested = force.is_some().then_some(&mut *result);
+    let output = HarmonicOutput { force: requested, jacobian, dissipated };
+    one_direction::harmonic_force(element, &mut workspace.one_direction, motion, output)?;
+    if let Some(force) = force {
+        force.fill(0.0);
+        for (place, values) in force.chunks_exact_mut(n).step_by(2).zip(result.chunks_exact(n)) {
+            place.copy_from_slice(values);
+        }
+    }
+    Ok(())
+}
+
+/// Replaces the Jacobian of u and the normal component by that of one direction; by symmetry they are independent of v.
+fn merge_line(workspace: &mut Workspace, jacobian: &mut [f64]) {
+    let n = workspace.coefficients();
+    let mut parts = Parts::of(workspace.line);
+    let (_, _, matrix) = (parts.take(2 * n), parts.take(2 * n), parts.take(4 * n * n));
+    let matrix = matrix.unwrap_or(&mut []);
+    for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
+        let lateral = j >= n && j < 2 * n;
+        let source = if j < n { j } else { j.saturating_sub(n) };
+        for (block, place) in column.chunks_exact_mut(n).enumerate() {
+            if lateral != (block == 1) {
+                place.fill(0.0);
+            } else if !lateral {
+                let from = 2 * n * source + if block == 0 { 0 } else { n };
+                if let Some(values) = matrix.get(from..from + n) {
+                    place.copy_from_slice(values);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::{Directions, NormalInput};
+    use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
+    use std::prelude::rust_2024::*;
+    use std::vec;
+
+    const H: usize = 3;
+    const COEFFICIENTS: usize = 3 * (2 * H + 1);
+    const SAMPLES: usize = 32;
+
+    fn elements() -> Vec<Element> {
+        let material = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
+        let flat = |flat_half_width, input| {
+            let parameters = Parameters {
+                flat_half_width,
+                edge_radius: 0.05,
+                length: 0.02,
+                normal_force: 1000.0,
+                friction_coefficient: 0.4,
+                material,
+                displacement_reference: CENTRE_POINT,
+                reserved: 0,
+            };
+            Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
+        };
+        let ellipse = EllipticParameters {
+            semi_axis_x: 1e-3,
+            semi_axis_y: 2e-3,
+            normal_force: 1000.0,
+            friction_coefficient: 0.4,
+            material,
+        };
+        let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
+        vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
+    }
+
+    /// Motions in units of the slip displacement and of the largest load: an ellipse, a figure of eight with a swinging load, one that
+    /// separates, and one on a line.
+    fn motion(element: &Element, kind: usize) -> [f64; COEFFICIENTS] {
+        let n = 2 * H + 1;
+        let unit = element.friction_coefficient * element.shift_under(element.normal_force);
+        let full = if element.by_approach() { element.approach } else { element.normal_force };
+        let mut motion = [0.0; COEFFICIENTS];
+        let lateral = if kind == 3 { 0.0 } else { unit };
+        (motion[0], motion[1], motion[3]) = (0.1 * unit, 0.7 * unit, 0.2 * unit);
+        (motion[n + 2], motion[n + 4]) = (0.5 * lateral, 0.2 * lateral);
+        motion[2 * n] = 0.7 * full;
+        if kind > 0 {
+            (motion[2 * n + 1], motion[2 * n + 4]) = (0.2 * full, 0.08 * full);
+        }
+        if kind == 2 && element.by_approach() {
+            motion[2 * n] = 0.15 * full;
+        }
+        motion
+    }
+
+    struct Result {
+        force: [f64; COEFFICIENTS],
+        jacobian: Vec<f64>,
+        dissipated: f64,
+    }
+
+    fn compute(element: &Element, motion: &[f64]) -> Result {
+        let mut memory = vec![0.0; workspace_length(H, SAMPLES)];
+        workspace_init(H, SAMPLES, &mut memory).unwrap();
+        let mut workspace = Workspace::new(&mut memory).unwrap();
+        let mut result =
+            Result { force: [0.0; COEFFICIENTS], jacobian: vec![0.0; COEFFICIENTS * COEFFICIENTS], dissipated: 0.0 };
+        let output = HarmonicOutput {
+            force: Some(&mut result.force),
+            jacobian: Some(&mut result.jacobian),
+            dissipated: Some(&mut result.dissipated),
+        };
+        harmonic_force(element, &mut workspace, motion, output).unwrap();
+        result
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_force() {
+        for element in elements() {
+            let n = 2 * H + 1;
+            let unit = element.friction_coefficient * element.shift_under(element.normal_force);
+            let full = if element.by_approach() { element.approach } else { element.normal_force };
+            for kind in 0..4 {
+                let motion = motion(&element, kind);
+                let result = compute(&element, &motion);
+                for j in 0..COEFFICIENTS {
+                    // On a line, the force off it is that of the springs, which differs by the error of the law.
+                    if kind == 3 && j >= n && j < 2 * n {
+                        continue;
+                    }
+                    // A swing of a constant load decides which sample is the first.
+                    if kind == 0 && j > 2 * n {
+                        continue;
+                    }
+                    let scale = if j < 2 * n { unit } else { full };
+                    let h = 1e-6 * scale;
+                    let moved = |h: f64| {
+                        let mut motion = motion;
+                        motion[j] += h;
+                        compute(&element, &motion).force
+                    };
+                    let (high, low) = (moved(h), moved(-h));
+                    for i in 0..COEFFICIENTS {
+                        let difference = (high[i] - low[i]) / (2.0 * h);
+                        let exact = result.jacobian[i + COEFFICIENTS * j];
+                        // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-10 of the force.
+                        let error = (difference - exact).abs() * scale / (0.4 * 1000.0);
+                        assert!(error < 1e-6, "kind {kind}, entry {i} {j}: {difference:e} {exact:e}, error {error:e}");
+                    }
+                }
+                assert!(result.dissipated > 0.0);
+            }
+        }
+    }
+}
