@@ -4,8 +4,9 @@ use crate::element::Element;
 use crate::element::springs::Both;
 use crate::one_direction::state;
 use crate::two_directions::from_diagram::{header_of, of_diagram};
-use crate::two_directions::load_path::{LONGEST, advance_springs};
+use crate::two_directions::load_path::advance_springs;
 use crate::two_directions::slip::product;
+use crate::two_directions::spring_state::LONGEST;
 use crate::two_directions::state::{
     LENGTH, copy_used, line_mut, line_of, move_springs, read, read_header, state_init, stored, write,
 };

@@ -2,14 +2,11 @@
 
 use crate::element::springs::{Both, Pressed};
 use crate::element::{Element, Normal};
-use crate::two_directions::spring_state::Memory;
+use crate::two_directions::spring_state::{LONGEST, Memory};
 use crate::two_directions::state::Header;
 use crate::two_directions::step::{self, Course, Motion};
 use crate::two_directions::tangent::{self, MotionColumns, ROWS, SCRATCH, Taken};
 use crate::two_directions::{Requested, Step, stick};
-
-/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is proportional.
-pub(super) const LONGEST: f64 = 1e9;
 
 /// A step of springs from a contact, open or closed, to another one.
 pub(super) struct Passage {

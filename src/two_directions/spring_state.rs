@@ -64,3 +64,7 @@ impl<'a> Stored<'a> {
         }
     }
 }
+
+/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
+/// proportional.
+pub(super) const LONGEST: f64 = 1e9;

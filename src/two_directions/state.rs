@@ -11,8 +11,7 @@ use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::state;
 use crate::tag::Kind;
-use crate::two_directions::load_path::LONGEST;
-use crate::two_directions::spring_state::{Memory, Stored};
+use crate::two_directions::spring_state::{LONGEST, Memory, Stored};
 
 const HEADER: usize = 12;
 pub(super) const LENGTH: usize = HEADER + 6 * SPRINGS + 2 * FINE;
