@@ -446,6 +446,19 @@ impl Element {
         input > self.smallest_input
     }
 
+    /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length. With the
+    /// normal force as input the contact opens or closes at the open end.
+    #[must_use]
+    pub fn crossing(&self, from: f64, to: f64) -> f64 {
+        if self.by_approach() {
+            from / (from - to)
+        } else if from > 0.0 {
+            1.0
+        } else {
+            0.0
+        }
+    }
+
     /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {

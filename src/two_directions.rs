@@ -99,7 +99,7 @@ impl ElementLaw for TwoDirections {
 
     #[inline(always)]
     fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3], requested: Requested) -> Step {
-        advance::advance_checked(element, state, displacement, requested)
+        advance::advance(element, state, displacement, requested)
     }
 
     fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {

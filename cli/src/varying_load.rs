@@ -223,7 +223,7 @@ fn normal_between(element: &Element, from: f64, to: f64, fraction: f64) -> f64 {
     let by_approach = element.normal_input == NormalInput::Approach as i32;
     let load = |input: f64| if by_approach { element.normal_force_at(input).value } else { input };
     // The closed part of the path, between two fractions.
-    let crossing = if by_approach { from / (from - to) } else { f64::from(u8::from(from > 0.0)) };
+    let crossing = element.crossing(from, to);
     let (start, end) = match (from > 0.0, to > 0.0) {
         (true, true) => (0.0, 1.0),
         (true, false) => (0.0, crossing),

@@ -1,7 +1,7 @@
 //! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
 //! that convert their nondimensional quantities into forces and displacements.
 
-use crate::constant_load::complex_stiffness::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
+use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;

@@ -153,21 +153,38 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
     Some(evaluator.on_branch(response))
 }
 
+/// Finds a step by the variant that the state and the requested energy need, and evaluates an expression of the step and its energy. The
+/// variants, and the expression for each, are kept apart: a step that may have to be changed would live in memory.
+macro_rules! with_step {
+    ($contact:expr, $state:expr, $displacement:expr, $with_energy:expr, |$step:ident, $energy:ident| $result:expr) => {
+        if $with_energy {
+            let ($step, $energy) = $crate::constant_load::masing::step_with_energy($contact, $state, $displacement);
+            $result
+        } else if $crate::constant_load::state::is_full($state) {
+            let ($step, $energy) =
+                ($crate::constant_load::masing::step_in_full_state($contact, $state, $displacement), 0.0);
+            $result
+        } else {
+            let ($step, $energy) =
+                ($crate::constant_load::masing::step_with_room($contact, $state, $displacement), 0.0);
+            $result
+        }
+    };
+}
+
+pub(crate) use with_step;
+
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
 #[must_use]
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
-    if state::is_full(state) {
-        step_in_full_state(contact, state, displacement)
-    } else {
-        step_with_room(contact, state, displacement)
-    }
+    with_step!(contact, state, displacement, false, |step, _energy| step)
 }
 
-/// The same for a state that is not full. Kept apart from full states: a step that may have to be changed would live in memory.
+/// The same for a state that is not full.
 #[must_use]
 #[inline(always)]
-pub fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+pub(crate) fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     let memory = state::memory(state);
     let transition = memory.locate(contact, displacement, |_| {});
     Step::new(contact, &memory, &transition, displacement)
@@ -176,7 +193,7 @@ pub fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> St
 /// The same for a full state, in which a step that reverses merges two reversals.
 #[must_use]
 #[inline(never)]
-pub fn step_in_full_state(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+pub(crate) fn step_in_full_state(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     let memory = state::memory(state);
     let transition = memory.locate(contact, displacement, |_| {});
     let step = Step::new(contact, &memory, &transition, displacement);
@@ -289,20 +306,11 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         }
     };
     for (i, &displacement) in path.iter().enumerate() {
-        let (values, energy) = if dissipated.is_none() && !state::is_full(state) {
-            let step = step_with_room(contact, state, displacement);
-            step.write(state);
-            ([step.force(), step.stiffness()], 0.0)
-        } else if dissipated.is_none() {
-            let step = step_in_full_state(contact, state, displacement);
-            step.write(state);
-            ([step.force(), step.stiffness()], 0.0)
-        } else {
-            let (step, energy) = step_with_energy(contact, state, displacement);
-            step.write(state);
-            ([step.force(), step.stiffness()], energy)
-        };
-        let [step_force, step_stiffness] = values;
+        let [step_force, step_stiffness, energy] =
+            with_step!(contact, state, displacement, dissipated.is_some(), |step, energy| {
+                step.write(state);
+                [step.force(), step.stiffness(), energy]
+            });
         set(&mut force, i, step_force);
         set(&mut stiffness, i, step_stiffness);
         set(&mut dissipated, i, energy);

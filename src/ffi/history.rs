@@ -5,7 +5,7 @@ use super::contact::check_positions;
 use super::mslip_contact;
 use super::pointers::{self, check_alignment, input, memory, output, outputs, requested, set, state_input, status};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput, Step};
+use crate::constant_load::masing::{self, PathOutput, Step, with_step};
 use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::error::Error;
@@ -148,15 +148,10 @@ unsafe fn general_update(
     unsafe {
         let state = &*state_old;
         let results = [force, stiffness];
-        if dissipated.is_null() && !state::is_full(state) {
-            write_step(&masing::step_with_room(contact, state, displacement), state_old, state_new, results);
-        } else if dissipated.is_null() {
-            write_step(&masing::step_in_full_state(contact, state, displacement), state_old, state_new, results);
-        } else {
-            let (step, energy) = masing::step_with_energy(contact, state, displacement);
+        with_step!(contact, state, displacement, !dissipated.is_null(), |step, energy| {
             write_step(&step, state_old, state_new, results);
             write(dissipated, energy);
-        }
+        });
     }
     MSLIP_OK
 }

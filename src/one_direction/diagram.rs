@@ -125,9 +125,9 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
         let rise = element.per_two_mu * (rising + falling);
         // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
         // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
-        let reach = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
+        let extent = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
         let share = rise / shift.min(element.largest_shift - shift).max(rise);
-        let secant = if share * share * rise < 24.0 * f64::EPSILON * reach {
+        let secant = if share * share * rise < 24.0 * f64::EPSILON * extent {
             element.load_at_shift(shift - 0.5 * rise).1
         } else {
             (load - inner.load) * (2.0 * mu * per_shift)

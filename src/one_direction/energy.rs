@@ -201,9 +201,9 @@ fn quadrature(element: &Element, low: f64, high: f64, integrand: impl Fn(f64) ->
     const PARTS: usize = 32;
     let (mut sum, mut from) = (0.0, low);
     for _ in 0..PARTS {
-        let reach = high.min(1.007 * element.largest_shift - from);
-        let width = (high - from).min(0.25 * reach);
-        let nodes = gauss_nodes(if width < 0.0625 * reach { 1 } else { 2 });
+        let distance_to_end = high.min(1.007 * element.largest_shift - from);
+        let width = (high - from).min(0.25 * distance_to_end);
+        let nodes = gauss_nodes(if width < 0.0625 * distance_to_end { 1 } else { 2 });
         sum += width * nodes.map(|(node, part)| part * integrand(from + node * width)).sum::<f64>();
         if width >= high - from {
             break;

@@ -177,7 +177,7 @@ impl<'a> Workspace<'a> {
 
 /// Properties of a motion.
 #[derive(Debug, Clone, Copy)]
-struct Motion {
+struct MotionKind {
     /// The normal component is constant.
     constant: bool,
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
@@ -270,8 +270,8 @@ impl Workspace<'_> {
         check_coefficients(displacement)?;
         let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
         let mean = input.first().copied().unwrap_or(0.0);
-        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+        let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());
         }
         self.press(element, tangential, input, false).map(|_| ())
@@ -287,23 +287,23 @@ impl Workspace<'_> {
         tangential: &[f64],
         input: &[f64],
         with_slopes: bool,
-    ) -> Result<Motion, Error> {
+    ) -> Result<MotionKind, Error> {
         let Workspace { fourier, samples, .. } = self;
         let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
         let has = |coefficients: &[f64], parity: usize| {
             coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
         };
-        let swing: f64 = harmonics.iter().map(|value| value.abs()).sum();
-        let mut motion = Motion {
-            constant: swing == 0.0,
+        let amplitude: f64 = harmonics.iter().map(|value| value.abs()).sum();
+        let mut motion = MotionKind {
+            constant: amplitude == 0.0,
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
             open: false,
         };
         let rounding = if element.by_approach() {
-            motion.open = !element.is_closed(mean + swing);
+            motion.open = !element.is_closed(mean + amplitude);
             f64::MAX
         } else {
-            NORMAL_FORCE_ROUNDING * (mean.abs() + swing)
+            NORMAL_FORCE_ROUNDING * (mean.abs() + amplitude)
         };
         if motion.open {
             return Ok(motion);
@@ -342,7 +342,7 @@ impl Workspace<'_> {
         &mut self,
         element: &Element,
         input: &[f64],
-        motion: Motion,
+        motion: MotionKind,
         part: Option<&Part>,
         force: &mut [f64],
     ) {
@@ -372,7 +372,7 @@ impl Workspace<'_> {
         }
     }
 
-    fn write_jacobian(&mut self, element: &Element, motion: Motion, part: Option<&Part>, jacobian: &mut [f64]) {
+    fn write_jacobian(&mut self, element: &Element, motion: MotionKind, part: Option<&Part>, jacobian: &mut [f64]) {
         let Workspace { size, fourier, samples, sensitivity, assembly, .. } = self;
         let coefficients = size.coefficients();
         let (by_displacement, by_input) =

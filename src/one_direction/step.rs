@@ -55,11 +55,7 @@ fn opening_or_closing(
     // The straight path passes N = 0 at this fraction; with the force as input at its open end.
     let start = if was_closed { from.input } else { from.input.min(0.0) };
     let end = if closed { input } else { input.min(0.0) };
-    let fraction = match (was_closed, closed) {
-        (true, false) | (false, true) if element.by_approach() => start / (start - end),
-        (true, false) => 1.0,
-        _ => 0.0,
-    };
+    let fraction = if was_closed == closed { 0.0 } else { element.crossing(start, end) };
     let crossing = from.displacement + fraction * (displacement - from.displacement);
     let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
     if !closed || !friction {

@@ -4,8 +4,9 @@ use crate::element::Element;
 use crate::element::springs::Both;
 use crate::one_direction::state;
 use crate::two_directions::from_diagram::{header_of, of_diagram};
-use crate::two_directions::load_path::{LONGEST, advance_springs};
+use crate::two_directions::load_path::advance_springs;
 use crate::two_directions::slip::product;
+use crate::two_directions::spring_state::LONGEST;
 use crate::two_directions::state::{
     LENGTH, copy_used, line_mut, line_of, move_springs, read, read_header, state_init, stored, write,
 };
@@ -21,17 +22,12 @@ pub(super) fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requ
     }
     let mut copy = [0.0; LENGTH];
     copy_used(old, &mut copy);
-    advance_checked(element, &mut copy, displacement, requested)
+    advance(element, &mut copy, displacement, requested)
 }
 
 /// A step in place, with a state and a displacement that were checked.
-pub(super) fn advance_checked(
-    element: &Element,
-    state: &mut [f64],
-    displacement: [f64; 3],
-    requested: Requested,
-) -> Step {
-    let (from, mut memory) = if let Some(line) = line_of(state) {
+pub(super) fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3], requested: Requested) -> Step {
+    let (from, mut springs) = if let Some(line) = line_of(state) {
         let (v, there) = (state.get(1).copied().unwrap_or(0.0), state::view(line));
         // Without friction, or open before and after, only the position changes.
         let closes = element.is_closed(displacement[2]);
@@ -40,9 +36,9 @@ pub(super) fn advance_checked(
             // Of the third component, the diagram has no stiffness: that of the springs.
             let lateral = if requested.tangent && !free && closes {
                 let header = header_of(&there, v);
-                let mut memory = of_diagram(element, &header, there.knots);
+                let mut springs = of_diagram(element, &header, there.knots);
                 let requested = Requested { tangent: true, energy: false };
-                advance_springs(element, &header, &mut memory, displacement, requested).0.tangent[4]
+                advance_springs(element, &header, &mut springs, displacement, requested).0.tangent[4]
             } else {
                 0.0
             };
@@ -58,9 +54,9 @@ pub(super) fn advance_checked(
         }
         read(state)
     };
-    let (step, to) = advance_springs(element, &from, &mut memory, displacement, requested);
+    let (step, to) = advance_springs(element, &from, &mut springs, displacement, requested);
     if to.load > 0.0 {
-        write(state, &to, &memory);
+        write(state, &to, &springs);
     } else {
         // Separated: the line of the next contact begins here.
         let _ = state_init(state);

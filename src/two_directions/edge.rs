@@ -40,7 +40,7 @@ pub(crate) struct Edge {
     /// W of the shell.
     pub secant: Both<f64>,
     /// F_i of the shell at the points x_i, and the pressure there.
-    pub reach: Row,
+    pub shell_pressure: Row,
     pub pressure: Row,
 }
 
@@ -50,11 +50,11 @@ impl Edge {
         step: [1.0; 2],
         root: [1.0; 2],
         secant: [0.0; 2],
-        reach: [0.0; SPRINGS],
+        shell_pressure: [0.0; SPRINGS],
         pressure: [0.0; SPRINGS],
     };
 
-    /// The edge of a contact; `cached` are reach and pressure under the same load.
+    /// The edge of a contact; `cached` are both pressures under the same load.
     #[inline(always)]
     pub fn new(springs: &Springs, now: &Pressed, cached: Option<(&Row, &Row)>) -> Edge {
         let last = springs.last_shell(now.shift[0]);
@@ -63,7 +63,7 @@ impl Edge {
             step: [0.0; 2],
             root: [0.0; 2],
             secant: [0.0; 2],
-            reach: [0.0; SPRINGS],
+            shell_pressure: [0.0; SPRINGS],
             pressure: [0.0; SPRINGS],
         };
         for k in 0..2 {
@@ -72,8 +72,8 @@ impl Edge {
             let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
             edge.root[k] = (edge.secant[k] - before).max(LEAST_STIFFNESS * edge.secant[k]).max(TINY).sqrt();
         }
-        if let Some((reach, pressure)) = cached {
-            (edge.reach, edge.pressure) = (*reach, *pressure);
+        if let Some((shell_pressure, pressure)) = cached {
+            (edge.shell_pressure, edge.pressure) = (*shell_pressure, *pressure);
             return edge;
         }
         let mut weights = [0.0; SPRINGS];
@@ -84,18 +84,18 @@ impl Edge {
         for i in 0..SPRINGS {
             if i < last {
                 let difference = root_difference(now.size, springs.size[last], springs.point[i]);
-                edge.reach[i] = springs.weight[last] * difference * springs.unit[i];
-                edge.pressure[i] = dot(&springs.traction[i][0], &weights) + edge.reach[i];
+                edge.shell_pressure[i] = springs.weight[last] * difference * springs.unit[i];
+                edge.pressure[i] = dot(&springs.traction[i][0], &weights) + edge.shell_pressure[i];
             }
         }
-        (edge.reach[last], edge.pressure[last]) = (1.0, 1.0);
+        (edge.shell_pressure[last], edge.pressure[last]) = (1.0, 1.0);
         edge
     }
 
     /// g of the last shell at a point.
     #[inline(always)]
     pub fn slope(&self, k: usize, i: usize) -> f64 {
-        self.reach[i] / self.step[k]
+        self.shell_pressure[i] / self.step[k]
     }
 }
 

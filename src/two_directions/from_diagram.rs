@@ -4,7 +4,7 @@ use crate::element::Element;
 use crate::element::springs::{FINE, SPRINGS};
 use crate::one_direction::state;
 use crate::two_directions::edge::{Edge, Map};
-use crate::two_directions::spring_state::Memory;
+use crate::two_directions::spring_state::SpringState;
 use crate::two_directions::state::Header;
 
 /// The header of a diagram.
@@ -19,10 +19,10 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
 }
 
 /// The springs of a diagram: their displacements are those of the sizes from theirs on.
-pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory {
-    let mut memory = Memory::RELAXED;
+pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> SpringState {
+    let mut state = SpringState::RELAXED;
     if header.load <= 0.0 {
-        return memory;
+        return state;
     }
     let springs = &element.springs;
     let (unit, now) = (element.shift_unit(), element.pressed(header.load, header.shift));
@@ -48,16 +48,16 @@ pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]])
     let edge = Edge::new(springs, &now, None);
     for j in 0..SPRINGS {
         if j <= edge.last {
-            memory.springs[0][j] = at(springs.shift[0][j]);
+            state.springs[0][j] = at(springs.shift[0][j]);
         }
     }
     for j in 0..FINE {
         if springs.fine_shift[0][j] < now.shift[0] {
-            memory.fine[0][j] = at(springs.fine_shift[0][j]);
+            state.fine[0][j] = at(springs.fine_shift[0][j]);
         }
     }
     let map = Map::new(springs, &edge);
-    let mut scaled = memory.springs;
+    let mut scaled = state.springs;
     for j in 0..SPRINGS {
         scaled[0][j] *= map.root[0][j];
     }
@@ -66,9 +66,9 @@ pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]])
     let [tractions, _] = tractions;
     for i in 0..SPRINGS {
         if i <= edge.last {
-            memory.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
+            state.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
         }
     }
-    (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
-    memory
+    (state.shell_pressure, state.pressure) = (edge.shell_pressure, edge.pressure);
+    state
 }

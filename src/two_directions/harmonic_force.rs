@@ -11,11 +11,11 @@
 
 use super::Requested;
 use super::columns::{row, row_mut};
-use super::load_path::Passage;
-use super::spring_state::Memory;
+use super::load_path::LoadPath;
+use super::spring_state::SpringState;
 use super::state::Header;
-use super::step::Course;
-use super::tangent::{self, MotionColumns, ROWS, SCRATCH, Taken};
+use super::step::StepRecord;
+use super::tangent::{self, IncrementColumns, ROWS, RecordedStep, SCRATCH};
 use crate::element::Element;
 use crate::element::springs::PressedSlopes;
 use crate::error::Error;
@@ -115,7 +115,7 @@ pub struct Workspace<'a> {
     /// u, v, normal component.
     samples: &'a mut [[f64; 4]],
     /// Derivatives of the memory, their scratch memory, and those of the motion and of the force.
-    memory: &'a mut [f64],
+    derivatives: &'a mut [f64],
     scratch: &'a mut [f64],
     motion: &'a mut [f64],
     line: &'a mut [f64],
@@ -136,7 +136,7 @@ impl<'a> Workspace<'a> {
             basis,
             one_direction,
             samples: parts.take_blocks(size.samples)?,
-            memory: parts.take(ROWS * columns)?,
+            derivatives: parts.take(ROWS * columns)?,
             scratch: parts.take(SCRATCH * columns)?,
             motion: parts.take(MOTION_ROWS * columns)?,
             line: parts.take(layout.line_length())?,
@@ -157,8 +157,8 @@ impl<'a> Workspace<'a> {
         check_coefficients(displacement)?;
         let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
         let mean = input.first().copied().unwrap_or(0.0);
-        let swing: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= swing) && element.check_input(mean + swing).is_ok() {
+        let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
+        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());
         }
         self.synthesise(element, displacement)
@@ -231,7 +231,7 @@ pub fn harmonic_force(
     }
     if let Some(jacobian) = &mut jacobian {
         jacobian.fill(0.0);
-        workspace.memory.fill(0.0);
+        workspace.derivatives.fill(0.0);
     }
     // The first sample of largest normal force.
     let mut largest = 0;
@@ -241,12 +241,12 @@ pub fn harmonic_force(
     }
     let top = workspace.sample(largest);
     let mut from = Header::NONE;
-    let mut memory = Memory::RELAXED;
-    let mut course = Course::new();
+    let mut springs = SpringState::RELAXED;
+    let mut record = StepRecord::new();
     let frictionless = element.friction_coefficient == 0.0;
     if !frictionless {
-        let press = Passage::new(element, &from, [0.0, 0.0, top[2]]);
-        press.advance(element, &mut memory, Requested { tangent: false, energy: false }, &mut course);
+        let press = LoadPath::new(element, &from, [0.0, 0.0, top[2]]);
+        press.advance(element, &mut springs, Requested { tangent: false, energy: false }, &mut record);
         from = press.to;
     }
     let mut energy = 0.0;
@@ -260,22 +260,22 @@ pub fn harmonic_force(
             let normal = if element.is_closed(to[2]) { Some(element.normal(to[2])) } else { None };
             ([0.0, 0.0, normal.map_or(0.0, |normal| normal.load)], normal.map_or(0.0, |normal| normal.load_slope))
         } else {
-            let passage = Passage::new(element, &from, to);
-            let old = requested.tangent.then_some(if passage.was_closed { memory } else { Memory::RELAXED });
-            let result = passage.advance(element, &mut memory, requested, &mut course);
+            let path = LoadPath::new(element, &from, to);
+            let old = requested.tangent.then_some(if path.was_closed { springs } else { SpringState::RELAXED });
+            let result = path.advance(element, &mut springs, requested, &mut record);
             if let Some(old) = old {
-                if !passage.closed || !passage.was_closed {
-                    workspace.memory.fill(0.0);
+                if !path.closed || !path.was_closed {
+                    workspace.derivatives.fill(0.0);
                 }
-                if passage.closed {
+                if path.closed {
                     // The first displacement begins at rest, not at a sample.
                     let start = if step == 0 { None } else { Some(before) };
-                    differentiate(element, workspace, &passage, [&old, &memory], &course, &from, [start, Some(index)]);
+                    differentiate(element, workspace, &path, [&old, &springs], &record, &from, [start, Some(index)]);
                 } else {
                     workspace.motion.fill(0.0);
                 }
             }
-            from = passage.to;
+            from = path.to;
             energy += if counts { result.dissipated } else { 0.0 };
             (result.force, result.tangent[8])
         };
@@ -319,17 +319,17 @@ pub fn harmonic_force(
 fn differentiate(
     element: &Element,
     workspace: &mut Workspace,
-    passage: &Passage,
-    memories: [&Memory; 2],
-    course: &Course,
+    path: &LoadPath,
+    memories: [&SpringState; 2],
+    record: &StepRecord,
     from: &Header,
     samples: [Option<usize>; 2],
 ) {
     let n = workspace.coefficients();
     let columns = padded(3 * n);
     let [start, end] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let slopes = element.pressed_slopes(&passage.normal);
-    let before = if passage.was_closed && start.len() == n {
+    let slopes = element.pressed_slopes(&path.normal);
+    let before = if path.was_closed && start.len() == n {
         element.pressed_slopes(&element.normal(from.input))
     } else {
         PressedSlopes::default()
@@ -343,9 +343,9 @@ fn differentiate(
         }
     };
     for k in 0..2 {
-        put(k, k, passage.per_distance(), end);
-        put(k, k, -passage.per_distance(), start);
-        let [by_start, by_end] = passage.per_input(k);
+        put(k, k, path.per_distance(), end);
+        put(k, k, -path.per_distance(), start);
+        let [by_start, by_end] = path.per_input(k);
         put(k, 2, by_start, start);
         put(k, 2, by_end, end);
         put(3 + k, 2, slopes.shift[k], end);
@@ -362,15 +362,15 @@ fn differentiate(
     let (rows, forces) = workspace.motion.split_at_mut((8 * columns).min(workspace.motion.len()));
     let (x, y) = forces.split_at_mut(columns.min(forces.len()));
     let y = y.get_mut(..columns).unwrap_or(&mut []);
-    let motion = MotionColumns {
+    let motion = IncrementColumns {
         by: [row(rows, columns, 0), row(rows, columns, 1)],
         load: row(rows, columns, 2),
         shift: [row(rows, columns, 3), row(rows, columns, 4)],
         size: row(rows, columns, 5),
         before: [row(rows, columns, 6), row(rows, columns, 7)],
     };
-    let taken = Taken { springs: &element.springs, memories, motion: &passage.motion, course };
-    tangent::step(&taken, &motion, workspace.memory, workspace.scratch, [&mut *x, &mut *y]);
+    let recorded = RecordedStep { springs: &element.springs, memories, motion: &path.motion, record };
+    tangent::step(&recorded, &motion, workspace.derivatives, workspace.scratch, [&mut *x, &mut *y]);
     let unit = element.friction_coefficient * element.normal_force;
     x.iter_mut().chain(y).for_each(|value| *value *= unit);
 }
@@ -464,7 +464,7 @@ mod tests {
         vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
     }
 
-    /// Motions in units of the slip displacement and of the largest load: an ellipse, a figure of eight with a swinging load, one that
+    /// Motions in units of the slip displacement and of the largest load: an ellipse, a figure of eight with a load that oscillates, one that
     /// separates, and one on a line.
     fn motion(element: &Element, kind: usize) -> [f64; COEFFICIENTS] {
         let n = 2 * H + 1;
@@ -519,7 +519,7 @@ mod tests {
                     if kind == 3 && j >= n && j < 2 * n {
                         continue;
                     }
-                    // A swing of a constant load decides which sample is the first.
+                    // A amplitude of a constant load decides which sample is the first.
                     if kind == 0 && j > 2 * n {
                         continue;
                     }

@@ -3,64 +3,69 @@
 use crate::element::springs::{Both, FINE, Row, SPRINGS};
 use crate::two_directions::fine::FineRow;
 
-/// Displacements of the springs, tractions over the pressure at the points, and the fine bank; reach and pressure of the edge.
+/// Displacements of the springs, tractions over the pressure at the points, and the fine bank; both pressures of the
+/// edge.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
-pub(crate) struct Memory {
+pub(crate) struct SpringState {
     pub springs: Both<Row>,
     pub tractions: Both<Row>,
-    pub reach: Row,
+    pub shell_pressure: Row,
     pub pressure: Row,
     pub fine: Both<FineRow>,
 }
 
-impl Memory {
-    pub const RELAXED: Memory = Memory {
+impl SpringState {
+    pub const RELAXED: SpringState = SpringState {
         springs: [[0.0; SPRINGS]; 2],
         tractions: [[0.0; SPRINGS]; 2],
-        reach: [0.0; SPRINGS],
+        shell_pressure: [0.0; SPRINGS],
         pressure: [0.0; SPRINGS],
         fine: [[0.0; FINE]; 2],
     };
 }
 
 /// The same in an array.
-pub(crate) struct Stored<'a> {
+pub(crate) struct StoredSprings<'a> {
     pub springs: Both<&'a Row>,
     pub tractions: Both<&'a Row>,
-    pub reach: &'a Row,
+    pub shell_pressure: &'a Row,
     pub pressure: &'a Row,
     pub fine: Both<&'a FineRow>,
 }
 
-impl<'a> Stored<'a> {
+impl<'a> StoredSprings<'a> {
     /// From the values behind the header of a state.
     #[inline(always)]
-    pub fn new(values: &'a [f64]) -> Option<Stored<'a>> {
+    pub fn new(values: &'a [f64]) -> Option<StoredSprings<'a>> {
         let (springs_x, rest) = values.split_first_chunk()?;
         let (springs_y, rest) = rest.split_first_chunk()?;
         let (tractions_x, rest) = rest.split_first_chunk()?;
         let (tractions_y, rest) = rest.split_first_chunk()?;
-        let (reach, rest) = rest.split_first_chunk()?;
+        let (shell_pressure, rest) = rest.split_first_chunk()?;
         let (pressure, rest) = rest.split_first_chunk()?;
         let (fine_x, rest) = rest.split_first_chunk()?;
         let fine_y = rest.first_chunk()?;
-        Some(Stored {
+        Some(StoredSprings {
             springs: [springs_x, springs_y],
             tractions: [tractions_x, tractions_y],
-            reach,
+            shell_pressure,
             pressure,
             fine: [fine_x, fine_y],
         })
     }
 
-    pub fn copied(&self) -> Memory {
-        Memory {
+    pub fn copied(&self) -> SpringState {
+        SpringState {
             springs: self.springs.map(|row| *row),
             tractions: self.tractions.map(|row| *row),
-            reach: *self.reach,
+            shell_pressure: *self.shell_pressure,
             pressure: *self.pressure,
             fine: self.fine.map(|row| *row),
         }
     }
 }
+
+/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
+/// proportional.
+pub(super) const LONGEST: f64 = 1e9;

@@ -11,8 +11,7 @@ use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::state;
 use crate::tag::Kind;
-use crate::two_directions::load_path::LONGEST;
-use crate::two_directions::spring_state::{Memory, Stored};
+use crate::two_directions::spring_state::{LONGEST, SpringState, StoredSprings};
 
 const HEADER: usize = 12;
 pub(super) const LENGTH: usize = HEADER + 6 * SPRINGS + 2 * FINE;
@@ -85,11 +84,11 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if let Some(line) = line_of(state) {
         return state::state_check(line);
     }
-    let (header, memory) = read(state);
+    let (header, springs) = read(state);
     let bounded = |x: f64, y: f64| x * x + y * y <= 1.0 + 1e-9;
-    let [x, y] = &memory.tractions;
+    let [x, y] = &springs.tractions;
     let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
-    let positive = memory.reach.iter().chain(&memory.pressure).all(|value| *value >= 0.0);
+    let positive = springs.shell_pressure.iter().chain(&springs.pressure).all(|value| *value >= 0.0);
     let loads = header.load > 0.0 && header.shift > 0.0;
     let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
     if within && positive && loads && held { Ok(()) } else { Err(Error::BadState) }
@@ -120,13 +119,13 @@ impl Header {
 }
 
 /// Header and springs of a state of springs.
-pub(super) fn read(state: &[f64]) -> (Header, Memory) {
-    (read_header(state), stored(state).map_or(Memory::RELAXED, |memory| memory.copied()))
+pub(super) fn read(state: &[f64]) -> (Header, SpringState) {
+    (read_header(state), stored(state).map_or(SpringState::RELAXED, |springs| springs.copied()))
 }
 
 #[inline(always)]
-pub(super) fn stored(state: &[f64]) -> Option<Stored<'_>> {
-    Stored::new(state.get(HEADER..)?)
+pub(super) fn stored(state: &[f64]) -> Option<StoredSprings<'_>> {
+    StoredSprings::new(state.get(HEADER..)?)
 }
 
 #[inline(always)]
@@ -137,7 +136,7 @@ pub(super) fn read_header(state: &[f64]) -> Header {
 }
 
 /// Writes a state of springs.
-pub(super) fn write(state: &mut [f64], header: &Header, memory: &Memory) {
+pub(super) fn write(state: &mut [f64], header: &Header, springs: &SpringState) {
     let Some((place, mut rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
     let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y] } = *header;
     *place = [Kind::TwoDirectionsState.tag(SPRUNG), v, u, input, load, shift, x, y, sum_x, sum_y, 0.0, 0.0];
@@ -147,11 +146,11 @@ pub(super) fn write(state: &mut [f64], header: &Header, memory: &Memory) {
             rest = behind;
         }
     };
-    memory.springs.iter().for_each(|row| put(row));
-    memory.tractions.iter().for_each(|row| put(row));
-    put(&memory.reach);
-    put(&memory.pressure);
-    memory.fine.iter().for_each(|row| put(row));
+    springs.springs.iter().for_each(|row| put(row));
+    springs.tractions.iter().for_each(|row| put(row));
+    put(&springs.shell_pressure);
+    put(&springs.pressure);
+    springs.fine.iter().for_each(|row| put(row));
 }
 
 /// Moves the springs of a state in which nothing slipped.

@@ -6,7 +6,7 @@
 use super::edge::{Edge, Map, Share};
 use super::fine::{self, FineEdge};
 use super::slip::{Problem, Slip, at, product};
-use super::spring_state::Memory;
+use super::spring_state::SpringState;
 use crate::element::springs::{Both, Pressed, Row, SPRINGS, Springs, dot};
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -15,34 +15,34 @@ use crate::simd::dispatch;
 pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// A step, straight in S and in the displacement.
-pub(crate) struct Motion {
+pub(crate) struct Increment {
     pub before: Pressed,
     pub now: Pressed,
     pub by: Both<f64>,
-    /// Whether the load is that of the memory.
+    /// Whether the load is that of the state.
     pub constant_load: bool,
 }
 
 /// What a step leads through.
 #[repr(align(32))]
-pub(crate) struct Course {
+pub(crate) struct StepRecord {
     pub edge: Edge,
     pub fine: FineEdge,
     /// The slip, if there is any.
-    pub slip: Option<Slipped>,
+    pub slip: Option<SlipRecord>,
     /// Sum of the forces of the springs, before Coulomb's bound.
     pub sum: Both<f64>,
 }
 
-impl Course {
+impl StepRecord {
     #[inline(always)]
-    pub fn new() -> Course {
-        Course { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] }
+    pub fn new() -> StepRecord {
+        StepRecord { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] }
     }
 }
 
 /// A step with slip: the springs at its end in units of the roots, tractions there and over the pressure at the start.
-pub(crate) struct Slipped {
+pub(crate) struct SlipRecord {
     pub slip: Slip,
     /// Displacements of the springs of the trial state.
     pub trial: Both<Row>,
@@ -52,10 +52,10 @@ pub(crate) struct Slipped {
     pub overshoot: Row,
 }
 
-impl Slipped {
+impl SlipRecord {
     #[inline(always)]
-    fn new() -> Slipped {
-        Slipped {
+    fn new() -> SlipRecord {
+        SlipRecord {
             slip: Slip::new(),
             trial: [[0.0; SPRINGS]; 2],
             end: [[0.0; SPRINGS]; 2],
@@ -73,38 +73,38 @@ pub(crate) struct Outcome {
     pub dissipated: f64,
 }
 
-/// Advances the memory. Requested are the energy, and what the derivatives of the step need.
+/// Advances the state. Requested are the energy, and what the derivatives of the step need.
 #[inline(always)]
 pub(crate) fn step(
     springs: &Springs,
-    memory: &mut Memory,
-    motion: &Motion,
+    state: &mut SpringState,
+    motion: &Increment,
     requested: [bool; 2],
-    course: &mut Course,
+    record: &mut StepRecord,
 ) -> Outcome {
     dispatch!(
         kernel,
         springs: &Springs,
-        memory: &mut Memory,
-        motion: &Motion,
+        state: &mut SpringState,
+        motion: &Increment,
         requested: [bool; 2],
-        course: &mut Course => Outcome
+        record: &mut StepRecord => Outcome
     )
 }
 
 #[inline(always)]
 fn kernel(
     springs: &Springs,
-    memory: &mut Memory,
-    motion: &Motion,
-    [energy, record]: [bool; 2],
-    course: &mut Course,
+    state: &mut SpringState,
+    motion: &Increment,
+    [energy, factors]: [bool; 2],
+    record: &mut StepRecord,
 ) -> Outcome {
-    let Motion { before, now, by, constant_load } = motion;
-    let edge = Edge::new(springs, now, constant_load.then_some((&memory.reach, &memory.pressure)));
+    let Increment { before, now, by, constant_load } = motion;
+    let edge = Edge::new(springs, now, constant_load.then_some((&state.shell_pressure, &state.pressure)));
     let last = edge.last.min(SPRINGS - 1);
     let share = Share::new(before, now);
-    let old = memory.springs;
+    let old = state.springs;
     let (mut trial, mut limits) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
     for k in 0..2 {
         for j in 0..SPRINGS {
@@ -125,7 +125,7 @@ fn kernel(
         for k in 0..2 {
             let per_step = by[k] / edge.step[k];
             for i in 0..SPRINGS {
-                tractions[k][i] = memory.tractions[k][i] * edge.pressure[i] + edge.reach[i] * per_step;
+                tractions[k][i] = state.tractions[k][i] * edge.pressure[i] + edge.shell_pressure[i] * per_step;
             }
         }
         None
@@ -141,12 +141,12 @@ fn kernel(
     }
     let mut dissipated = 0.0;
     let mut end = trial;
-    course.slip = None;
+    record.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = course.slip.insert(Slipped::new());
+        let slipped = record.slip.insert(SlipRecord::new());
         slipped.trial = trial;
-        slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
+        slide(state, &edge, &map, by, [&trial, &limits, &tractions], factors, slipped);
         for k in 0..2 {
             let mut per_root = springs.per_root[k];
             per_root[last] = 1.0 / edge.root[k];
@@ -178,16 +178,16 @@ fn kernel(
     for i in 0..SPRINGS {
         let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
         let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).max(TINY).sqrt() } else { 0.0 };
-        (memory.tractions[0][i], memory.tractions[1][i]) = (x * scale, y * scale);
+        (state.tractions[0][i], state.tractions[1][i]) = (x * scale, y * scale);
     }
-    memory.springs = end;
-    (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
+    state.springs = end;
+    (state.shell_pressure, state.pressure) = (edge.shell_pressure, edge.pressure);
     let fine = FineEdge::new(springs, now, &edge);
-    let (addition, loss) = fine::step(springs, &fine, &mut memory.fine, before, now, by, *constant_load);
+    let (addition, loss) = fine::step(springs, &fine, &mut state.fine, before, now, by, *constant_load);
     sum = [sum[0] + addition[0], sum[1] + addition[1]];
     let over = (product(&sum, &sum).sqrt() / now.load).max(1.0);
     let force = [sum[0] / over, sum[1] / over];
-    (course.edge, course.fine, course.sum) = (edge, fine, sum);
+    (record.edge, record.fine, record.sum) = (edge, fine, sum);
     Outcome { force, dissipated: (dissipated + loss).max(0.0) }
 }
 
@@ -205,17 +205,17 @@ fn scaled(springs: &Both<Row>, root: &Both<Row>) -> Both<Row> {
 /// The slip from a trial state that exceeds Coulomb's bound: displacements, distances to the present size, tractions.
 #[inline(always)]
 fn slide(
-    memory: &Memory,
+    state: &SpringState,
     edge: &Edge,
     map: &Map,
     by: &Both<f64>,
     [trial, limits, tractions]: [&Both<Row>; 3],
-    record: bool,
-    slipped: &mut Slipped,
+    factors: bool,
+    slipped: &mut SlipRecord,
 ) {
     let last = edge.last;
-    let Slipped { slip, end, tractions: end_tractions, start, overshoot, .. } = slipped;
-    *start = memory.tractions;
+    let SlipRecord { slip, end, tractions: end_tractions, start, overshoot, .. } = slipped;
+    *start = state.tractions;
     for i in (0..SPRINGS).rev() {
         if i > last {
             continue;
@@ -239,7 +239,7 @@ fn slide(
     }
     let trial = scaled(trial, &map.root);
     let problem = Problem { map, trial: &trial, pressure: &edge.pressure, start, overshoot };
-    slip.solve(&problem, record, [end, end_tractions]);
+    slip.solve(&problem, factors, [end, end_tractions]);
     if !slip.converged {
         // Each spring returns to its own limit.
         for k in 0..2 {
@@ -254,8 +254,8 @@ fn slide(
 
 /// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at the end.
 #[inline(always)]
-fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
-    let Slipped { slip, start, .. } = slipped;
+fn pointwise(slipped: &SlipRecord, map: &Map, edge: &Edge) -> f64 {
+    let SlipRecord { slip, start, .. } = slipped;
     let mut energy = 0.0;
     for i in 0..SPRINGS {
         if i > edge.last || !slip.slips[i] {
@@ -281,13 +281,13 @@ fn pointwise(slipped: &Slipped, map: &Map, edge: &Edge) -> f64 {
 }
 
 /// Energy dissipated if the contact opens.
-pub(crate) fn separated(springs: &Springs, memory: &Memory, motion: &Motion) -> f64 {
-    separated_from(springs, &memory.springs, motion, None)
+pub(crate) fn separated(springs: &Springs, state: &SpringState, motion: &Increment) -> f64 {
+    separated_from(springs, &state.springs, motion, None)
 }
 
 /// Energy of the springs beyond the last one, which lose contact in a step: they slip from where they are to nothing.
-fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Motion, last: Option<usize>) -> f64 {
-    let Motion { before, now, by, .. } = motion;
+fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Increment, last: Option<usize>) -> f64 {
+    let Increment { before, now, by, .. } = motion;
     let mut energy = 0.0;
     for j in 0..SPRINGS {
         let stays = last.is_some_and(|last| j <= last);

@@ -1,6 +1,6 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion, which the state keeps as one offset.
 
-use super::spring_state::{Memory, Stored};
+use super::spring_state::{SpringState, StoredSprings};
 use super::step::ROUNDING;
 use crate::element::springs::{Both, FINE, Pressed, SPRINGS, Springs};
 use crate::shape::TINY;
@@ -35,21 +35,21 @@ pub(crate) struct Stuck {
     pub per_shift: Both<f64>,
 }
 
-/// The contact if nothing slips with the offset, from the memory without.
+/// The contact if nothing slips with the offset, from the state without.
 #[inline(always)]
-pub(crate) fn stuck(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
-    dispatch!(kernel, springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64> => Option<Stuck>)
+pub(crate) fn stuck(springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
+    dispatch!(kernel, springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64> => Option<Stuck>)
 }
 
 #[inline(always)]
-fn kernel(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
+fn kernel(springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
     let Edges { last, fine_last, step, fine_step } = Edges::new(springs, now);
     let per_step = [offset[0] / step[0], offset[1] / step[1]];
     let mut slips = false;
     for i in 0..SPRINGS {
-        let p = memory.pressure[i];
-        let x = memory.tractions[0][i] * p + memory.reach[i] * per_step[0];
-        let y = memory.tractions[1][i] * p + memory.reach[i] * per_step[1];
+        let p = state.pressure[i];
+        let x = state.tractions[0][i] * p + state.shell_pressure[i] * per_step[0];
+        let y = state.tractions[1][i] * p + state.shell_pressure[i] * per_step[1];
         slips |= x * x + y * y > p * p * (1.0 + ROUNDING);
     }
     // The fourth powers of large limits overflow.
@@ -57,7 +57,7 @@ fn kernel(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>)
     for j in 0..FINE {
         let inside = j <= fine_last;
         let limit = [0, 1].map(|k| if inside { now.shift[k] - springs.fine_shift[k][j] } else { 1.0 });
-        let value = [0, 1].map(|k| if inside { memory.fine[k][j] + offset[k] } else { 0.0 });
+        let value = [0, 1].map(|k| if inside { state.fine[k][j] + offset[k] } else { 0.0 });
         let lateral = limit[1] * per_shift;
         let (x, y, bound) = (value[0] * lateral, value[1] * per_shift * limit[0], limit[0] * lateral);
         slips |= x * x + y * y > bound * bound;
@@ -72,27 +72,27 @@ fn kernel(springs: &Springs, memory: &Stored, now: &Pressed, offset: &Both<f64>)
         let fine_secant = (now.load - springs.fine_load[fine_last]) / fine_step[k];
         stuck.stiffness[k] = fine_secant;
         // Of the springs at the edge, which change with the load.
-        let coarse = (memory.springs[k][last] - memory.fine[k][coarse]) / step[k];
-        let fine = (memory.fine[k][fine_last] + offset[k]) / fine_step[k];
+        let coarse = (state.springs[k][last] - state.fine[k][coarse]) / step[k];
+        let fine = (state.fine[k][fine_last] + offset[k]) / fine_step[k];
         stuck.per_load[k] = coarse + fine;
         stuck.per_shift[k] = -(coarse * secant + fine * fine_secant);
     }
     Some(stuck)
 }
 
-/// Adds the offset to the memory.
+/// Adds the offset to the state.
 #[inline(always)]
-pub(crate) fn settle(springs: &Springs, memory: &mut Memory, now: &Pressed, offset: &Both<f64>) {
+pub(crate) fn settle(springs: &Springs, state: &mut SpringState, now: &Pressed, offset: &Both<f64>) {
     let Edges { last, fine_last, step, .. } = Edges::new(springs, now);
     for k in 0..2 {
         for i in 0..SPRINGS {
             if i <= last {
-                memory.springs[k][i] += offset[k];
-                memory.tractions[k][i] += memory.reach[i] * offset[k] / step[k] / memory.pressure[i].max(TINY);
+                state.springs[k][i] += offset[k];
+                state.tractions[k][i] += state.shell_pressure[i] * offset[k] / step[k] / state.pressure[i].max(TINY);
             }
         }
         for j in 0..FINE {
-            memory.fine[k][j] += if j <= fine_last { offset[k] } else { 0.0 };
+            state.fine[k][j] += if j <= fine_last { offset[k] } else { 0.0 };
         }
     }
 }

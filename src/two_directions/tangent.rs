@@ -6,13 +6,13 @@
 use super::columns::{add, add_row, row, row_mut, scale};
 use super::edge::{Map, Share};
 use super::slip::{DirectionSlopes, at, product, solve_columns};
-use super::spring_state::Memory;
-use super::step::{Course, Motion, Slipped};
+use super::spring_state::SpringState;
+use super::step::{Increment, SlipRecord, StepRecord};
 use crate::element::springs::{Both, FINE, Row, SPRINGS, Springs};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// Rows of the derivatives of a memory: springs, tractions, fine bank.
+/// Rows of the derivatives of a state: springs, tractions, fine bank.
 const TRACTIONS: usize = 2 * SPRINGS;
 const FINE_ROWS: usize = 4 * SPRINGS;
 pub(crate) const ROWS: usize = FINE_ROWS + 2 * FINE;
@@ -22,7 +22,7 @@ const SINGLE: usize = 3 * SPRINGS;
 pub(crate) const SCRATCH: usize = SINGLE + 1;
 
 /// Derivatives of the motion, a row of columns each: displacements; N, S of both directions and w² at the end; S at the start.
-pub(crate) struct MotionColumns<'a> {
+pub(crate) struct IncrementColumns<'a> {
     pub by: Both<&'a [f64]>,
     pub load: &'a [f64],
     pub shift: Both<&'a [f64]>,
@@ -30,13 +30,13 @@ pub(crate) struct MotionColumns<'a> {
     pub before: Both<&'a [f64]>,
 }
 
-/// A step that was taken.
-pub(crate) struct Taken<'a> {
+/// A step, and what was recorded of it.
+pub(crate) struct RecordedStep<'a> {
     pub springs: &'a Springs,
-    /// The memory at the start and at the end.
-    pub memories: [&'a Memory; 2],
-    pub motion: &'a Motion,
-    pub course: &'a Course,
+    /// The state at the start and at the end.
+    pub memories: [&'a SpringState; 2],
+    pub motion: &'a Increment,
+    pub record: &'a StepRecord,
 }
 
 /// Derivatives of a quantity of direction k by w², S_k and N at the end.
@@ -50,7 +50,7 @@ struct Slopes {
 impl Slopes {
     /// place += factor × the change of the quantity.
     #[inline(always)]
-    fn add(&self, place: &mut [f64], factor: f64, columns: &MotionColumns, k: usize) {
+    fn add(&self, place: &mut [f64], factor: f64, columns: &IncrementColumns, k: usize) {
         if self.size != 0.0 {
             add(place, factor * self.size, columns.size);
         }
@@ -70,9 +70,9 @@ struct EdgeSlopes {
 
 impl EdgeSlopes {
     #[inline(always)]
-    fn new(taken: &Taken, map: &Map) -> EdgeSlopes {
-        let Taken { springs, motion, course, .. } = *taken;
-        let edge = &course.edge;
+    fn new(recorded: &RecordedStep, map: &Map) -> EdgeSlopes {
+        let RecordedStep { springs, motion, record, .. } = *recorded;
+        let edge = &record.edge;
         let last = edge.last.min(SPRINGS - 1);
         let mut slopes = EdgeSlopes {
             pressure: [0.0; SPRINGS],
@@ -103,21 +103,21 @@ impl EdgeSlopes {
     }
 }
 
-/// Replaces the derivatives of the memory at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
+/// Replaces the derivatives of the state at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
 /// the force of both directions.
 #[inline(always)]
 pub(crate) fn step(
-    taken: &Taken,
-    columns: &MotionColumns,
-    memory: &mut [f64],
+    recorded: &RecordedStep,
+    columns: &IncrementColumns,
+    derivatives: &mut [f64],
     scratch: &mut [f64],
     force: Both<&mut [f64]>,
 ) {
     dispatch!(
         kernel,
-        taken: &Taken,
-        columns: &MotionColumns,
-        memory: &mut [f64],
+        recorded: &RecordedStep,
+        columns: &IncrementColumns,
+        derivatives: &mut [f64],
         scratch: &mut [f64],
         force: Both<&mut [f64]> => ()
     );
@@ -125,52 +125,52 @@ pub(crate) fn step(
 
 #[inline(always)]
 fn kernel(
-    taken: &Taken,
-    columns: &MotionColumns,
-    memory: &mut [f64],
+    recorded: &RecordedStep,
+    columns: &IncrementColumns,
+    derivatives: &mut [f64],
     scratch: &mut [f64],
     [force_x, force_y]: Both<&mut [f64]>,
 ) {
-    let Taken { springs, memories: [_, new], motion, course } = *taken;
-    let (n, last) = (columns.load.len(), course.edge.last.min(SPRINGS - 1));
+    let RecordedStep { springs, memories: [_, new], motion, record } = *recorded;
+    let (n, last) = (columns.load.len(), record.edge.last.min(SPRINGS - 1));
     let share = Share::new(&motion.before, &motion.now);
-    let map = Map::new(springs, &course.edge);
-    let edge = EdgeSlopes::new(taken, &map);
-    let slipped = course.slip.as_ref();
+    let map = Map::new(springs, &record.edge);
+    let edge = EdgeSlopes::new(recorded, &map);
+    let slipped = record.slip.as_ref();
     let converged = slipped.filter(|slipped| slipped.slip.converged);
-    trial(taken, &share, columns, memory);
+    trial(recorded, &share, columns, derivatives);
     if let Some(slipped) = converged {
         scratch.get_mut(..n * SCRATCH).unwrap_or(&mut []).fill(0.0);
-        directions(taken, slipped, columns, memory, scratch);
+        directions(recorded, slipped, columns, derivatives, scratch);
     }
     // From v to z = sqrt(w) v.
     let trial = slipped.map_or(&new.springs, |slipped| &slipped.trial);
     for k in 0..2 {
         for j in 0..SPRINGS {
-            scale(row_mut(memory, n, k * SPRINGS + j), map.root[k][j]);
+            scale(row_mut(derivatives, n, k * SPRINGS + j), map.root[k][j]);
         }
-        edge.root[k].add(row_mut(memory, n, k * SPRINGS + last), map.root[k][last] * trial[k][last], columns, k);
+        edge.root[k].add(row_mut(derivatives, n, k * SPRINGS + last), map.root[k][last] * trial[k][last], columns, k);
     }
     if let Some(slipped) = converged {
-        slip(taken, slipped, &map, &edge, columns, memory, scratch);
+        slip(recorded, slipped, &map, &edge, columns, derivatives, scratch);
     } else if let Some(slipped) = slipped {
         for k in 0..2 {
             for j in 0..SPRINGS {
-                scale(row_mut(memory, n, k * SPRINGS + j), 1.0 / (1.0 + slipped.overshoot[j]));
+                scale(row_mut(derivatives, n, k * SPRINGS + j), 1.0 / (1.0 + slipped.overshoot[j]));
             }
         }
     }
-    tractions(taken, converged, &map, &edge, columns, memory, scratch);
+    tractions(recorded, converged, &map, &edge, columns, derivatives, scratch);
     // Back to v, and the force.
     force_x.fill(0.0);
     force_y.fill(0.0);
     for k in 0..2 {
         let sum = if k == 0 { &mut *force_x } else { &mut *force_y };
         let outer = new.springs[k][last];
-        edge.root[k].add(row_mut(memory, n, k * SPRINGS + last), -map.root[k][last] * outer, columns, k);
+        edge.root[k].add(row_mut(derivatives, n, k * SPRINGS + last), -map.root[k][last] * outer, columns, k);
         for j in 0..SPRINGS {
             if j <= last {
-                let (root, place) = (map.root[k][j], row_mut(memory, n, k * SPRINGS + j));
+                let (root, place) = (map.root[k][j], row_mut(derivatives, n, k * SPRINGS + j));
                 scale(place, if root > 0.0 { 1.0 / root.max(TINY) } else { 0.0 });
                 add(sum, root * root, place);
             }
@@ -178,11 +178,11 @@ fn kernel(
         // The stiffness of the last spring.
         edge.root[k].add(sum, 2.0 * map.root[k][last] * map.root[k][last] * outer, columns, k);
     }
-    fine(taken, &share, columns, memory, [&mut *force_x, &mut *force_y]);
+    fine(recorded, &share, columns, derivatives, [&mut *force_x, &mut *force_y]);
     // Coulomb's bound.
-    let size = product(&course.sum, &course.sum).sqrt().max(TINY);
+    let size = product(&record.sum, &record.sum).sqrt().max(TINY);
     if size > motion.now.load {
-        let (ratio, e) = (motion.now.load / size, [course.sum[0] / size, course.sum[1] / size]);
+        let (ratio, e) = (motion.now.load / size, [record.sum[0] / size, record.sum[1] / size]);
         for ((x, y), load) in force_x.iter_mut().zip(force_y.iter_mut()).zip(columns.load) {
             let along = e[0] * *x + e[1] * *y;
             *x = ratio * (*x - e[0] * along) + e[0] * load;
@@ -193,13 +193,13 @@ fn kernel(
 
 /// Trial displacements of the springs.
 #[inline(always)]
-fn trial(taken: &Taken, share: &Share, columns: &MotionColumns, memory: &mut [f64]) {
-    let Taken { springs, motion, course, .. } = *taken;
+fn trial(recorded: &RecordedStep, share: &Share, columns: &IncrementColumns, derivatives: &mut [f64]) {
+    let RecordedStep { springs, motion, record, .. } = *recorded;
     let n = columns.load.len();
     for k in 0..2 {
         for j in 0..SPRINGS {
-            let place = row_mut(memory, n, k * SPRINGS + j);
-            if j > course.edge.last || j >= springs.used {
+            let place = row_mut(derivatives, n, k * SPRINGS + j);
+            if j > record.edge.last || j >= springs.used {
                 place.fill(0.0);
                 continue;
             }
@@ -211,7 +211,7 @@ fn trial(taken: &Taken, share: &Share, columns: &MotionColumns, memory: &mut [f6
 impl Share {
     /// Adds the derivatives of the part of the motion that a spring follows, at the distance S_b - S_j.
     #[inline(always)]
-    fn differentiate(&self, place: &mut [f64], limit: f64, motion: &Motion, columns: &MotionColumns, k: usize) {
+    fn differentiate(&self, place: &mut [f64], limit: f64, motion: &Increment, columns: &IncrementColumns, k: usize) {
         let part = self.of(k, limit);
         add(place, part, columns.by[k]);
         if part < 1.0 {
@@ -224,10 +224,16 @@ impl Share {
 
 /// The change of the directions of slip at fixed angles, by tractions at the start and by overshoots of the trial state: -σ × dn.
 #[inline(always)]
-fn directions(taken: &Taken, slipped: &Slipped, columns: &MotionColumns, memory: &[f64], scratch: &mut [f64]) {
-    let Taken { springs, motion, .. } = *taken;
+fn directions(
+    recorded: &RecordedStep,
+    slipped: &SlipRecord,
+    columns: &IncrementColumns,
+    derivatives: &[f64],
+    scratch: &mut [f64],
+) {
+    let RecordedStep { springs, motion, .. } = *recorded;
     let n = columns.load.len();
-    let Slipped { slip, start, overshoot, trial, .. } = slipped;
+    let SlipRecord { slip, start, overshoot, trial, .. } = slipped;
     for i in 0..SPRINGS {
         if !slip.slips[i] {
             continue;
@@ -238,12 +244,12 @@ fn directions(taken: &Taken, slipped: &Slipped, columns: &MotionColumns, memory:
         let place = row_mut(scratch, n, ANGLES + i);
         let per_over = turned(&direction.by_overshoot) / (1.0 + overshoot[i]);
         for k in 0..2 {
-            add(place, -turned(&direction.by_start[k]), row(memory, n, TRACTIONS + k * SPRINGS + i));
+            add(place, -turned(&direction.by_start[k]), row(derivatives, n, TRACTIONS + k * SPRINGS + i));
             if per_over != 0.0 && overshoot[i] > 0.0 {
                 let limit = (motion.now.shift[k] - springs.shift[k][i]).max(TINY);
                 let ratio = trial[k][i] / limit;
                 let factor = per_over * ratio / limit;
-                add(place, -factor, row(memory, n, k * SPRINGS + i));
+                add(place, -factor, row(derivatives, n, k * SPRINGS + i));
                 add(place, factor * ratio, columns.shift[k]);
             }
         }
@@ -253,29 +259,29 @@ fn directions(taken: &Taken, slipped: &Slipped, columns: &MotionColumns, memory:
 /// Springs and angles, from z* and the change of the directions.
 #[inline(always)]
 fn slip(
-    taken: &Taken,
-    slipped: &Slipped,
+    recorded: &RecordedStep,
+    slipped: &SlipRecord,
     map: &Map,
     edge: &EdgeSlopes,
-    columns: &MotionColumns,
-    memory: &mut [f64],
+    columns: &IncrementColumns,
+    derivatives: &mut [f64],
     scratch: &mut [f64],
 ) {
-    let pressure = &taken.course.edge.pressure;
+    let pressure = &recorded.record.edge.pressure;
     let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
-    let Slipped { slip, start, overshoot, end, .. } = slipped;
+    let SlipRecord { slip, start, overshoot, end, .. } = slipped;
     let slipping = || (0..SPRINGS).filter(|i| slip.slips[*i]);
     for k in 0..2 {
         // z* - dB'σ.
         for i in slipping() {
-            edge.column[k][i].add(row_mut(memory, n, k * SPRINGS + last), -slip.sigma[k][i], columns, k);
+            edge.column[k][i].add(row_mut(derivatives, n, k * SPRINGS + last), -slip.sigma[k][i], columns, k);
         }
         for i in slipping() {
             let entries = map.row(k, i);
             let place = row_mut(scratch, n, k * SPRINGS + i);
             for j in i..SPRINGS {
                 if j <= last {
-                    add(place, entries[j], row(memory, n, k * SPRINGS + j));
+                    add(place, entries[j], row(derivatives, n, k * SPRINGS + j));
                 }
             }
             edge.column[k][i].add(place, end[k][last], columns, k);
@@ -306,7 +312,7 @@ fn slip(
             let entries = map.row(k, i);
             for j in i..SPRINGS {
                 if j <= last {
-                    add(row_mut(memory, n, k * SPRINGS + j), -entries[j], row(scratch, n, SINGLE));
+                    add(row_mut(derivatives, n, k * SPRINGS + j), -entries[j], row(scratch, n, SINGLE));
                 }
             }
         }
@@ -316,38 +322,38 @@ fn slip(
 /// Tractions over the pressure, from z and the angles.
 #[inline(always)]
 fn tractions(
-    taken: &Taken,
-    slipped: Option<&Slipped>,
+    recorded: &RecordedStep,
+    slipped: Option<&SlipRecord>,
     map: &Map,
     edge: &EdgeSlopes,
-    columns: &MotionColumns,
-    memory: &mut [f64],
+    columns: &IncrementColumns,
+    derivatives: &mut [f64],
     scratch: &[f64],
 ) {
-    let Taken { memories: [_, new], course, .. } = *taken;
+    let RecordedStep { memories: [_, new], record, .. } = *recorded;
     let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
     for i in 0..SPRINGS {
         let slides = slipped.filter(|slipped| slipped.slip.slips[i]);
-        let per_pressure = 1.0 / course.edge.pressure[i].max(TINY);
+        let per_pressure = 1.0 / record.edge.pressure[i].max(TINY);
         for k in 0..2 {
             let r = TRACTIONS + k * SPRINGS + i;
-            row_mut(memory, n, r).fill(0.0);
+            row_mut(derivatives, n, r).fill(0.0);
             if i > last {
                 continue;
             }
             if let Some(slipped) = slides {
                 let [x, y] = at(&slipped.slip.e, i);
-                add(row_mut(memory, n, r), if k == 0 { -y } else { x }, row(scratch, n, ANGLES + i));
+                add(row_mut(derivatives, n, r), if k == 0 { -y } else { x }, row(scratch, n, ANGLES + i));
                 continue;
             }
             let entries = map.row(k, i);
             for j in i..SPRINGS {
                 if j <= last {
-                    add_row(memory, n, r, entries[j] * per_pressure, k * SPRINGS + j);
+                    add_row(derivatives, n, r, entries[j] * per_pressure, k * SPRINGS + j);
                 }
             }
             let outer = new.springs[k][last] * map.root[k][last];
-            let place = row_mut(memory, n, r);
+            let place = row_mut(derivatives, n, r);
             edge.column[k][i].add(place, outer * per_pressure, columns, k);
             add(place, -new.tractions[k][i] * edge.pressure[i] * per_pressure, columns.size);
         }
@@ -357,16 +363,16 @@ fn tractions(
 /// The same for the fine bank.
 #[inline(always)]
 fn fine(
-    taken: &Taken,
+    recorded: &RecordedStep,
     share: &Share,
-    columns: &MotionColumns,
-    memory: &mut [f64],
+    columns: &IncrementColumns,
+    derivatives: &mut [f64],
     [force_x, force_y]: Both<&mut [f64]>,
 ) {
-    let Taken { springs, memories: [old, new], motion, course } = *taken;
+    let RecordedStep { springs, memories: [old, new], motion, record } = *recorded;
     let n = columns.load.len();
-    let Course { edge, fine, .. } = course;
-    let rows = memory.get_mut(FINE_ROWS * n..).unwrap_or(&mut []);
+    let StepRecord { edge, fine, .. } = record;
+    let rows = derivatives.get_mut(FINE_ROWS * n..).unwrap_or(&mut []);
     let (rows_x, rows_y) = rows.split_at_mut((FINE * n).min(rows.len()));
     for j in 0..FINE {
         let (x, y) = (row_mut(rows_x, n, j), row_mut(rows_y, n, j));

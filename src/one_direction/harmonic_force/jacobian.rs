@@ -419,7 +419,7 @@ impl<const N: usize> Gathering<'_, N> {
         if made == Made::BY_STICKING {
             self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
         } else {
-            let closing = closing(samples, element.by_approach(), sample);
+            let closing = closing(samples, element, sample);
             self.add(before, &difference, closing.before);
             self.add(sample, &difference, closing.after);
         }

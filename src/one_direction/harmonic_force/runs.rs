@@ -247,7 +247,7 @@ impl PeriodicPath<'_> {
                 } else {
                     if was_open {
                         stack.depth = 0;
-                        stack.push(Knot::centre(closing(samples, element.by_approach(), next).displacement));
+                        stack.push(Knot::centre(closing(samples, element, next).displacement));
                         was_open = false;
                     }
                     if !stack.pop(x, y) {
@@ -355,15 +355,15 @@ pub(super) struct Closing {
     pub after: [f64; 2],
 }
 
-pub(super) fn closing(samples: &Samples, by_approach: bool, sample: usize) -> Closing {
+pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Closing {
     let before = samples.before(sample);
     let [u0, u1] = [before, sample].map(|sample| at(samples.displacement, sample));
-    if !by_approach {
+    if !element.by_approach() {
         return Closing { displacement: u0, before: [1.0, 0.0], after: [0.0, 0.0] };
     }
     let [w0, w1] = [before, sample].map(|sample| at(samples.input, sample));
     // w0 <= 0 < w1.
-    let (fraction, rest) = (-w0 / (w1 - w0), w1 / (w1 - w0));
+    let (fraction, rest) = (element.crossing(w0, w1), w1 / (w1 - w0));
     let slope = (u1 - u0) / (w1 - w0);
     Closing {
         displacement: u0 + fraction * (u1 - u0),

@@ -147,9 +147,9 @@ impl Samples<'_> {
             .zip(self.eta.as_chunks_mut::<4>().0);
         for ((((displacement, shift), input), xi), eta) in blocks {
             for k in 0..4 {
-                let reach = mu * shift[k];
-                xi[k] = displacement[k] - reach;
-                eta[k] = displacement[k] + reach;
+                let limit = mu * shift[k];
+                xi[k] = displacement[k] - limit;
+                eta[k] = displacement[k] + limit;
                 largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
                 smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
                 least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };

@@ -1,0 +1,117 @@
+//! Imports only go down: each module of `src/` uses those that the table of `docs/architecture.md` allows, which stand above it there,
+//! and no files of a module import each other in a circle. Test modules are not read.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// Files by the path of their module, without their test modules.
+fn sources(folder: &Path, module: &str, files: &mut BTreeMap<String, String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let name = if module.is_empty() { name.to_owned() } else { format!("{module}::{name}") };
+        if path.is_dir() {
+            sources(&path, &name, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.insert(name, fs::read_to_string(&path).unwrap());
+        }
+    }
+}
+
+/// The text of a file up to its test module, and the names of test modules in files of their own.
+fn without_tests(text: &str) -> (String, Vec<String>) {
+    let (mut kept, mut test_files) = (String::new(), Vec::new());
+    let mut lines = text.lines().peekable();
+    while let Some(line) = lines.next() {
+        if line.trim() != "#[cfg(test)]" {
+            kept += line.split("//").next().unwrap();
+            kept.push('\n');
+            continue;
+        }
+        let item = lines.next().unwrap();
+        let indent = &item[..item.len() - item.trim_start().len()];
+        if let Some(name) = item.trim().strip_suffix(';').and_then(|item| item.split_whitespace().last()) {
+            test_files.push(name.to_owned());
+        } else if item.ends_with('{') {
+            while lines.next_if(|line| *line != format!("{indent}}}")).is_some() {}
+            lines.next();
+        }
+    }
+    (kept, test_files)
+}
+
+/// Paths that start at `crate` or `super`, as paths from the crate: each name in braces is a path of its own.
+fn paths(module: &str, text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (start, _) in text.match_indices("crate::").chain(text.match_indices("super::")) {
+        if text[..start].ends_with("::") || text[..start].ends_with('$') {
+            continue;
+        }
+        let path: String = text[start..].chars().take_while(|c| c.is_alphanumeric() || "_:".contains(*c)).collect();
+        let names = text[start + path.len()..].strip_prefix('{').map_or("", |rest| rest.split(';').next().unwrap());
+        let supers = path.matches("super::").count();
+        let parents: Vec<_> = module.split("::").collect();
+        let base =
+            if supers > 0 { parents[..parents.len() - supers.min(parents.len())].join("::") } else { String::new() };
+        let path = path.replace("crate::", "").replace("super::", "");
+        for name in names.split(|c: char| !c.is_alphanumeric() && c != '_').chain([""]) {
+            found.push([base.as_str(), path.trim_end_matches(':'), name].join("::"));
+        }
+    }
+    found
+}
+
+/// The file that a path leads to.
+fn file_of<'f>(path: &str, files: &'f BTreeMap<String, String>) -> Option<&'f String> {
+    let names: Vec<_> = path.split("::").filter(|name| !name.is_empty()).collect();
+    (1..=names.len()).rev().find_map(|n| files.get_key_value(&names[..n].join("::")).map(|(name, _)| name))
+}
+
+#[test]
+fn imports_only_go_down() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = BTreeMap::new();
+    sources(&root.join("src"), "", &mut files);
+    for module in files.keys().cloned().collect::<Vec<_>>() {
+        let Some(text) = files.get(&module) else { continue };
+        let (kept, test_files) = without_tests(text);
+        for name in test_files {
+            files.remove(&format!("{module}::{name}"));
+        }
+        files.insert(module, kept);
+    }
+    files.remove("lib");
+    let mut imports: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (module, text) in &files {
+        let used = paths(module, text).into_iter().filter_map(|path| file_of(&path, &files));
+        imports.insert(module, used.map(String::as_str).filter(|used| used != module).collect());
+    }
+    // The table: rows `| module | may use |` of module names in backticks.
+    let document = fs::read_to_string(root.join("docs/architecture.md")).unwrap();
+    let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    let mut allowed: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let table = document.lines().skip_while(|line| !line.starts_with("| module | may use |")).skip(2);
+    for row in table.take_while(|line| line.starts_with('|')) {
+        let cells: Vec<_> = row.split('|').collect();
+        for module in names(cells[1]) {
+            let uses = names(cells[2]);
+            assert!(uses.iter().all(|used| allowed.contains_key(used)), "{module} uses modules below it in the table");
+            allowed.insert(module, uses);
+        }
+    }
+    let top = |module: &str| module.split("::").next().unwrap().to_owned();
+    for (module, used) in &imports {
+        let row = allowed.get(&top(module)).unwrap_or_else(|| panic!("{module} is not in the table"));
+        for used in used {
+            assert!(top(used) == top(module) || row.contains(&top(used)), "{module} imports {used}");
+        }
+    }
+    assert!(imports.values().map(BTreeSet::len).sum::<usize>() > 200, "the imports were not found");
+    // No circles: files without imports that are left, one after the other.
+    while let Some(leaf) = imports.iter().find(|(_, used)| used.is_empty()).map(|(module, _)| *module) {
+        imports.remove(leaf);
+        imports.values_mut().for_each(|used| used.retain(|name| *name != leaf));
+    }
+    assert!(imports.is_empty(), "imports in a circle: {:?}", imports.keys());
+}
