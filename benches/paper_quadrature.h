@@ -2,7 +2,7 @@
 #ifndef PAPER_QUADRATURE_H
 #define PAPER_QUADRATURE_H
 
-#include <microslip.h>
+#include "../c_tests/outputs.h"
 
 #define PI 3.14159265358979323846
 

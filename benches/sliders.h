@@ -4,7 +4,7 @@
 #ifndef SLIDERS_H
 #define SLIDERS_H
 
-#include <microslip.h>
+#include "../c_tests/outputs.h"
 
 /* Parallel sliders; the arrays are padded to whole lanes with sliders without stiffness. */
 enum { LANES = 8 };

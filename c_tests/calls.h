@@ -6,7 +6,7 @@
 #include "check.h"
 
 #include <float.h>
-#include <microslip.h>
+#include "outputs.h"
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // The header in C++17: vectors as buffers; threads that share contacts compute the bits of one thread.
 #include "check.h"
 
-#include <microslip.h>
+#include "outputs.h"
 
 #include <cmath>
 #include <cstring>

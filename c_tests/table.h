@@ -4,7 +4,7 @@
 
 #include "check.h"
 
-#include <microslip.h>
+#include "outputs.h"
 #include <stdlib.h>
 
 enum { MAX_COLUMNS = 40 };

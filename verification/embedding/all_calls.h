@@ -2,7 +2,7 @@
 #ifndef ALL_CALLS_H
 #define ALL_CALLS_H
 
-#include <microslip.h>
+#include "../../c_tests/outputs.h"
 
 #ifdef __cplusplus
 extern "C" {

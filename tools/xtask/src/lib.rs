@@ -15,6 +15,7 @@ const MODULE: &str = "include/microslip.f90";
 const PYTHON: &str = "python/microslip/_core.py";
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const CALLS_OF_C: &str = "c_tests/functions.h";
+const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
 const INCLUDE_GUARD: &str = "MICROSLIP_H";
 
 /// The directory of the library's package.
@@ -43,16 +44,17 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 5], String> {
+fn generated() -> Result<[(&'static str, String); 6], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
     let declared = interface::Header::new(&header)?;
     let prototypes = declared.prototypes()?;
     let functions = interface::functions(&prototypes)?;
-    let calls = [(CALLS_OF_RUST, tables::rust(&functions)), (CALLS_OF_C, tables::c(&functions))];
-    let [rust, c] = calls;
-    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c])
+    let rust = (CALLS_OF_RUST, tables::rust(&functions));
+    let c = (CALLS_OF_C, tables::c(&functions));
+    let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
+    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c, outputs])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.
