@@ -212,11 +212,14 @@ impl Memory {
                 let before = values.clone();
                 change(values);
                 let header = values.first_chunk().expect("a header");
-                if microslip::constant_load::harmonic_force::workspace_extent(header).is_ok_and(|extent| extent > values.len()) {
+                if microslip::constant_load::harmonic_force::workspace_extent(header)
+                    .is_ok_and(|extent| extent > values.len())
+                {
                     *values = before;
                 } else {
                     *valid = false;
-                    *coefficients = microslip::constant_load::harmonic_force::workspace_size(header).map_or(1, |(h, ..)| 2 * h + 1);
+                    *coefficients =
+                        microslip::constant_load::harmonic_force::workspace_size(header).map_or(1, |(h, ..)| 2 * h + 1);
                 }
             }
         }

@@ -6,9 +6,9 @@
 
 use crate::drive::displacement_at;
 use crate::table::Table;
-use microslip::parameters::RIGID_STRIP;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction as state;
+use microslip::parameters::RIGID_STRIP;
 use microslip::{Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;
