@@ -29,7 +29,7 @@ module microslip
   !! named `_advance`.
   !!
   !! **Threads.** Any thread may call any procedure on its own data. Contacts, elements and tables may be shared; each thread
-  !! needs a workspace of its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with
+  !! needs a workspace of its own. `docs/cluster.md` states the stack of a call (`OMP_STACKSIZE`). Do not compile the module with
   !! options that make local variables static (gfortran: `-fno-automatic`) if several threads call it.
   !!
   !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument

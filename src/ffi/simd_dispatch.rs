@@ -16,7 +16,12 @@ macro_rules! dispatch_simd {
                 return unsafe { on_avx2($($argument),+) };
             }
         }
-        $function($($argument),+)
+        // A function of its own, so that the variant for AVX2 does not run above its frame.
+        #[inline(never)]
+        fn on_baseline($($argument: $type),+) -> $result {
+            $function($($argument),+)
+        }
+        on_baseline($($argument),+)
     }};
 }
 

@@ -146,11 +146,11 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if let Some(line) = line_of(state) {
         return state::state_check(line);
     }
-    let (header, memory) = read(state);
+    let (header, Some(memory)) = (read_header(state), stored(state)) else { return Err(Error::StateTooShort) };
     let bounded = |x: f64, y: f64| x * x + y * y <= 1.0 + 1e-9;
-    let [x, y] = &memory.tractions;
+    let [x, y] = memory.tractions;
     let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
-    let positive = memory.reach.iter().chain(&memory.pressure).all(|value| *value >= 0.0);
+    let positive = memory.reach.iter().chain(memory.pressure).all(|value| *value >= 0.0);
     let loads = header.load > 0.0 && header.shift > 0.0;
     let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
     if within && positive && loads && held { Ok(()) } else { Err(Error::BadState) }
@@ -189,11 +189,6 @@ impl Header {
     /// Without springs.
     const NONE: Header =
         Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0, offset: [0.0; 2], sum: [0.0; 2] };
-}
-
-/// Header and memory of a state of springs.
-fn read(state: &[f64]) -> (Header, Memory) {
-    (read_header(state), stored(state).map_or(Memory::RELAXED, |memory| memory.copied()))
 }
 
 #[inline(always)]
@@ -247,42 +242,48 @@ pub(crate) fn advance_checked(
 ) -> Step {
     let Some(state) = state.first_chunk_mut::<LENGTH>() else { return Step::NONE };
     let closes = element.is_closed(input);
-    let (from, mut memory) = match line_of(state.as_slice()) {
+    // In one place for all cases: it is large.
+    let mut memory;
+    let from = match line_of(state.as_slice()) {
         Some(line) => {
             let (old_v, there) = (state[1], state::view(line));
+            let from = header_of(&there, old_v);
             // Without friction, or open before and after, only the position changes.
             let free = element.friction_coefficient == 0.0 || (there.load == 0.0 && !closes);
-            if old_v == v || free {
-                let lateral = requested.tangent && !free && closes;
-                let start = lateral.then(|| {
-                    let header = header_of(&there, old_v);
-                    let memory = of_diagram(element, &header, there.knots);
-                    (header, memory)
-                });
+            if old_v != v && !free {
+                memory = Memory::RELAXED;
+                fill_from_diagram(&mut memory, element, &from, there.knots);
+                from
+            } else {
+                // Of the third component, the diagram has no stiffness: that of the springs.
+                let mut yy = 0.0;
+                if requested.tangent && !free && closes {
+                    memory = Memory::RELAXED;
+                    fill_from_diagram(&mut memory, element, &from, there.knots);
+                    let requested = Requested { energy: false, ..requested };
+                    yy = advance_springs(element, &from, &mut memory, [u, v, input], requested).0.tangent[4];
+                }
                 let Some((header, line)) = state.split_first_chunk_mut::<LINE>() else { return Step::NONE };
                 header[1] = v;
                 let step = state::advance_checked(element, line, [u, input], requested.energy);
                 let ([x, normal], [xx, _, xw, ww]) = (step.force, step.tangent);
-                // Of the third component, the diagram has no stiffness: that of the springs.
-                let yy = start.map_or(0.0, |(header, mut memory)| {
-                    let requested = Requested { tangent: true, energy: false, ..requested };
-                    advance_springs(element, &header, &mut memory, [u, v, input], requested).0.tangent[4]
-                });
                 return Step {
                     force: [x, 0.0, normal],
                     tangent: [xx, 0.0, 0.0, 0.0, yy, 0.0, xw, 0.0, ww],
                     dissipated: step.dissipated,
                 };
             }
-            let header = header_of(&there, old_v);
-            (header, of_diagram(element, &header, there.knots))
         }
         None => {
             if let Some((step, offset)) = stick(element, state, [u, v, input], requested) {
                 (state[1], state[2], state[6], state[7]) = (v, u, offset[0], offset[1]);
                 return step;
             }
-            read(state)
+            memory = Memory::RELAXED;
+            if let Some(stored) = stored(state) {
+                stored.copy_to(&mut memory);
+            }
+            read_header(state)
         }
     };
     let (step, header) = advance_springs(element, &from, &mut memory, [u, v, input], requested);
@@ -346,11 +347,10 @@ fn header_of(view: &state::View, v: f64) -> Header {
     }
 }
 
-/// The springs of a diagram: their displacements are those of the sizes from theirs on.
-fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory {
-    let mut memory = Memory::RELAXED;
+/// Writes the springs of a diagram to a relaxed memory: their displacements are those of the sizes from theirs on.
+fn fill_from_diagram(memory: &mut Memory, element: &Element, header: &Header, knots: &[[f64; 4]]) {
     if header.load <= 0.0 {
-        return memory;
+        return;
     }
     let springs = &element.springs;
     let (unit, now) = (element.shift_unit(), element.pressed(header.load, header.shift));
@@ -398,7 +398,6 @@ fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> Memory 
         }
     }
     (memory.reach, memory.pressure) = (edge.reach, edge.pressure);
-    memory
 }
 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is proportional.
@@ -501,11 +500,10 @@ fn advance_springs(
     let old = requested.tangent.then_some(*memory);
     let mut course = Course::new();
     let mut step = passage.advance(element, memory, requested, &mut course);
-    if let Some(old) = old
+    if let Some(old) = &old
         && passage.closed
     {
-        let old = if passage.was_closed { old } else { Memory::RELAXED };
-        tangent(element, &passage, [&old, memory], &course, requested.kernel, &mut step.tangent);
+        tangent(element, &passage, [old, memory], &course, requested.kernel, &mut step.tangent);
     }
     (step, Header { sum: course.sum, ..passage.to })
 }

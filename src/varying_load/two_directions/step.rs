@@ -70,17 +70,15 @@ pub(crate) struct Slipped {
 }
 
 impl Slipped {
-    #[inline(always)]
-    fn new() -> Slipped {
-        Slipped {
-            slip: Slip::new(),
-            trial: [[0.0; SPRINGS]; 2],
-            end: [[0.0; SPRINGS]; 2],
-            tractions: [[0.0; SPRINGS]; 2],
-            start: [[0.0; SPRINGS]; 2],
-            overshoot: [0.0; SPRINGS],
-        }
-    }
+    /// Copied to its place, not through the stack.
+    const NONE: Slipped = Slipped {
+        slip: Slip::NONE,
+        trial: [[0.0; SPRINGS]; 2],
+        end: [[0.0; SPRINGS]; 2],
+        tractions: [[0.0; SPRINGS]; 2],
+        start: [[0.0; SPRINGS]; 2],
+        overshoot: [0.0; SPRINGS],
+    };
 }
 
 /// Force and dissipated energy.
@@ -142,7 +140,7 @@ pub(crate) fn step(
     course.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = course.slip.insert(Slipped::new());
+        let slipped = course.slip.insert(Slipped::NONE);
         slipped.trial = trial;
         slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {

@@ -65,14 +65,12 @@ impl<'a> Stored<'a> {
         })
     }
 
-    pub fn copied(&self) -> Memory {
-        Memory {
-            springs: self.springs.map(|row| *row),
-            tractions: self.tractions.map(|row| *row),
-            reach: *self.reach,
-            pressure: *self.pressure,
-            fine: self.fine.map(|row| *row),
+    pub fn copy_to(&self, memory: &mut Memory) {
+        for k in 0..2 {
+            (memory.springs[k], memory.tractions[k]) = (*self.springs[k], *self.tractions[k]);
+            memory.fine[k] = *self.fine[k];
         }
+        (memory.reach, memory.pressure) = (*self.reach, *self.pressure);
     }
 }
 
