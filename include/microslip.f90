@@ -29,7 +29,7 @@ module microslip
   !! named `_advance`.
   !!
   !! **Threads.** Any thread may call any procedure on its own data. Contacts, elements and tables may be shared; each thread
-  !! needs a workspace of its own. A call takes at most 16 kB of stack (`OMP_STACKSIZE`). Do not compile the module with
+  !! needs a workspace of its own. `docs/cluster.md` states the stack of a call (`OMP_STACKSIZE`). Do not compile the module with
   !! options that make local variables static (gfortran: `-fno-automatic`) if several threads call it.
   !!
   !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument
@@ -1701,6 +1701,10 @@ contains
     !! less accurate. directions is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w],
     !! a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the normal approach [m], or
     !! MSLIP_NORMAL_FORCE, w is the normal force [N].
+    !!
+    !! In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80.
+    !! With two directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a
+    !! contact too wide for its length.
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input

@@ -65,7 +65,7 @@ pub struct Element {
     largest_load: f64,
     largest_approach: f64,
     pub(crate) largest_shift: f64,
-    /// The contact counts as open up to this input, [`SMALLEST_LOAD`] of that of the tables.
+    /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.
     smallest_input: f64,
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
     shift_per_approach: f64,
@@ -94,6 +94,14 @@ const TWO_DIRECTIONS: u64 = 4;
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
+
+/// 2^-80: the same with two directions. There the shell at the edge of a flat, at 1e-8 of the size of the parameters, is 1e8 times as stiff
+/// as the others, and derivatives lose the digits of its square.
+const SMALLEST_OF_SPRINGS: f64 = f64::from_bits((1023 - 80) << 52);
+
+/// 2^100: the largest approach with two directions, relative to that of the parameters. With the same law for loads, 2^150, squares do
+/// not overflow in the units of the springs.
+const MOST_APPROACH: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -224,7 +232,12 @@ impl Element {
         }
         self.largest_load = shape.load(largest);
         (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
-        self.smallest_input = SMALLEST_LOAD * if input == NormalInput::Force { normal_force } else { approach };
+        if directions == Directions::Two {
+            self.largest_load = self.largest_load.min(normal_force / SMALLEST_LOAD);
+            self.largest_approach = self.largest_approach.min(approach * MOST_APPROACH);
+        }
+        let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
+        self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
         self.normal_force = normal_force;

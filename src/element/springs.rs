@@ -38,8 +38,9 @@ const SMALLEST_FLAT: f64 = 1e-9;
 pub(crate) const LEAST_STIFFNESS: f64 = 1e-12;
 /// Nodes closer to the present size than this part of it do not count as inside: their shell would be lost in rounding.
 const THINNEST: f64 = 1e-9;
-/// A shift that no contact reaches.
-const NEVER: f64 = f64::MAX;
+/// A shift that no contact reaches: the largest node is at four times the size of the parameters, and its shift at most at 4³ times
+/// theirs. Its products with the largest other values remain finite.
+const NEVER: f64 = 1e30;
 
 /// Values of both directions, one after the other.
 pub(crate) type Both<T> = [T; 2];
@@ -123,7 +124,7 @@ impl Springs {
                 last = j;
             }
         }
-        last.min(SPRINGS - 1)
+        last.min(self.used.max(1) - 1).min(SPRINGS - 1)
     }
 
     /// The node of the fine bank at that of the law.

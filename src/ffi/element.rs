@@ -58,6 +58,10 @@ unsafe fn initialise<P>(
 /// is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
 /// normal_input is MSLIP_APPROACH, w is the normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
 ///
+/// In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
+/// directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
+/// length.
+///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 ///

@@ -90,7 +90,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         let rate = rate(sign).min(0.0);
         // Fraction until a distance is covered, if that is within a step.
         let to = |distance: f64, rate: f64| {
-            if rate < 0.0 && distance > rate { (distance / rate).max(0.0) } else { f64::INFINITY }
+            if rate < 0.0 && distance > rate { (distance.min(0.0) / rate).max(0.0) } else { f64::INFINITY }
         };
         let to_piece_end = to(lowest - inner, rate);
         let to_overtaking = to(inner - outer, contact_rate - rate);

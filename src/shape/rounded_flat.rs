@@ -129,7 +129,7 @@ impl RoundedFlat {
 
     /// `ln(2L/s) + constant`.
     fn log_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
-        (2.0 * self.length / punch.half_width.max(TINY)).ln() + constant
+        (2.0 * self.length / punch.half_width.max(TINY * self.length).max(TINY)).ln() + constant
     }
 
     /// `g (K + β)`.

@@ -3,12 +3,12 @@
 use crate::element::Element;
 use crate::element::springs::Both;
 use crate::one_direction::state;
-use crate::two_directions::from_diagram::{header_of, of_diagram};
+use crate::two_directions::from_diagram::{fill_from_diagram, header_of};
 use crate::two_directions::load_path::advance_springs;
 use crate::two_directions::slip::product;
-use crate::two_directions::spring_state::LONGEST;
+use crate::two_directions::spring_state::{LONGEST, SpringState};
 use crate::two_directions::state::{
-    LENGTH, copy_used, line_mut, line_of, move_springs, read, read_header, state_init, stored, write,
+    LENGTH, copy_used, line_mut, line_of, move_springs, read_header, state_init, stored, write,
 };
 use crate::two_directions::stick::{self, Stuck};
 use crate::two_directions::{Requested, Step};
@@ -27,32 +27,40 @@ pub(super) fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requ
 
 /// A step in place, with a state and a displacement that were checked.
 pub(super) fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3], requested: Requested) -> Step {
-    let (from, mut springs) = if let Some(line) = line_of(state) {
+    // In one place for all cases: it is large.
+    let mut springs;
+    let from = if let Some(line) = line_of(state) {
         let (v, there) = (state.get(1).copied().unwrap_or(0.0), state::view(line));
         // Without friction, or open before and after, only the position changes.
+        let from = header_of(&there, v);
         let closes = element.is_closed(displacement[2]);
         let free = element.friction_coefficient == 0.0 || (there.load == 0.0 && !closes);
         if v == displacement[1] || free {
             // Of the third component, the diagram has no stiffness: that of the springs.
             let lateral = if requested.tangent && !free && closes {
-                let header = header_of(&there, v);
-                let mut springs = of_diagram(element, &header, there.knots);
+                springs = SpringState::RELAXED;
+                fill_from_diagram(&mut springs, element, &from, there.knots);
                 let requested = Requested { tangent: true, energy: false };
-                advance_springs(element, &header, &mut springs, displacement, requested).0.tangent[4]
+                advance_springs(element, &from, &mut springs, displacement, requested).0.tangent[4]
             } else {
                 0.0
             };
             return advance_on_line(element, state, displacement, requested, lateral);
         }
-        let header = header_of(&there, v);
-        (header, of_diagram(element, &header, there.knots))
+        springs = SpringState::RELAXED;
+        fill_from_diagram(&mut springs, element, &from, there.knots);
+        from
     } else {
         if let Some((step, offset)) = without_slip(element, state, displacement, requested) {
             let [u, v, _] = displacement;
             move_springs(state, [u, v], offset);
             return step;
         }
-        read(state)
+        springs = SpringState::RELAXED;
+        if let Some(stored) = stored(state) {
+            stored.copy_to(&mut springs);
+        }
+        read_header(state)
     };
     let (step, to) = advance_springs(element, &from, &mut springs, displacement, requested);
     if to.load > 0.0 {

@@ -18,11 +18,10 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
     }
 }
 
-/// The springs of a diagram: their displacements are those of the sizes from theirs on.
-pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]]) -> SpringState {
-    let mut state = SpringState::RELAXED;
+/// Writes the springs of a diagram to a relaxed state: their displacements are those of the sizes from theirs on.
+pub(super) fn fill_from_diagram(state: &mut SpringState, element: &Element, header: &Header, knots: &[[f64; 4]]) {
     if header.load <= 0.0 {
-        return state;
+        return;
     }
     let springs = &element.springs;
     let (unit, now) = (element.shift_unit(), element.pressed(header.load, header.shift));
@@ -70,5 +69,4 @@ pub(super) fn of_diagram(element: &Element, header: &Header, knots: &[[f64; 4]])
         }
     }
     (state.shell_pressure, state.pressure) = (edge.shell_pressure, edge.pressure);
-    state
 }

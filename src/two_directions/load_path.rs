@@ -111,11 +111,10 @@ pub(super) fn advance_springs(
     let old = requested.tangent.then_some(*state);
     let mut record = StepRecord::new();
     let mut step = path.advance(element, state, requested, &mut record);
-    if let Some(old) = old
+    if let Some(old) = &old
         && path.closed
     {
-        let old = if path.was_closed { old } else { SpringState::RELAXED };
-        tangent(element, &path, [&old, state], &record, &mut step.tangent);
+        tangent(element, &path, [old, state], &record, &mut step.tangent);
     }
     (step, Header { sum: record.sum, ..path.to })
 }

@@ -143,18 +143,15 @@ pub(crate) struct Slip {
 
 impl Slip {
     /// No point slips.
-    #[inline(always)]
-    pub fn new() -> Slip {
-        Slip {
-            first: SPRINGS,
-            slips: [false; SPRINGS],
-            e: [[0.0; SPRINGS]; 2],
-            sigma: [[0.0; SPRINGS]; 2],
-            inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
-            factors: [[0.0; SPRINGS]; SPRINGS],
-            converged: false,
-        }
-    }
+    pub const NONE: Slip = Slip {
+        first: SPRINGS,
+        slips: [false; SPRINGS],
+        e: [[0.0; SPRINGS]; 2],
+        sigma: [[0.0; SPRINGS]; 2],
+        inverse: [[[0.0; SPRINGS]; SPRINGS]; 2],
+        factors: [[0.0; SPRINGS]; SPRINGS],
+        converged: false,
+    };
 
     /// Slip at a point, with the traction in a direction.
     #[inline(always)]
@@ -206,7 +203,8 @@ impl Slip {
                     // Further points within add to the sums; otherwise these begin anew.
                     let grows = known.is_some_and(|known| known > self.first) && self.all_slip(last);
                     if !grows {
-                        (self.inverse, constant) = ([[[0.0; SPRINGS]; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
+                        self.inverse.as_flattened_mut().fill([0.0; SPRINGS]);
+                        constant = [[0.0; SPRINGS]; 2];
                     }
                     self.invert(problem, known.filter(|_| grows).unwrap_or(SPRINGS), &mut constant);
                     (turn, before, tried, reviewed) = (PI, PI, 0, false);
@@ -357,13 +355,13 @@ impl Slip {
 }
 
 /// LU factors without pivoting, in place; the reciprocals of the pivots on the diagonal. The matrix is a positive definite one and small
-/// changes.
+/// changes. An angle whose pivot is lost in rounding does not turn.
 #[inline(always)]
 fn factorise(matrix: &mut Matrix, first: usize, last: usize) {
     let end = last.min(SPRINGS - 1) + 1;
     for p in first..end {
         let pivot = matrix[p][p];
-        let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
+        let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { 1.0 / TINY };
         let mut row = matrix[p];
         for j in 0..SPRINGS {
             row[j] = if j > p { row[j] } else { 0.0 };

@@ -55,14 +55,12 @@ impl<'a> StoredSprings<'a> {
         })
     }
 
-    pub fn copied(&self) -> SpringState {
-        SpringState {
-            springs: self.springs.map(|row| *row),
-            tractions: self.tractions.map(|row| *row),
-            shell_pressure: *self.shell_pressure,
-            pressure: *self.pressure,
-            fine: self.fine.map(|row| *row),
+    pub fn copy_to(&self, state: &mut SpringState) {
+        for k in 0..2 {
+            (state.springs[k], state.tractions[k]) = (*self.springs[k], *self.tractions[k]);
+            state.fine[k] = *self.fine[k];
         }
+        (state.shell_pressure, state.pressure) = (*self.shell_pressure, *self.pressure);
     }
 }
 

@@ -84,11 +84,11 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if let Some(line) = line_of(state) {
         return state::state_check(line);
     }
-    let (header, springs) = read(state);
+    let (header, Some(springs)) = (read_header(state), stored(state)) else { return Err(Error::StateTooShort) };
     let bounded = |x: f64, y: f64| x * x + y * y <= 1.0 + 1e-9;
-    let [x, y] = &springs.tractions;
+    let [x, y] = springs.tractions;
     let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
-    let positive = springs.shell_pressure.iter().chain(&springs.pressure).all(|value| *value >= 0.0);
+    let positive = springs.shell_pressure.iter().chain(springs.pressure).all(|value| *value >= 0.0);
     let loads = header.load > 0.0 && header.shift > 0.0;
     let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
     if within && positive && loads && held { Ok(()) } else { Err(Error::BadState) }
@@ -116,11 +116,6 @@ impl Header {
     /// Without springs.
     pub const NONE: Header =
         Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0, offset: [0.0; 2], sum: [0.0; 2] };
-}
-
-/// Header and springs of a state of springs.
-pub(super) fn read(state: &[f64]) -> (Header, SpringState) {
-    (read_header(state), stored(state).map_or(SpringState::RELAXED, |springs| springs.copied()))
 }
 
 #[inline(always)]

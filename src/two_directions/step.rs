@@ -53,17 +53,15 @@ pub(crate) struct SlipRecord {
 }
 
 impl SlipRecord {
-    #[inline(always)]
-    fn new() -> SlipRecord {
-        SlipRecord {
-            slip: Slip::new(),
-            trial: [[0.0; SPRINGS]; 2],
-            end: [[0.0; SPRINGS]; 2],
-            tractions: [[0.0; SPRINGS]; 2],
-            start: [[0.0; SPRINGS]; 2],
-            overshoot: [0.0; SPRINGS],
-        }
-    }
+    /// Copied to its place, not through the stack.
+    const NONE: SlipRecord = SlipRecord {
+        slip: Slip::NONE,
+        trial: [[0.0; SPRINGS]; 2],
+        end: [[0.0; SPRINGS]; 2],
+        tractions: [[0.0; SPRINGS]; 2],
+        start: [[0.0; SPRINGS]; 2],
+        overshoot: [0.0; SPRINGS],
+    };
 }
 
 /// Force and dissipated energy.
@@ -144,7 +142,7 @@ fn kernel(
     record.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = record.slip.insert(SlipRecord::new());
+        let slipped = record.slip.insert(SlipRecord::NONE);
         slipped.trial = trial;
         slide(state, &edge, &map, by, [&trial, &limits, &tractions], factors, slipped);
         for k in 0..2 {

@@ -1,0 +1,364 @@
+/* Random contacts, elements and motions from the whole range that is allowed, in the four rounding modes: no call raises an exception
+   that may be trapped, every state that results passes its check, and no call takes more stack than docs/cluster.md states.
+
+   extremes [FIRST [DRAWS]]: the number of a draw is its seed. */
+#include "calls.h"
+
+#include <pthread.h>
+
+/* --- Random numbers --- */
+
+static uint64_t seed;
+
+static uint64_t bits(void)
+{
+    uint64_t z = (seed += 0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+static double uniform(double low, double high)
+{
+    return low + (high - low) * (double)(bits() >> 11) * 0x1p-53;
+}
+
+static double log_uniform(double low, double high)
+{
+    return exp(uniform(log(low), log(high)));
+}
+
+/* One in n. */
+static int one_in(int n)
+{
+    return bits() % (uint64_t)n == 0;
+}
+
+static double sign(void)
+{
+    return one_in(2) ? -1.0 : 1.0;
+}
+
+/* --- Calls --- */
+
+static uint64_t draw;
+static int is_warm; /* the linker has resolved the functions of the C library, for which it takes stack of its own */
+static int rounding;
+static const int roundings[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
+
+/* The thread's stack, of which a part below the caller is filled with a pattern, and the deepest use by the number of directions. */
+enum { STACK = 1 << 20, FILLED = 96 * 1024, OWN_FRAME = 1024 };
+static const uint64_t pattern = 0xa5a5a5a5a5a5a5a5;
+static uint64_t *stack;
+static size_t deepest[3];
+static const char *deepest_name[3];
+
+static void failed(const char *name, const char *what)
+{
+    if (!CHECK(0)) {
+        printf("    draw %llu, rounding %d, %s: %s\n", (unsigned long long)draw, rounding, name, what);
+    }
+}
+
+/* The words of the stack below this frame. */
+static size_t words_below(void)
+{
+    const volatile char here = 0;
+    return ((uintptr_t)&here - (uintptr_t)stack - OWN_FRAME) / sizeof *stack;
+}
+
+static int32_t status;
+/* One past the words that are filled. */
+static size_t end;
+
+static void before_call(void)
+{
+    end = words_below();
+    for (size_t i = end - FILLED / sizeof *stack; i < end; ++i) {
+        stack[i] = pattern;
+    }
+    fesetround(roundings[rounding]);
+    feclearexcept(FE_ALL_EXCEPT);
+}
+
+static int32_t after_call(const char *name, int32_t directions)
+{
+    const int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    fesetround(FE_TONEAREST);
+    size_t i = end - FILLED / sizeof *stack;
+    while (i < end && stack[i] == pattern) {
+        ++i;
+    }
+    const size_t depth = (end - i) * sizeof *stack + OWN_FRAME;
+    if (is_warm && depth > deepest[directions]) {
+        deepest[directions] = depth;
+        deepest_name[directions] = name;
+    }
+    if (flags != 0) {
+        failed(name, flags & FE_OVERFLOW ? "overflow" : flags & FE_INVALID ? "invalid operation" : "division by zero");
+    }
+    return status;
+}
+
+/* A call with contacts, 0 directions, or elements. */
+#define MAKE(name, directions, call) (before_call(), status = (call), after_call(name, directions))
+
+/* --- Contacts and elements --- */
+
+static mslip_parameters line;
+static mslip_elliptic_parameters ellipse;
+static int is_elliptic;
+static mslip_contact contact;
+static int has_contact, has_element[VARIANTS];
+static mslip_element elements[VARIANTS];
+/* The largest approach and the largest normal force. */
+static double largest[2];
+
+static void draw_materials(mslip_material *material)
+{
+    for (int i = 0; i < 2; ++i) {
+        material[i].young_modulus = one_in(4) ? log_uniform(1e-20, 1e30) : log_uniform(1e9, 1e12);
+        material[i].poisson_ratio = one_in(4) ? 0.0 : one_in(4) ? 0.5 : uniform(0.0, 0.5);
+    }
+}
+
+/* The length near the shortest one that is allowed with this force per length. */
+static void shorten(int32_t directions)
+{
+    const double load = line.normal_force / line.length;
+    double low = 1e-9 * line.length, high = line.length;
+    for (int i = 0; i < 60; ++i) {
+        line.length = sqrt(low) * sqrt(high);
+        line.normal_force = load * line.length;
+        const int is_long = directions == 0 ? mslip_contact_init(&line, &contact) == MSLIP_OK
+                                            : mslip_element_init(&line, directions, MSLIP_APPROACH, elements) == MSLIP_OK;
+        *(is_long ? &high : &low) = line.length;
+    }
+    line.length = high * (1.0 + (one_in(2) ? uniform(0.0, 4.0) : log_uniform(1e-16, 1.0)));
+    line.normal_force = load * line.length;
+}
+
+static void draw_parameters(void)
+{
+    /* Around usual values. */
+    const double span = one_in(4) ? 1e60 : one_in(2) ? 1e6 : 10.0;
+    const double normal_force = 100.0 * log_uniform(1.0 / span, span);
+    const double friction = one_in(16) ? 0.0 : one_in(4) ? log_uniform(1e-20, 1e20) : uniform(0.01, 2.0);
+    is_elliptic = one_in(3);
+    mslip_parameters_default(&line);
+    mslip_elliptic_parameters_default(&ellipse);
+    line.edge_radius = 0.02 * log_uniform(1.0 / span, span);
+    line.flat_half_width = one_in(3) ? 0.0 : line.edge_radius * (one_in(2) ? uniform(0.0, 0.2) : log_uniform(1e-20, 1e3));
+    line.length = 0.02 * log_uniform(1.0 / span, span);
+    line.normal_force = ellipse.normal_force = one_in(32) ? 0.0 : normal_force;
+    line.friction_coefficient = ellipse.friction_coefficient = friction;
+    line.displacement_reference = one_in(2) ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
+    ellipse.semi_axis_x = 1e-3 * log_uniform(1.0 / span, span);
+    ellipse.semi_axis_y = one_in(4) ? ellipse.semi_axis_x : ellipse.semi_axis_x * log_uniform(1e-3, 1e3);
+    draw_materials(line.material);
+    draw_materials(ellipse.material);
+    rounding = one_in(2) ? 0 : (int)(bits() % LENGTH(roundings));
+    if (!is_elliptic && line.normal_force > 0.0 && one_in(2)) {
+        shorten((int32_t)(bits() % 3));
+    }
+}
+
+/* The largest approach or force that is allowed, at least `from`. */
+static double largest_normal(const mslip_element *element, double from, int by_force)
+{
+    double low = from, high = 1e150;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = sqrt(low) * sqrt(high);
+        const int is_allowed = (by_force ? MAKE("mslip_normal_approach", 1, mslip_normal_approach(element, 1, &middle, NULL, NULL, NULL))
+                                         : MAKE("mslip_normal_force", 1, mslip_normal_force(element, 1, &middle, NULL, NULL, NULL)))
+                               == MSLIP_OK;
+        *(is_allowed ? &low : &high) = middle;
+    }
+    return low;
+}
+
+static void init_laws(void)
+{
+    has_contact = MAKE("mslip_contact_init", 0, is_elliptic ? mslip_contact_init_elliptic(&ellipse, &contact)
+                                                            : mslip_contact_init(&line, &contact)) == MSLIP_OK;
+    for (int i = 0; i < VARIANTS; ++i) {
+        const int32_t directions = directions_of(i), input = normal_input_of(i);
+        has_element[i] = MAKE("mslip_element_init", directions,
+                              is_elliptic ? mslip_element_init_elliptic(&ellipse, directions, input, &elements[i])
+                                          : mslip_element_init(&line, directions, input, &elements[i])) == MSLIP_OK;
+    }
+    for (int by_force = 0; by_force < 2 && has_element[by_force]; ++by_force) {
+        const mslip_element *element = &elements[by_force];
+        largest[by_force] = largest_normal(element, by_force ? element->normal_force : element->approach, by_force);
+    }
+}
+
+/* --- Motions --- */
+
+/* A share of 1: usual, or of any magnitude. */
+static double share(void)
+{
+    return one_in(8) ? 0.0 : one_in(8) ? 1.0 : one_in(2) ? uniform(0.0, 1.0) : log_uniform(1e-300, 1.0);
+}
+
+/* A normal motion from the least to the largest; an approach may be negative. */
+static double normal_motion(const mslip_element *element, int by_force)
+{
+    const double whole = by_force ? element->normal_force : element->approach;
+    const double beyond = one_in(4) ? largest[by_force] : whole * pow(largest[by_force] / whole, uniform(0.0, 1.0));
+    return one_in(8) ? beyond : whole * (!by_force && one_in(6) ? -share() : share());
+}
+
+static double value_of(const function *f, const mslip_element *element, size_t i)
+{
+    const int kind = f->inputs > 0 && f->kind != NONE ? kind_of_input(f, i) : f->scalar;
+    const double slip = element == NULL ? contact.slip_displacement
+                                        : element->friction_coefficient * element->normal_force / element->tangential_stiffness;
+    const double far = one_in(16) ? log_uniform(1.0, 1e100) : uniform(0.0, 3.0);
+    switch (kind) {
+        case POSITION: return sign() * 1.1 * share() * (element == NULL ? contact.half_width : element->half_width);
+        case FORCE: return sign() * share() * contact.slip_force;
+        case FORCE_AMPLITUDE: return share() * contact.slip_force;
+        case DISPLACEMENT: return fmax(-1e150, fmin(sign() * share() * far * slip, 1e150));
+        case AMPLITUDE: return fmin(share() * far * slip, 1e150);
+        case APPROACH:
+        case NORMAL_FORCE: return normal_motion(element, kind == NORMAL_FORCE);
+        case APPROACH_COEFFICIENT:
+        case FORCE_COEFFICIENT: {
+            const double whole = kind == FORCE_COEFFICIENT ? element->normal_force : element->approach;
+            return whole * (i % COEFFICIENTS == 0 ? share() : sign() * uniform(0.0, 0.4) * share());
+        }
+        default: return 0.0;
+    }
+}
+
+static size_t accepted_calls[FUNCTIONS];
+
+/* A history of calls; each continues from the states of the one before. */
+static void make_calls(int which)
+{
+    const function *f = &functions[which];
+    const int is_element = (f->takes & IS_ELEMENT) != 0, has_scalar = f->scalar != NONE;
+    const mslip_element *element = is_element ? &elements[f->rule] : NULL;
+    const size_t items = items_of(f), m = components_of(f);
+    const int32_t directions = is_element ? directions_for(f) : 0;
+    if (is_element ? !has_element[f->rule] : !has_contact) {
+        return;
+    }
+    set_up(f);
+    for (size_t i = 0; i < items; ++i) {
+        memcpy(law_at(f, i), is_element ? (const void *)element : (const void *)&contact, law_size(f));
+        if (f->takes & TAKES_STATE) {
+            double *state = STATES + i * STATE;
+            CHECK((is_element ? mslip_element_state_init(directions, STATE, state) : mslip_state_init(STATE, state)) == MSLIP_OK);
+        }
+    }
+    if (f->takes & TAKES_TABLE) {
+        MAKE("mslip_stiffness_table_init", 0, mslip_stiffness_table_init(&contact, mslip_stiffness_table_length(), call.table));
+    }
+    for (int repeated = 0; repeated < (f->takes & TAKES_STATE ? 8 : 2); ++repeated) {
+        /* Often the normal component, or all of a displacement, is that before. */
+        for (size_t i = 0; i < f->inputs; ++i) {
+            const int stays = is_element && f->kind == DISPLACEMENT && !(f->takes & TAKES_WORKSPACE) && (i >= m || repeated > 0)
+                              && one_in(i % m == m - 1 ? 2 : 5);
+            INPUT[i] = !stays ? value_of(f, element, i) : i >= m ? INPUT[i - m] : INPUT[f->inputs - m + i];
+        }
+        call.scalar = has_scalar ? value_of(&(function){ .scalar = f->scalar }, element, 0) : 0.0;
+        for (int i = 0; i < OUTPUTS; ++i) {
+            call.out[i] = f->out[i] > 0 && !one_in(6) ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
+        }
+        accepted_calls[which] += MAKE(f->name, directions, f->call()) == MSLIP_OK;
+        if (status != MSLIP_OK || !(f->takes & TAKES_STATE) || call.out[0] == NULL) {
+            continue;
+        }
+        memcpy(STATES, call.out[0], f->out[0] * sizeof(double));
+        for (size_t i = 0; i < items; ++i) {
+            const double *state = STATES + i * STATE;
+            if (MAKE("state_check", directions, is_element ? mslip_element_state_check(directions, STATE, state)
+                                                           : mslip_state_check(STATE, state)) != MSLIP_OK) {
+                failed(f->name, "its state is rejected");
+            }
+        }
+    }
+}
+
+/* The normal component up to which a contact is open in a step. */
+static void check_smallest(void)
+{
+    for (int variant = 0; variant < VARIANTS; ++variant) {
+        const mslip_element *element = element_of(CYLINDER, variant);
+        const int32_t directions = directions_of(variant);
+        const double whole = normal_input_of(variant) == MSLIP_APPROACH ? element->approach : element->normal_force;
+        const double smallest = whole * (directions == 1 ? 0x1p-150 : 0x1p-80), inputs[] = { smallest, smallest * (1.0 + 1e-15) };
+        for (int closed = 0; closed < 2; ++closed) {
+            double state[STATE], force[COMPONENTS], displacement[COMPONENTS] = { 0.0, inputs[closed], inputs[closed] };
+            displacement[1] = directions == 1 ? inputs[closed] : 0.0;
+            CHECK(mslip_element_state_init(directions, STATE, state) == MSLIP_OK);
+            CHECK(mslip_element_update(element, STATE, state, displacement, NULL, force, NULL, NULL) == MSLIP_OK);
+            CHECK((force[directions] > 0.0) == closed);
+        }
+    }
+}
+
+/* The figures of docs/cluster.md: no call exceeds them, half of them is used, and a thread's stack has room for two calls. */
+static void check_stack(void)
+{
+    FILE *document = fopen("docs/cluster.md", "r");
+    char text[256];
+    unsigned stated[3] = { 0, 0, 0 }, thread = 0;
+    while (document != NULL && fgets(text, sizeof text, document) != NULL && thread == 0) {
+        sscanf(text, "- **Stack**: at most %u kB per call, %u kB with two directions; `OMP_STACKSIZE=%uk`", &stated[1], &stated[2],
+               &thread);
+    }
+    if (CHECK(document != NULL)) {
+        fclose(document);
+    }
+    stated[0] = stated[1];
+    for (int i = 0; i < 3; ++i) {
+        printf("stack: %zu of %u kB by %s\n", deepest[i], stated[i], deepest_name[i]);
+        CHECK(deepest[i] <= 1024 * (size_t)stated[i]);
+    }
+    CHECK(deepest[2] >= 512 * (size_t)stated[2] && thread >= 2 * stated[2]);
+}
+
+static uint64_t first_draw = 1, draws = 1000;
+
+static void *run(void *unused)
+{
+    for (uint64_t i = 0; i < draws; ++i) {
+        seed = draw = first_draw + i;
+        draw_parameters();
+        init_laws();
+        for (int which = 0; which < FUNCTIONS; ++which) {
+            make_calls(which);
+        }
+        CHECK(1);
+        is_warm = i >= 20;
+    }
+    return unused;
+}
+
+int main(int argc, char **argv)
+{
+    /* Traps stay disabled, so that a failure names its draw. */
+    const int next = argc > 1 && strcmp(argv[1], "--trap") == 0 ? 2 : 1;
+    first_draw = argc > next ? strtoull(argv[next], NULL, 10) : first_draw;
+    draws = argc > next + 1 ? strtoull(argv[next + 1], NULL, 10) : draws;
+    make_regions();
+    pthread_attr_t attributes;
+    pthread_t thread;
+    stack = (uint64_t *)mmap(NULL, STACK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (stack == MAP_FAILED || pthread_attr_init(&attributes) != 0 || pthread_attr_setstack(&attributes, stack, STACK) != 0
+        || pthread_create(&thread, &attributes, run, NULL) != 0 || pthread_join(thread, NULL) != 0) {
+        perror("thread");
+        return 2;
+    }
+    if (argc <= next) {
+        for (int i = 0; i < FUNCTIONS; ++i) {
+            CHECK(accepted_calls[i] > draws / 2);
+        }
+        check_smallest();
+        check_stack();
+    }
+    return check_report();
+}
