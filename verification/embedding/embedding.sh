@@ -8,7 +8,6 @@
 #   sanitizers  AddressSanitizer in application and library
 #   valgrind    the installed archive: accesses outside of arrays, uninitialised values
 #   threads     the same results with 1 to 8 threads; races by ThreadSanitizer and helgrind
-#   stack       stack depth of each call
 # shellcheck disable=SC2086  # flags are lists
 set -eu
 
@@ -225,19 +224,11 @@ build_for_threads() {
         -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive $system -lrt
 }
 
-# --- stack ---
-
-stack() {
-    check 'stack: application' build stack $CC -std=c99 $strict -O1 $calls $here/stack.c "$archive" -lm -lpthread
-    check 'stack: at most 16 kB for each call' "$work/stack"
-    sed 's/^/    /' "$work/log"
-}
-
 check 'an application in C99' first_application "$archive" -lm
-[ $# -gt 0 ] || set -- arithmetic compilers links sanitizers valgrind threads stack
+[ $# -gt 0 ] || set -- arithmetic compilers links sanitizers valgrind threads
 for group; do
     case $group in
-        arithmetic | compilers | links | sanitizers | threads | stack) "$group" ;;
+        arithmetic | compilers | links | sanitizers | threads) "$group" ;;
         valgrind) valgrind_checks ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac
