@@ -1,16 +1,15 @@
 //! The C interface: converts pointers to slices, calls the other modules, and writes the requested outputs.
 //!
-//! The only module with unsafe code. All functions check every input before they write: a rejected call leaves all outputs unchanged.
+//! All functions check every input before they write: a rejected call leaves all outputs unchanged. Unsafe code
+//! is here, for the pointers of the caller, and once in `simd`.
 
 #![allow(unsafe_code, non_camel_case_types)]
 
 mod pointers;
 
-mod contact;
-mod history;
+mod constant_load;
 
-mod cycle;
-mod hbm;
+mod harmonic_force;
 
 mod element;
 
@@ -18,11 +17,11 @@ mod batch;
 
 pub use crate::error::constants::*;
 pub use batch::*;
-pub use contact::*;
-pub use cycle::*;
+pub use constant_load::contact::*;
+pub use constant_load::cycle::*;
+pub use constant_load::history::*;
 pub use element::*;
-pub use hbm::*;
-pub use history::*;
+pub use harmonic_force::*;
 
 use crate::constant_load::contact::Contact;
 use crate::element::Element;

@@ -1,8 +1,9 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
-use super::cycle::write_complex_stiffness;
+use super::constant_load::cycle::write_complex_stiffness;
+use super::constant_load::history;
 use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status, with_law};
-use super::{element, history, mslip_contact, mslip_element};
+use super::{element, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};

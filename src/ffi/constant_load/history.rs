@@ -1,14 +1,16 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
-use super::MSLIP_OK;
 use super::contact::check_positions;
-use super::mslip_contact;
-use super::pointers::{self, check_alignment, input, memory, output, outputs, requested, set, state_input, status};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing::{self, PathOutput, Step, with_step};
 use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::error::Error;
+use crate::ffi::MSLIP_OK;
+use crate::ffi::mslip_contact;
+use crate::ffi::pointers::{
+    self, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
+};
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -106,7 +108,7 @@ pub unsafe extern "C" fn mslip_masing_update(
 /// `state_old` is valid; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the outputs are NULL, or aligned
 /// and valid for one double.
 #[inline(always)]
-pub(super) unsafe fn update(
+pub(in crate::ffi) unsafe fn update(
     contact: &Contact,
     state_old: *const [f64],
     displacement: f64,

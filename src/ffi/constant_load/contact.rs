@@ -1,9 +1,9 @@
 //! One contact: initialisation, tractions, slip, monotonic curve.
 
-use super::mslip_contact;
-use super::pointers::{self, check_alignment, input, item, output, outputs, set, status};
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::ffi::mslip_contact;
+use crate::ffi::pointers::{self, check_alignment, input, item, output, outputs, set, status};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn mslip_tractions(
     status(compute())
 }
 
-pub(super) fn check_positions(x: &[f64]) -> Result<(), Error> {
+pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
     if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
 }
 

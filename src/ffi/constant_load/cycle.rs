@@ -1,12 +1,12 @@
 //! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
-use super::mslip_contact;
-use super::pointers::{self, input, output, outputs, set, status};
 use crate::constant_load::complex_stiffness::{NODES_OF_TABLE, check_amplitude};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
+use crate::ffi::mslip_contact;
+use crate::ffi::pointers::{self, input, output, outputs, set, status};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -190,7 +190,7 @@ fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: Stiffnes
 }
 
 /// Writes the requested outputs of `mslip_complex_stiffness`, in its order.
-pub(super) fn write_complex_stiffness(
+pub(in crate::ffi) fn write_complex_stiffness(
     contact: &Contact,
     amplitude: f64,
     i: usize,
