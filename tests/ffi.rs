@@ -199,7 +199,7 @@ fn lengths() {
                     rejected_at(argument.status, &[0, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
                 Kind::Size => {
-                    rejected_at(argument.status, &[0, 2 * HARMONICS, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1])
+                    rejected_at(argument.status, &[0, 2 * HARMONICS, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
                 _ => {}
             }
@@ -467,51 +467,43 @@ fn paths() {
     };
     for (update, path) in [("mslip_masing_update", "mslip_masing_path"), ("mslip_element_update", "mslip_element_path")]
     {
-        for law in Law::all(call(update)) {
-            let of_element = call(update).is_of_element();
-            let m = if of_element { law.components() } else { 1 };
-            let mut steps = Vec::new();
-            let mut states: Vec<f64> = call_state(update, &law);
-            let mut expected = [vec![], vec![], vec![]];
+        let (update, path) = (call(update), call(path));
+        let place = |call: &Call, kind| call.place(kind).expect("an argument");
+        for law in Law::all(update) {
+            let of_element = update.is_of_element();
+            let start: Vec<f64> = law.state(update).values().to_vec();
+            let (mut steps, mut state) = (Vec::new(), start.clone());
+            let mut expected = vec![vec![]; places(update, Output).count()];
             for step in PATH {
                 let step = motion(&law, of_element, step);
-                let mut arguments = Arguments::new(call(update), &law, Before::Uninitialised);
-                let scalar = Slot::Value(step[0]);
-                arguments.set(2, Memory::of(&states));
-                arguments.set(4, Memory::of(&states));
+                let mut arguments = Arguments::new(update, &law, Before::Uninitialised);
+                [State, NewState].into_iter().for_each(|kind| arguments.set(place(update, kind), Memory::of(&state)));
                 if of_element {
-                    arguments.set(3, Memory::of(&step))
+                    arguments.set(place(update, Input), Memory::of(&step));
                 } else {
-                    arguments.slots[3] = scalar
+                    arguments.slots[place(update, Value)] = Slot::Value(step[0]);
                 }
-                assert_eq!((call(update).function)(&arguments.slots), MSLIP_OK);
-                expected.iter_mut().zip(results(call(update), &arguments)).for_each(|(all, one)| all.extend(one));
-                states = arguments.memory(4).values().to_vec();
+                assert_eq!((update.function)(&arguments.slots), MSLIP_OK);
+                expected.iter_mut().zip(results(update, &arguments)).for_each(|(all, one)| all.extend(one));
+                state = arguments.memory(place(update, NewState)).values().to_vec();
                 steps.extend(step);
             }
-            let mut arguments = Arguments::new(call(path), &law, Before::Uninitialised);
-            let state: Vec<f64> = call_state(update, &law);
-            arguments.set(2, Memory::of(&state));
-            arguments.slots[3] = Slot::Size(PATH.len());
-            arguments.set(4, Memory::of(&steps));
-            arguments.set(5, Memory::of(&state));
-            let per_step = if of_element { [m, m * m, 1] } else { [1; 3] };
-            per_step
-                .iter()
-                .zip(6..)
-                .for_each(|(share, place)| arguments.set(place, Memory::new::<f64>(share * PATH.len())));
-            assert_eq!((call(path).function)(&arguments.slots), MSLIP_OK);
-            assert_eq!(results(call(path), &arguments), expected);
-            assert_eq!(arguments.memory(5).values::<f64>()[1..3], states[1..3]);
-            arguments.omit(5);
-            assert_eq!((call(path).function)(&arguments.slots), MSLIP_OK);
+            let mut arguments = Arguments::new(path, &law, Before::Uninitialised);
+            [State, NewState].into_iter().for_each(|kind| arguments.set(place(path, kind), Memory::of(&start)));
+            arguments.slots[place(path, Count)] = Slot::Size(PATH.len());
+            arguments.set(place(path, Input), Memory::of(&steps));
+            for output in places(path, Output) {
+                let share = law.length(path.arguments[output].extents, of_element) / N;
+                arguments.set(output, Memory::new::<f64>(share * PATH.len()));
+            }
+            assert_eq!((path.function)(&arguments.slots), MSLIP_OK);
+            assert_eq!(results(path, &arguments), expected);
+            let new = place(path, NewState);
+            assert_eq!(arguments.memory(new).values::<f64>()[1..3], state[1..3]);
+            arguments.omit(new);
+            assert_eq!((path.function)(&arguments.slots), MSLIP_OK);
         }
     }
-}
-
-/// The shortest state.
-fn call_state(name: &str, law: &Law) -> Vec<f64> {
-    law.state(call(name)).values().to_vec()
 }
 
 /// Slip with springs, with all outputs.

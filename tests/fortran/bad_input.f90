@@ -12,9 +12,8 @@ program bad_input
   integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4, pieces = 4
   integer(mslip_int), parameter :: one = 1
   integer(c_int64_t), parameter :: signalling(2) = [int(z'7FF0000000000001', c_int64_t), int(z'7FF4000000000000', c_int64_t)]
-  integer(mslip_int), parameter :: none = MSLIP_OK, position = MSLIP_BAD_POSITION, force = MSLIP_BAD_FORCE, &
-    amplitude = MSLIP_BAD_AMPLITUDE, force_amplitude = MSLIP_BAD_FORCE_AMPLITUDE, shift = MSLIP_BAD_DISPLACEMENT, &
-    load = MSLIP_BAD_NORMAL_FORCE
+  integer(mslip_int), parameter :: none = MSLIP_OK, force = MSLIP_BAD_FORCE, amplitude = MSLIP_BAD_AMPLITUDE, &
+    force_amplitude = MSLIP_BAD_FORCE_AMPLITUDE, shift = MSLIP_BAD_DISPLACEMENT
 
   type :: procedure_info
     character(len=32) :: name
@@ -24,47 +23,49 @@ program bad_input
     logical :: batch = .false., element = .false.
   end type procedure_info
 
+  ! <generated: procedures>
   type(procedure_info), parameter :: procedures(40) = [ &
-    procedure_info('tractions', force, position, 'vv'), &
-    procedure_info('slip', force, position, 'vv'), &
-    procedure_info('monotonic_displacement', none, force, 'vvv'), &
-    procedure_info('monotonic_displacement, one', force, none, 'sss'), &
-    procedure_info('monotonic_force', none, shift, 'vvv'), &
-    procedure_info('monotonic_force, one', shift, none, 'sss'), &
-    procedure_info('masing_update', shift, none, 'sss N', 's'), &
-    procedure_info('masing_advance', shift, none, 'sss', 's'), &
-    procedure_info('masing_path', none, shift, 'vvv N', 's'), &
-    procedure_info('masing_path_advance', none, shift, 'vvv', 's'), &
-    procedure_info('masing_tractions', none, position, 'vv', 's'), &
-    procedure_info('hysteresis_loop', amplitude, none, 'VV'), &
-    procedure_info('dissipated_energy', none, force_amplitude, 'V'), &
-    procedure_info('dissipated_energy, one', force_amplitude, none, 'S'), &
-    procedure_info('complex_stiffness', none, amplitude, 'vvvv'), &
-    procedure_info('complex_stiffness, one', amplitude, none, 'ssss'), &
-    procedure_info('harmonic_force', none, shift, 'cjs', 'w'), &
-    procedure_info('jenkins_equivalent', amplitude, none, 'SS'), &
-    procedure_info('iwan_equivalent', none, none, 'VVs'), &
-    procedure_info('batch_complex_stiffness', none, amplitude, 'vvvv', batch=.true.), &
-    procedure_info('batch_masing_update', none, shift, 'vvv B', 's', .true.), &
-    procedure_info('batch_masing_advance', none, shift, 'vvv', 's', .true.), &
-    procedure_info('batch_harmonic_force', none, shift, 'fkv', 'w', .true.), &
-    procedure_info('element_update', none, shift, 'pts N', 's', element=.true.), &
-    procedure_info('element_advance', none, shift, 'pts', 's', element=.true.), &
-    procedure_info('element_path', none, shift, 'abv N', 's', element=.true.), &
-    procedure_info('element_path_advance', none, shift, 'abv', 's', element=.true.), &
-    procedure_info('element_tractions', none, position, 'vv', 's', element=.true.), &
-    procedure_info('normal_force_at', none, shift, 'vvv', element=.true.), &
-    procedure_info('normal_force_at, one', shift, none, 'sss', element=.true.), &
-    procedure_info('normal_approach', none, load, 'vvv', element=.true.), &
-    procedure_info('normal_approach, one', load, none, 'sss', element=.true.), &
-    procedure_info('element_harmonic_force', none, shift, 'des', 'w', element=.true.), &
-    procedure_info('batch_element_update', none, shift, 'abv B', 's', .true., .true.), &
-    procedure_info('batch_element_advance', none, shift, 'abv', 's', .true., .true.), &
-    procedure_info('batch_element_harmonic_force', none, shift, 'ghv', 'w', .true., .true.), &
-    procedure_info('monotonic_sensitivity', none, shift, 'vq'), &
-    procedure_info('harmonic_sensitivity', none, shift, 'cr', 'w'), &
-    procedure_info('complex_stiffness_tabulated', none, amplitude, 'vvvv', 't'), &
-    procedure_info('complex_stiffness_tabulated, one', amplitude, none, 'ssss', 't')]
+    procedure_info('tractions', MSLIP_BAD_FORCE, MSLIP_BAD_POSITION, 'vv', ' '), &
+    procedure_info('slip', MSLIP_BAD_FORCE, MSLIP_BAD_POSITION, 'vv', ' '), &
+    procedure_info('monotonic_displacement', none, MSLIP_BAD_FORCE, 'vvv', ' '), &
+    procedure_info('monotonic_displacement, one', MSLIP_BAD_FORCE, none, 'sss', ' '), &
+    procedure_info('monotonic_force', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' '), &
+    procedure_info('monotonic_force, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' '), &
+    procedure_info('monotonic_sensitivity', none, MSLIP_BAD_DISPLACEMENT, 'vq', ' '), &
+    procedure_info('masing_update', MSLIP_BAD_DISPLACEMENT, none, 'sss N', 's'), &
+    procedure_info('masing_advance', MSLIP_BAD_DISPLACEMENT, none, 'sss', 's'), &
+    procedure_info('masing_path', none, MSLIP_BAD_DISPLACEMENT, 'vvv N', 's'), &
+    procedure_info('masing_path_advance', none, MSLIP_BAD_DISPLACEMENT, 'vvv', 's'), &
+    procedure_info('masing_tractions', none, MSLIP_BAD_POSITION, 'vv', 's'), &
+    procedure_info('hysteresis_loop', MSLIP_BAD_AMPLITUDE, none, 'VV', ' '), &
+    procedure_info('dissipated_energy', none, MSLIP_BAD_FORCE_AMPLITUDE, 'V', ' '), &
+    procedure_info('dissipated_energy, one', MSLIP_BAD_FORCE_AMPLITUDE, none, 'S', ' '), &
+    procedure_info('complex_stiffness', none, MSLIP_BAD_AMPLITUDE, 'vvvv', ' '), &
+    procedure_info('complex_stiffness, one', MSLIP_BAD_AMPLITUDE, none, 'ssss', ' '), &
+    procedure_info('complex_stiffness_tabulated', none, MSLIP_BAD_AMPLITUDE, 'vvvv', 't'), &
+    procedure_info('complex_stiffness_tabulated, one', MSLIP_BAD_AMPLITUDE, none, 'ssss', 't'), &
+    procedure_info('jenkins_equivalent', MSLIP_BAD_AMPLITUDE, none, 'SS', ' '), &
+    procedure_info('iwan_equivalent', none, none, 'VVs', ' '), &
+    procedure_info('harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'cjs', 'w'), &
+    procedure_info('harmonic_sensitivity', none, MSLIP_BAD_DISPLACEMENT, 'cr', 'w'), &
+    procedure_info('batch_complex_stiffness', none, MSLIP_BAD_AMPLITUDE, 'vvvv', ' ', batch=.true.), &
+    procedure_info('batch_masing_update', none, MSLIP_BAD_DISPLACEMENT, 'vvv B', 's', batch=.true.), &
+    procedure_info('batch_masing_advance', none, MSLIP_BAD_DISPLACEMENT, 'vvv', 's', batch=.true.), &
+    procedure_info('batch_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'fkv', 'w', batch=.true.), &
+    procedure_info('normal_force_at', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' ', element=.true.), &
+    procedure_info('normal_force_at, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' ', element=.true.), &
+    procedure_info('normal_approach', none, MSLIP_BAD_NORMAL_FORCE, 'vvv', ' ', element=.true.), &
+    procedure_info('normal_approach, one', MSLIP_BAD_NORMAL_FORCE, none, 'sss', ' ', element=.true.), &
+    procedure_info('element_update', none, MSLIP_BAD_DISPLACEMENT, 'pts N', 's', element=.true.), &
+    procedure_info('element_advance', none, MSLIP_BAD_DISPLACEMENT, 'pts', 's', element=.true.), &
+    procedure_info('element_path', none, MSLIP_BAD_DISPLACEMENT, 'abv N', 's', element=.true.), &
+    procedure_info('element_path_advance', none, MSLIP_BAD_DISPLACEMENT, 'abv', 's', element=.true.), &
+    procedure_info('element_tractions', none, MSLIP_BAD_POSITION, 'vv', 's', element=.true.), &
+    procedure_info('element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'des', 'w', element=.true.), &
+    procedure_info('batch_element_update', none, MSLIP_BAD_DISPLACEMENT, 'abv B', 's', batch=.true., element=.true.), &
+    procedure_info('batch_element_advance', none, MSLIP_BAD_DISPLACEMENT, 'abv', 's', batch=.true., element=.true.), &
+    procedure_info('batch_element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'ghv', 'w', batch=.true., element=.true.)]
+  ! </generated>
 
   ! One component is allocated; if none is, the argument is absent.
   type :: output
@@ -200,55 +201,68 @@ contains
 
   subroutine perform()
     select case (p)
+    ! <generated: calls>
     case (1); call mslip_tractions(contacts(1), scalar, x, status, out(1)%v, out(2)%v)
     case (2); call mslip_slip(contacts(1), scalar, x, status, out(1)%v, out(2)%v)
     case (3); call mslip_monotonic_displacement(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (4); call mslip_monotonic_displacement(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (5); call mslip_monotonic_force(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (6); call mslip_monotonic_force(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (7); call mslip_masing_update(contacts(1), state, scalar, out(5)%v, status, out(1)%s, out(2)%s, out(3)%s)
-    case (8); call mslip_masing_advance(contacts(1), state, scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (9); call mslip_masing_path(contacts(1), state, x, out(5)%v, status, out(1)%v, out(2)%v, out(3)%v)
-    case (10); call mslip_masing_path_advance(contacts(1), state, x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (11); call mslip_masing_tractions(contacts(1), state, x, status, out(1)%v, out(2)%v)
-    case (12); call mslip_hysteresis_loop(contacts(1), scalar, out(1)%v, out(2)%v, status)
-    case (13); call mslip_dissipated_energy(contacts(1), x, out(1)%v, status)
-    case (14); call mslip_dissipated_energy(contacts(1), scalar, out(1)%s, status)
-    case (15); call mslip_complex_stiffness(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
-    case (16); call mslip_complex_stiffness(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
-    case (17); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
-    case (18); call mslip_jenkins_equivalent(contacts(1), scalar, out(1)%s, out(2)%s, status)
-    case (19); call mslip_iwan_equivalent(contacts(1), out(1)%v, out(2)%v, status, out(3)%s)
-    case (20)
-      call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
-    case (21)
-      call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, out(2)%v, out(3)%v)
-    case (22); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, out(3)%v)
-    case (23)
-      call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (24); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
-    case (25); call mslip_element_advance(elements(1), state, vector, status, out(1)%v, out(2)%m, out(3)%s)
-    case (26); call mslip_element_path(elements(1), state, vectors, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
-    case (27); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
-    case (28); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
-    case (29); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (30); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (31); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (32); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (33); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
-    case (34)
-      call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (35); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (36)
-      call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, out(2)%t, out(3)%v)
-    case (37); call mslip_monotonic_sensitivity(contacts(1), x, status, out(1)%v, out(2)%m)
-    case (38); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
-    case (39)
-      call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
-    case (40)
-      call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
+    case (7); call mslip_monotonic_sensitivity(contacts(1), x, status, out(1)%v, out(2)%m)
+    case (8); call mslip_masing_update(contacts(1), state, scalar, out(5)%v, status, out(1)%s, out(2)%s, out(3)%s)
+    case (9); call mslip_masing_advance(contacts(1), state, scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (10); call mslip_masing_path(contacts(1), state, x, out(5)%v, status, out(1)%v, out(2)%v, out(3)%v)
+    case (11); call mslip_masing_path_advance(contacts(1), state, x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (12); call mslip_masing_tractions(contacts(1), state, x, status, out(1)%v, out(2)%v)
+    case (13); call mslip_hysteresis_loop(contacts(1), scalar, out(1)%v, out(2)%v, status)
+    case (14); call mslip_dissipated_energy(contacts(1), x, out(1)%v, status)
+    case (15); call mslip_dissipated_energy(contacts(1), scalar, out(1)%s, status)
+    case (16); call mslip_complex_stiffness(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
+    case (17); call mslip_complex_stiffness(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
+    case (18); call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, &
+      out(4)%v)
+    case (19); call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, &
+      out(3)%s, out(4)%s)
+    case (20); call mslip_jenkins_equivalent(contacts(1), scalar, out(1)%s, out(2)%s, status)
+    case (21); call mslip_iwan_equivalent(contacts(1), out(1)%v, out(2)%v, status, out(3)%s)
+    case (22); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
+    case (23); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
+    case (24); call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, &
+      out(4)%v)
+    case (25); call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, &
+      out(2)%v, out(3)%v)
+    case (26); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, &
+      out(3)%v)
+    case (27); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
+      out(3)%v)
+    case (28); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (29); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (30); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (31); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (32); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
+    case (33); call mslip_element_advance(elements(1), state, vector, status, out(1)%v, out(2)%m, out(3)%s)
+    case (34); call mslip_element_path(elements(1), state, vectors, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
+    case (35); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
+    case (36); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
+    case (37); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, &
+      out(3)%s)
+    case (38); call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, &
+      out(2)%t, out(3)%v)
+    case (39); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, &
+      out(2)%t, out(3)%v)
+    case (40); call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, &
+      out(2)%t, out(3)%v)
+    ! </generated>
     end select
   end subroutine perform
+
+  pure integer function place_of(name)
+    character(len=*), intent(in) :: name
+
+    do place_of = size(procedures), 1, -1
+      if (procedures(place_of)%name == name) exit
+    end do
+  end function place_of
 
   pure function flat(one) result(values)
     type(output), intent(in) :: one
@@ -581,7 +595,7 @@ contains
     real(wp) :: changed(mslip_state_length(reversals)), error
     integer :: i, k
 
-    p = 8
+    p = place_of('masing_advance')
     call set_up()
     call mslip_state_check(state, status)
     call check_status('check of a state', status, MSLIP_OK)
@@ -733,7 +747,7 @@ contains
     integer(mslip_int) :: invalid
     integer :: i, k
 
-    p = 25
+    p = place_of('element_advance')
     call set_up()
     call mslip_element_state_check(one, state, status)
     call check_status('check of the state of an element', status, MSLIP_OK)
@@ -811,7 +825,7 @@ contains
     type(mslip_contact) :: contact
     integer :: last
 
-    do p = size(procedures) - 1, size(procedures)
+    do p = place_of('complex_stiffness_tabulated'), place_of('complex_stiffness_tabulated, one')
       call set_up()
       parameters = flat_parameters()
       parameters%normal_force = 1.01_wp*parameters%normal_force
@@ -864,7 +878,7 @@ contains
     call check('rejected workspaces: no size', all(found == -1) .and. rule == -1)
     call check('no length for invalid sizes', all([mslip_harmonic_workspace_length(h, samples, 2_mslip_int), &
       mslip_harmonic_workspace_length(0_mslip_size, samples), mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size)] == 0))
-    p = 19
+    p = place_of('iwan_equivalent')
     call set_up()
     deallocate (out(1)%v, out(2)%v)
     allocate (out(1)%v(0), out(2)%v(0))

@@ -13,6 +13,7 @@ use cbindgen::{Bindings, Builder, Config};
 const HEADER: &str = "include/microslip.h";
 const MODULE: &str = "include/microslip.f90";
 const PYTHON: &str = "python/microslip/_core.py";
+const TEST_OF_FORTRAN: &str = "tests/fortran/bad_input.f90";
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const CALLS_OF_C: &str = "c_tests/functions.h";
 const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
@@ -44,17 +45,19 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 6], String> {
+fn generated() -> Result<[(&'static str, String); 7], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
     let declared = interface::Header::new(&header)?;
     let prototypes = declared.prototypes()?;
     let functions = interface::functions(&prototypes)?;
+    let test = fortran::replaced(&read(TEST_OF_FORTRAN)?, wrappers::test(&functions).into());
+    let test = (TEST_OF_FORTRAN, test.map_err(|e| format!("{TEST_OF_FORTRAN}: {e}"))?);
     let rust = (CALLS_OF_RUST, tables::rust(&functions));
     let c = (CALLS_OF_C, tables::c(&functions));
     let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
-    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c, outputs])
+    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c, outputs, test])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.

@@ -253,3 +253,60 @@ fn c_rows(function: &Function, short: &str) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::{Header, functions};
+
+    /// Those that cannot fail.
+    const WITHOUT_STATUS: [&str; 10] = [
+        "mslip_version",
+        "mslip_abi_version",
+        "mslip_status_text",
+        "mslip_parameters_default",
+        "mslip_elliptic_parameters_default",
+        "mslip_state_length",
+        "mslip_stiffness_table_length",
+        "mslip_harmonic_workspace_length",
+        "mslip_element_state_length",
+        "mslip_element_workspace_length",
+    ];
+
+    #[test]
+    fn every_function_is_in_the_tables_and_names_its_statuses() {
+        let text = crate::header();
+        let header = Header::new(&text).unwrap();
+        let prototypes = header.prototypes().unwrap();
+        let functions = functions(&prototypes).unwrap();
+        let mut missing = crate::symbols();
+        missing
+            .retain(|name| !WITHOUT_STATUS.contains(&name.as_str()) && !fallible(&functions).any(|f| f.name == name));
+        assert_eq!(missing, [""; 0]);
+        let (rust, c) = (rust(&functions), c(&functions));
+        for function in fallible(&functions) {
+            let short = function.name.trim_start_matches("mslip_");
+            assert!(rust.contains(&format!("name: \"{}\"", function.name)) && c.contains(&format!("CALL({short},")));
+            let returns = |name: &str| {
+                let function = functions.iter().find(|function| function.name == name)?;
+                function.comment.iter().find(|text| text.starts_with("Returns ")).cloned()
+            };
+            let mut documented = returns(function.name).unwrap_or_default();
+            while let Some((before, name)) = documented.split_once("the codes of ") {
+                let name = name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
+                documented = format!("{before}{}", returns(name).unwrap_or_default());
+            }
+            for argument in function.arguments.iter().filter(|argument| !argument.status.is_empty()) {
+                let is_read = !argument.is_output() && !kind_in(function, argument).starts_with("New");
+                let is_checked = is_read && !kind_in(function, argument).starts_with("Found");
+                let is_named = documented.contains(argument.status);
+                assert!(
+                    !is_checked || is_named || kind_in(function, argument) == "Buffer",
+                    "{}: {}",
+                    function.name,
+                    argument.status
+                );
+            }
+        }
+    }
+}

@@ -38,7 +38,7 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
         }
         public.push(format!("  public :: {name}"));
         if function.arguments.iter().any(is_new_state) {
-            let advance = name.strip_suffix("_update").unwrap_or(name).to_owned() + "_advance";
+            let advance = name_of(function, Form::Advance);
             public.push(format!("  public :: {advance}"));
             forms.push((Form::Advance, advance));
         }
@@ -48,6 +48,43 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
         }
     }
     [("public", public), ("interfaces", interfaces), ("procedures", procedures)]
+}
+
+/// The forms of a function, and the names by which they are called.
+fn forms(function: &Function) -> Vec<Form> {
+    let scalar = function.has("scalar").then_some(Form::Scalar);
+    let advance = function.arguments.iter().any(is_new_state).then_some(Form::Advance);
+    [Some(Form::Array), scalar, advance].into_iter().flatten().collect()
+}
+
+/// The procedures with outputs, for the test of invalid input: a table, and the calls.
+pub fn test(functions: &[Function]) -> [(&'static str, Vec<String>); 2] {
+    let (mut rows, mut calls) = (Vec::new(), Vec::new());
+    let with_outputs = |function: &&Function| {
+        function.arguments.iter().any(Argument::is_output)
+            && !function.name.ends_with("_error")
+            && !function.has("by hand")
+    };
+    for function in functions.iter().filter(with_outputs) {
+        for form in forms(function) {
+            let procedure = Procedure { function, form, name: &name_of(function, form) };
+            rows.push(procedure.row());
+            calls.extend(wrapped("    ", &format!("case ({}); {}", rows.len(), procedure.call())));
+        }
+    }
+    let count = rows.len();
+    let rows =
+        rows.into_iter().enumerate().map(|(i, row)| format!("    {row}{}", if i + 1 < count { ", &" } else { "]" }));
+    let head = format!("  type(procedure_info), parameter :: procedures({count}) = [ &");
+    [("procedures", std::iter::once(head).chain(rows).collect()), ("calls", calls)]
+}
+
+fn name_of(function: &Function, form: Form) -> String {
+    let name = fortran_name(function);
+    match form {
+        Form::Advance => name.strip_suffix("_update").unwrap_or(name).to_owned() + "_advance",
+        _ => name.to_owned(),
+    }
 }
 
 /// Fortran ignores case: `MSLIP_NORMAL_FORCE` is a constant.
@@ -130,6 +167,90 @@ impl Procedure<'_> {
         lines.extend(self.body());
         lines.push(format!("  end subroutine {}", self.name));
         lines
+    }
+
+    /// Name, statuses of an invalid scalar and of an invalid element of the array, shapes of the outputs, memory.
+    fn row(&self) -> String {
+        let function = self.function;
+        let input = function.arguments.iter().find(|argument| argument.is_input() && argument.declaration.pointer);
+        let value = function.arguments.iter().find(|argument| argument.is_input() && !argument.declaration.pointer);
+        let (value, input) = if self.form == Form::Scalar { (input, None) } else { (value, input) };
+        let status = |argument: Option<&Argument>| argument.map_or("none", |argument| argument.status).to_owned();
+        let of_element = function.name.contains("element") || function.argument("element").is_some();
+        let mut shapes: String = function
+            .arguments
+            .iter()
+            .filter(|argument| argument.is_output())
+            .map(|argument| {
+                let extents = if self.form == Form::Scalar { "" } else { &argument.extents[..] };
+                let letter = match (extents, of_element) {
+                    ("", _) => 's',
+                    ("n", _) => 'v',
+                    ("k", false) => 'c',
+                    ("kk", false) => 'j',
+                    ("kn", false) => 'f',
+                    ("kkn", false) => 'k',
+                    ("pn", _) => 'q',
+                    ("kp", _) => 'r',
+                    ("m", _) => 'p',
+                    ("mm", _) => 't',
+                    ("mn", _) => 'a',
+                    ("mmn", _) => 'b',
+                    ("k", true) => 'd',
+                    ("kk", true) => 'e',
+                    ("kn", true) => 'g',
+                    _ => 'h',
+                };
+                if argument.required { letter.to_ascii_uppercase() } else { letter }
+            })
+            .collect();
+        if self.form != Form::Advance && function.arguments.iter().any(is_new_state) {
+            shapes = format!("{shapes:4}{}", if function.is_batch() { 'B' } else { 'N' });
+        }
+        let memory = [("state", 's'), ("workspace", 'w'), ("table", 't')].into_iter();
+        let mut memory =
+            memory.filter(|(name, _)| function.arguments.iter().any(|a| a.is_memory() && a.name().starts_with(name)));
+        let short = self.name.trim_start_matches("mslip_");
+        let one = if self.form == Form::Scalar { ", one" } else { "" };
+        let flag = |name: &str, holds: bool| if holds { format!(", {name}=.true.") } else { String::new() };
+        format!(
+            "procedure_info('{short}{one}', {}, {}, '{shapes}', '{}'{}{})",
+            status(value),
+            status(input),
+            memory.next().map_or(' ', |memory| memory.1),
+            flag("batch", function.is_batch()),
+            flag("element", of_element)
+        )
+    }
+
+    /// The call with the arguments of the test.
+    fn call(&self) -> String {
+        let mut outputs = 0;
+        let mut actual = |argument: &Argument| match argument.name() {
+            "contact" | "element" => format!("{}s(1)", argument.name()),
+            name if name.ends_with("_new") => format!("out(5)%{}", if self.rank(argument) == 2 { 'm' } else { 'v' }),
+            name if argument.is_memory() => name.trim_end_matches("_old").to_owned(),
+            _ if argument.is_input() => match &argument.extents[..] {
+                _ if self.rank(argument) == 0 => "scalar",
+                "n" => "x",
+                "m" => "vector",
+                "mn" => "vectors",
+                "k" => "u(:, 1)",
+                _ => "u",
+            }
+            .to_owned(),
+            _ if argument.is_output() => {
+                outputs += 1;
+                format!("out({outputs})%{}", ["s", "v", "m", "t"][self.rank(argument)])
+            }
+            name => name.to_owned(),
+        };
+        let (mut required, mut optional) = (Vec::new(), Vec::new());
+        for argument in self.dummies() {
+            let list = if is_optional(argument) { &mut optional } else { &mut required };
+            list.push(actual(argument));
+        }
+        format!("call {}({})", self.name, [required, vec!["status".to_owned()], optional].concat().join(", "))
     }
 
     /// The function of a length, which may dimension an array.
