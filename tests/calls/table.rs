@@ -65,7 +65,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_monotonic_displacement",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_monotonic_displacement(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_monotonic_displacement(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
@@ -79,7 +80,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_monotonic_force",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_monotonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_monotonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
@@ -137,7 +139,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_masing_update",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_masing_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get()) },
+        function: |a| unsafe { mslip_masing_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
+     a[6].get(), a[7].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -153,7 +156,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_masing_path",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_masing_path(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get()) },
+        function: |a| unsafe { mslip_masing_path(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
+     a[6].get(), a[7].get(), a[8].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -170,7 +174,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_masing_tractions",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_masing_tractions(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get()) },
+        function: |a| unsafe { mslip_masing_tractions(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -210,7 +215,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_complex_stiffness",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_complex_stiffness(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get()) },
+        function: |a| unsafe { mslip_complex_stiffness(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
@@ -236,7 +242,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_complex_stiffness_tabulated",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_complex_stiffness_tabulated(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get()) },
+        function: |a| unsafe { mslip_complex_stiffness_tabulated(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get(), a[7].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "table", kind: Table, extents: "", status: MSLIP_BAD_TABLE },
@@ -302,7 +309,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_harmonic_force",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "contact", kind: Contact, extents: "", status: MSLIP_BAD_CONTACT },
             Argument { name: "workspace", kind: Workspace, extents: "", status: MSLIP_BAD_WORKSPACE },
@@ -329,7 +337,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_batch_complex_stiffness",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_batch_complex_stiffness(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+        function: |a| unsafe { mslip_batch_complex_stiffness(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -347,7 +356,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_batch_masing_update",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_batch_masing_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
+        function: |a| unsafe { mslip_batch_masing_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -367,7 +377,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_batch_harmonic_force",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_batch_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+        function: |a| unsafe { mslip_batch_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -432,7 +443,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_normal_approach",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_normal_approach(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_normal_approach(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
@@ -480,7 +492,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_update",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_element_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get()) },
+        function: |a| unsafe { mslip_element_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
+     a[6].get(), a[7].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -496,7 +509,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_path",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_element_path(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get()) },
+        function: |a| unsafe { mslip_element_path(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
+     a[6].get(), a[7].get(), a[8].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -513,7 +527,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_tractions",
         flat: false,
         one_direction: true,
-        function: |a| unsafe { mslip_element_tractions(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get()) },
+        function: |a| unsafe { mslip_element_tractions(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "state_length", kind: Length, extents: "", status: MSLIP_STATE_TOO_SHORT },
@@ -528,7 +543,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_workspace_init",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_element_workspace_init(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_element_workspace_init(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "directions", kind: Choice, extents: "", status: MSLIP_BAD_DIRECTIONS },
             Argument { name: "harmonics", kind: Size, extents: "", status: MSLIP_BAD_HARMONICS },
@@ -555,7 +571,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_harmonic_force",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get()) },
+        function: |a| unsafe { mslip_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "workspace", kind: Workspace, extents: "", status: MSLIP_BAD_WORKSPACE },
@@ -569,7 +586,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_batch_element_update",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_batch_element_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
+        function: |a| unsafe { mslip_batch_element_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_elements", kind: Laws, extents: "", status: MSLIP_OK },
@@ -589,7 +607,8 @@ pub const CALLS: &[Call] = &[
         name: "mslip_batch_element_harmonic_force",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_batch_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+        function: |a| unsafe { mslip_batch_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(),
+     a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_elements", kind: Laws, extents: "", status: MSLIP_OK },
