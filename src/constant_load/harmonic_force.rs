@@ -66,7 +66,6 @@ impl Rule {
     }
 
     /// The rule of a workspace, from its tag.
-    #[inline(always)]
     fn of_workspace([tag, ..]: &[f64; TAGS]) -> Rule {
         if event_driven::Layout::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
     }
@@ -112,7 +111,6 @@ impl<'a> Workspace<'a> {
     ///
     /// # Errors
     /// `BadWorkspace` if uninitialised or too short.
-    #[inline(always)]
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
             Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::new(memory)?),
@@ -122,7 +120,6 @@ impl<'a> Workspace<'a> {
 
     /// 2H + 1.
     #[must_use]
-    #[inline(always)]
     pub fn coefficients(&self) -> usize {
         match &self.0 {
             ByRule::UniformSampling(workspace) => workspace.coefficients(),

@@ -20,7 +20,6 @@ pub(crate) struct SteadyState<'c, 's> {
 }
 
 impl<'c, 's> SteadyState<'c, 's> {
-    #[inline(always)]
     pub fn new(contact: &'c Contact, reversals: &'s mut [Reversal], with_energy: bool) -> SteadyState<'c, 's> {
         let energy = with_energy.then(|| Dissipation::new(contact));
         let branch = Memory::UNLOADED.branch(contact, 0, 1.0);
@@ -28,19 +27,16 @@ impl<'c, 's> SteadyState<'c, 's> {
     }
 
     /// The branch that follows the present one at its end.
-    #[inline(always)]
     fn continuation(&self) -> Branch {
         self.memory(self.branch.start).continuation(self.contact, &self.branch)
     }
 
     /// The memory with the present point at `now`.
-    #[inline(always)]
     fn memory(&self, now: Point) -> Memory<'_> {
         Memory { initial: self.initial, now, reversals: self.reversals.get(..self.depth).unwrap_or(&[]) }
     }
 
     /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
-    #[inline(always)]
     pub fn begin(&mut self, displacement: f64) -> Response {
         let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
         let initial_curve = self.memory(Point { displacement, force: 0.0 }).branch(self.contact, 0, direction);
@@ -51,20 +47,17 @@ impl<'c, 's> SteadyState<'c, 's> {
     }
 
     /// The present branch; gross slip has no end.
-    #[inline(always)]
     pub fn branch(&self) -> Branch {
         let Branch { direction, end, gross_slip, .. } = self.branch;
         Branch { end: if gross_slip { direction * f64::INFINITY } else { end }, ..self.branch }
     }
 
     /// Evaluator of the present branch.
-    #[inline(always)]
     pub fn evaluator(&self) -> BranchEvaluator<'c> {
         self.branch.evaluator(self.contact)
     }
 
     /// Response at a displacement on the present branch.
-    #[inline(always)]
     pub fn response(&self, displacement: f64) -> Response {
         self.branch.response(self.contact, displacement)
     }
@@ -81,7 +74,6 @@ impl<'c, 's> SteadyState<'c, 's> {
 
     /// Applies a step from a point of the present branch, which may reverse, close loops and enter gross slip. Returns whether the
     /// point is now a reversal on the stack.
-    #[inline(always)]
     pub fn advance(&mut self, from: Point, displacement: f64) -> bool {
         let energy = &mut self.energy;
         let reversals = self.reversals.get(..self.depth).unwrap_or(&[]);
@@ -101,7 +93,6 @@ impl<'c, 's> SteadyState<'c, 's> {
     }
 
     /// Pushes a point of the present branch as the newest reversal; returns `false` if the stack is full.
-    #[inline(always)]
     pub fn reverse(&mut self, at: Point, direction: f64) -> bool {
         let has_room = self.depth < self.reversals.len();
         if has_room {
@@ -112,20 +103,17 @@ impl<'c, 's> SteadyState<'c, 's> {
     }
 
     /// Whether gross slip starts at the end of the present branch.
-    #[inline(always)]
     pub fn ends_in_gross_slip(&self) -> bool {
         self.continuation().gross_slip
     }
 
     /// Continues on the branch that follows at the end of the present one.
-    #[inline(always)]
     pub fn pass_end(&mut self) {
         self.branch = self.continuation();
         self.depth = self.branch.depth;
     }
 
     /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.
-    #[inline(always)]
     pub fn account_for(&mut self, from: f64, to: f64) {
         self.initial = self.initial.after_friction(self.contact, &self.branch, to);
         if let Some(energy) = &mut self.energy {

@@ -123,7 +123,6 @@ impl<'a> Workspace<'a> {
     ///
     /// # Errors
     /// `BadWorkspace` if uninitialised or too short.
-    #[inline(always)]
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
         let size = layout.0;
@@ -169,7 +168,6 @@ impl<'a> Workspace<'a> {
 
     /// 2H + 1.
     #[must_use]
-    #[inline(always)]
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
     }

@@ -93,7 +93,6 @@ impl<'a> Workspace<'a> {
     ///
     /// # Errors
     /// `BadWorkspace` if uninitialised or too short.
-    #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
         let (size, capacity) = (layout.0, layout.reversals());
@@ -282,7 +281,6 @@ fn path_length(samples: usize) -> usize {
 
 impl Path<'_> {
     /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
-    #[inline(always)]
     fn advance(&mut self, law: &mut SteadyState, length: usize, requested: Requested) {
         let Path { displacement, force, stiffness, scratch, branches } = self;
         let mut from = Point { displacement: at(displacement, 0), force: 0.0 };

@@ -30,23 +30,19 @@ impl Place {
     pub const CENTRE: Place = Place(1 << 40);
 
     /// The whole contact at a sample.
-    #[inline(always)]
     fn end(sample: usize) -> Place {
         Place((sample as u64) << 1 | 1)
     }
 
     /// The boundary of the slip zone at a sample.
-    #[inline(always)]
     fn cut(sample: usize) -> Place {
         Place((sample as u64) << 1)
     }
 
-    #[inline(always)]
     pub fn is_end(self) -> bool {
         self.0 & 1 == 1
     }
 
-    #[inline(always)]
     pub fn sample(self) -> usize {
         (self.0 >> 1) as usize
     }
@@ -72,7 +68,6 @@ pub(super) struct Run {
 impl Run {
     /// In the workspace: kind, direction and counts in one word, the inner place, the parameter. First sample and packed index follow
     /// from the runs before.
-    #[inline(always)]
     fn encoded(&self) -> [f64; RUN] {
         let backward = u64::from(self.sign < 0.0);
         let word = self.kind as u64 | backward << 2 | (self.count as u64) << 3 | (self.kept as u64) << 32;
@@ -92,7 +87,6 @@ pub(super) struct Runs<'a> {
 impl Iterator for Runs<'_> {
     type Item = Run;
 
-    #[inline(always)]
     fn next(&mut self) -> Option<Run> {
         let &[word, inner, parameter] = self.encoded.next()?;
         let word = word.to_bits();
@@ -138,7 +132,6 @@ impl Knot {
     /// The far end of the part with D = 0.
     const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
 
-    #[inline(always)]
     fn encoded(&self) -> [f64; KNOT] {
         [self.xi, self.eta, f64::from_bits(self.place.0), 0.0]
     }
@@ -167,13 +160,11 @@ struct Stack<'a> {
 }
 
 impl Stack<'_> {
-    #[inline(always)]
     fn knot(&self, index: usize) -> Knot {
         let [xi, eta, place, _] = self.knots.get(index).copied().unwrap_or([0.0; KNOT]);
         Knot { xi, eta, place: Place(place.to_bits()) }
     }
 
-    #[inline(always)]
     fn push(&mut self, knot: Knot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
             *place = knot.encoded();
@@ -182,7 +173,6 @@ impl Stack<'_> {
     }
 
     /// Removes the knots outside the quadrant ξ > x, η < y; returns whether there were any.
-    #[inline(always)]
     fn pop(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
         while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
@@ -277,7 +267,6 @@ pub(super) const EMPTY_RUN: Run =
     Run { kind: Kind::Open, first: 0, count: 1, kept: 0, inner: Place::CENTRE, packed: 0, sign: 1.0, parameter: 0.0 };
 
 /// Samples that stick.
-#[inline(always)]
 fn stick(stack: &mut Stack, span: Span) -> Run {
     let kept = stack.depth;
     let inner = stack.knot(kept.saturating_sub(1));
@@ -296,7 +285,6 @@ fn stick(stack: &mut Stack, span: Span) -> Run {
 }
 
 /// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
-#[inline(always)]
 fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
     let is_forward = span.xi.first().is_some_and(|x| stack.knot(0).xi <= *x);
     let (count, [xi, eta]) = if is_forward { count_gross_slip::<true>(span) } else { count_gross_slip::<false>(span) };
@@ -309,7 +297,6 @@ fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
 const SMALLEST: f64 = 1e-150;
 
 /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
-#[inline(always)]
 fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> Run {
     let kept = stack.depth;
     let (inner, outer) = (stack.knot(kept - 1), stack.knot(kept));
@@ -373,13 +360,11 @@ pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Cl
 }
 
 /// Coordinates such that slip in either direction is forward slip.
-#[inline(always)]
 fn mirrored<const FORWARD: bool>(xi: f64, eta: f64) -> [f64; 2] {
     if FORWARD { [xi, eta] } else { [-eta, -xi] }
 }
 
 /// Number of samples of a run of gross slip, and the coordinates of the last.
-#[inline(always)]
 fn count_gross_slip<const FORWARD: bool>(span: Span) -> (usize, [f64; 2]) {
     let mut count = 0;
     let (mut end, mut last) = ([0.0; 2], f64::MIN);
@@ -395,7 +380,6 @@ fn count_gross_slip<const FORWARD: bool>(span: Span) -> (usize, [f64; 2]) {
 }
 
 /// Number of samples of a run of slip that cut one piece, the coordinates of the last, and its cut.
-#[inline(always)]
 fn count_slip<const FORWARD: bool>(
     span: Span,
     inner: &Knot,
