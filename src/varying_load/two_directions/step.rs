@@ -70,9 +70,9 @@ pub(crate) struct Slipped {
 }
 
 impl Slipped {
-    /// Copied to its place, not through the stack.
-    const NONE: Slipped = Slipped {
-        slip: Slip::NONE,
+    /// Zeros, which are written in place: a value that is returned takes as much stack again.
+    const ZERO: Slipped = Slipped {
+        slip: Slip::ZERO,
         trial: [[0.0; SPRINGS]; 2],
         end: [[0.0; SPRINGS]; 2],
         tractions: [[0.0; SPRINGS]; 2],
@@ -140,7 +140,8 @@ pub(crate) fn step(
     course.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = course.slip.insert(Slipped::NONE);
+        let slipped = course.slip.insert(Slipped::ZERO);
+        slipped.slip.first = SPRINGS;
         slipped.trial = trial;
         slide(memory, &edge, &map, by, [&trial, &limits, &tractions], record, slipped);
         for k in 0..2 {
