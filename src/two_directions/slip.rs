@@ -142,9 +142,9 @@ pub(crate) struct Slip {
 }
 
 impl Slip {
-    /// No point slips.
-    pub const NONE: Slip = Slip {
-        first: SPRINGS,
+    /// Zeros.
+    pub const ZERO: Slip = Slip {
+        first: 0,
         slips: [false; SPRINGS],
         e: [[0.0; SPRINGS]; 2],
         sigma: [[0.0; SPRINGS]; 2],

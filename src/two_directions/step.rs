@@ -53,9 +53,9 @@ pub(crate) struct SlipRecord {
 }
 
 impl SlipRecord {
-    /// Copied to its place, not through the stack.
-    const NONE: SlipRecord = SlipRecord {
-        slip: Slip::NONE,
+    /// Zeros, which are written in place: a value that is returned takes as much stack again.
+    const ZERO: SlipRecord = SlipRecord {
+        slip: Slip::ZERO,
         trial: [[0.0; SPRINGS]; 2],
         end: [[0.0; SPRINGS]; 2],
         tractions: [[0.0; SPRINGS]; 2],
@@ -142,7 +142,8 @@ fn kernel(
     record.slip = None;
     if !sticks {
         let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = record.slip.insert(SlipRecord::NONE);
+        let slipped = record.slip.insert(SlipRecord::ZERO);
+        slipped.slip.first = SPRINGS;
         slipped.trial = trial;
         slide(state, &edge, &map, by, [&trial, &limits, &tractions], factors, slipped);
         for k in 0..2 {
