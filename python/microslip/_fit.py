@@ -36,8 +36,9 @@ def fit(
     "fixed".
 
     Returns a report: `friction_coefficient`, `series_compliance`, `contact_compliance`, `total_compliance` and `shape` with
-    `value`, `lower`, `upper` (95 % confidence) and `status`; `law` and `spring_slider.misfit` with the misfits; the sentences
-    `verdict` and `warnings`; `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
+    `value`, `lower`, `upper` (95 % confidence) and `status`; `explanation`, with `explained`, whether the law explains the loops,
+    and the `causes` if it does not; `law` and `spring_slider.misfit` with the misfits; the sentences `verdict` and `warnings`;
+    `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """
     given = dict(contact)
     reference = REFERENCES[given.pop("displacement_reference", 0)]
