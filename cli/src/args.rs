@@ -47,7 +47,7 @@ Results:
   with units, and numbers that are read back bit for bit. --plot also draws them.
 
 Exit status:
-  0: success; 1: invalid number or file; 2: invalid command line.
+  0: success; 1: invalid number or file; 2: invalid command line; 3: of `fit`, the law does not explain the loops.
 
 Examples:
   microslip example > contact.toml
@@ -117,8 +117,8 @@ pub enum Command {
     Iwan(ContactCommand<Iwan>),
     /// Fit friction coefficient, compliances and shape to measured loops of displacement and force
     #[command(after_help = help!(
-        "quantity, value, lower, upper (95 % confidence), unit, status (fixed, determined, bounded, not_determined);
-  comments have the verdict: which parameters the data determine",
+        "quantity, value, lower, upper (95 % confidence), unit, status (fixed, determined, bounded, lower_bound, not_determined);
+  comments have the verdict: whether the law explains the loops (exit status 3 if not), and which parameters they determine",
         "fit contact.toml --measured loop1.csv,loop2.csv --data-units um,N --loads 100,200 --plot fit.svg
   microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
     ))]

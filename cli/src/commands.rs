@@ -22,6 +22,8 @@ pub struct Report {
     /// The program's version, the command that repeats the result, and remarks.
     comments: Vec<String>,
     pub warnings: Vec<String>,
+    /// Exit status of the program, if it is not 0 although there is a result.
+    pub status: u8,
     table: Table,
     pub picture: Picture,
 }
@@ -35,6 +37,7 @@ impl Report {
                 format!("microslip {name}{}{options}", spec.given.options()),
             ],
             warnings: spec.given.implausible(),
+            status: 0,
             table,
             picture: Picture { caption: caption(spec, &normal_force), units: spec.units, rows },
         }

@@ -10,9 +10,13 @@ use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::{ColumnSpec, Table, parse_columns};
 use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
 use crate::units::Units;
-use microslip_fit::{Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter, Status};
+use microslip_fit::{
+    CauseKind, Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter, Status,
+};
 use std::path::{Path, PathBuf};
 
+/// Exit status if the law does not explain the loops.
+const NOT_EXPLAINED: u8 = 3;
 /// Loops that a picture has at most.
 const LOOPS: usize = 4;
 
@@ -47,6 +51,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
         rounded(found.law.force_rms, Force, spec.units),
         rounded(slider.misfit.force_rms, Force, spec.units)
     );
+    report.status = if found.explanation.explained { 0 } else { NOT_EXPLAINED };
     report.warnings.extend(found.warnings);
     Ok(report)
 }
@@ -156,6 +161,7 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
         Status::Fixed => "fixed",
         Status::Determined => "determined",
         Status::Bounded => "bounded",
+        Status::LowerBound => "lower_bound",
         Status::NotDetermined => "not_determined",
     };
     let estimate = |(name, at, unit): (&str, &Estimate, &str)| {
@@ -179,6 +185,18 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
             number(&format!("{prefix}energy_error"), misfit.energy, "-"),
         ]
     };
+    let explanation = &found.explanation;
+    let explained = if explanation.explained { "explained" } else { "not_explained" };
+    rows.push(number("noise_rms", explanation.noise, force));
+    rows.push(format!("misfit_over_noise,{},,,-,{explained}", format_number(explanation.misfit / explanation.noise)));
+    for cause in &explanation.causes {
+        let unit = match cause.kind {
+            CauseKind::Lag => "samples",
+            CauseKind::Play => units.unit(Length),
+            _ => "-",
+        };
+        rows.push(format!("{},{},,,{unit},cause", cause.kind.name(), format_number(cause.size)));
+    }
     rows.extend(misfit("", &found.law));
     let slider = &found.spring_slider;
     rows.push(number("spring_slider_friction_coefficient", slider.friction_coefficient, "-"));

@@ -31,7 +31,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let (mut program, matches) = (Arguments::command(), Arguments::command().get_matches());
     match Arguments::from_arg_matches(&matches).map_or_else(|error| error.exit(), |arguments| run(&arguments.command)) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => ExitCode::from(status),
         Err(CliError::Input(message)) => {
             print_message(&message);
             ExitCode::from(1)
@@ -53,7 +53,8 @@ fn print_message(message: &str) {
     let _ = writeln!(io::stderr(), "microslip: {message}");
 }
 
-fn run(command: &Command) -> Result<()> {
+/// Runs a command; returns the exit status.
+fn run(command: &Command) -> Result<u8> {
     match command {
         Command::Contact(command) => execute(command, &[], |_, spec| Ok(commands::contact(spec))),
         Command::Tractions(command) => execute(command, &[], commands::tractions),
@@ -68,8 +69,10 @@ fn run(command: &Command) -> Result<()> {
             let measured: Vec<_> = command.options.measured.iter().map(PathBuf::as_path).collect();
             execute(command, &measured, fit::fit)
         }
-        Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")),
-        Command::Example { elliptic: true } => files::write_stdout(include_bytes!("../example_elliptic.toml")),
+        Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")).map(|()| 0),
+        Command::Example { elliptic: true } => {
+            files::write_stdout(include_bytes!("../example_elliptic.toml")).map(|()| 0)
+        }
     }
 }
 
@@ -78,7 +81,7 @@ fn execute<Options: Args>(
     command: &ContactCommand<Options>,
     data: &[&Path],
     compute: impl FnOnce(&Options, &ContactSpec) -> Result<Report>,
-) -> Result<()> {
+) -> Result<u8> {
     let ContactCommand { options, parameters, contact, output } = command;
     let (parameters, out, plot) = (parameters.as_deref(), output.out.as_deref(), output.plot.as_deref());
     let inputs: Vec<_> = parameters.into_iter().chain(data.iter().copied()).collect();
@@ -96,7 +99,8 @@ fn execute<Options: Args>(
     match out {
         Some(path) if path != Path::new("-") => files::write_file(path, report.csv().as_bytes()),
         _ => files::write_stdout(report.csv().as_bytes()),
-    }
+    }?;
+    Ok(report.status)
 }
 
 fn format_of(path: &Path) -> Result<Format> {

@@ -601,6 +601,27 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     ] {
         shell.check_error(&format!("microslip fit flat.toml {arguments}"), status, text);
     }
+
+    // One plateau is lower by 20 %: there is a result, and an exit status of its own.
+    for amplitude in ["0.7", "1.5"] {
+        let lower = "/^[0-9]/ {print $2 \",\" ($3 > 0 ? 0.8 : 1) * $3}";
+        let table = format!("(echo displacement,force; awk -F, '{lower}' {amplitude}.csv) > lower{amplitude}.csv");
+        shell.stdout(&table);
+    }
+    let doubted = shell.run("microslip fit flat.toml --measured lower0.7.csv,lower1.5.csv --json doubted.json");
+    let table = String::from_utf8(doubted.stdout).unwrap();
+    assert!(
+        doubted.status.code() == Some(3) && !table.contains("determined,") && !table.contains(",determined"),
+        "{table}"
+    );
+    assert!(table.lines().nth(2).unwrap().starts_with("# The law does not explain these loops"), "{table}");
+    assert_eq!(quantity(&table, "misfit_over_noise").1, "not_explained");
+    let json: serde_json::Value = serde_json::from_str(&shell.read("doubted.json")).unwrap();
+    let cause = &json["explanation"]["causes"][0];
+    assert!(json["explanation"]["explained"] == false && cause["kind"] == "different_plateaus", "{json}");
+    assert_eq!(cause["size"].as_f64(), Some(quantity(&table, "different_plateaus").0));
+    assert!((cause["size"].as_f64().unwrap() + 0.2).abs() < 0.05, "{cause}");
+
     let warned = shell.run("microslip fit flat.toml --measured 1.5.csv --fix shape");
     assert!(String::from_utf8(warned.stderr).unwrap().contains("warning: one amplitude only"));
 }

@@ -15,6 +15,10 @@ pub(crate) struct Loop {
     pub reversal_error: f64,
     /// Standard deviation of the noise of displacement and force.
     pub noise: [f64; 2],
+    /// Step of the digitiser of the force.
+    pub resolution: f64,
+    /// Samples of the measurement in one sample.
+    pub interval: f64,
     /// Whether there are cycles enough to distinguish a drift from the loop.
     pub has_drift: bool,
     /// Number of complete cycles, and of the samples that they have.
@@ -38,6 +42,8 @@ pub(crate) struct Sample {
     pub direction: f64,
     /// Distance from the reversal.
     pub distance: f64,
+    /// Displacement per unit of time, or per sample of the measurement without times.
+    pub velocity: f64,
 }
 
 /// Amplitudes that differ by less, as a fraction, belong to the same loop.
@@ -49,6 +55,9 @@ const CLOSED: f64 = 0.1;
 /// The largest swing of the normal force about its mean that the law for a constant one admits: its effect is included to first
 /// order, so that an error of its square, a percent of the force, remains.
 const LARGEST_SWING: f64 = 0.1;
+
+/// A loop of gross slip has so many times the relative area of one without, which a lag of some samples makes negative.
+const OPEN: f64 = 4.0;
 
 /// Samples of a branch; of more, successive ones are averaged.
 const SAMPLES: usize = 250;
@@ -170,6 +179,10 @@ impl Loop {
         }
 
         let normal_force = mean(samples.clone().map(|i| record.normal_force[i]));
+        let velocity = |i: usize| {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(smooth.len() - 1));
+            (smooth[after] - smooth[before]) / (record.step * (after - before) as f64)
+        };
         let mut branch = 0;
         let sample = |i: usize| {
             while branch + 1 < reversals.len() && i >= reversals[branch + 1] {
@@ -184,6 +197,7 @@ impl Loop {
                 load_excess_at_reversal: record.normal_force[reversals[branch]] - normal_force,
                 direction,
                 distance: direction * (displacement - start(branch)),
+                velocity: velocity(i),
             }
         };
         let last = reversals[2 * ((reversals.len() - 1) / 2)];
@@ -193,6 +207,8 @@ impl Loop {
             amplitude: 0.5 * (ends[1] - ends[0]),
             reversal_error,
             noise: record.noise,
+            resolution: record.resolution,
+            interval: record.interval,
             has_drift,
             cycles: (reversals.len() - 1) / 2,
             complete: (samples.start..end.min(last + 1)).filter(|i| !rests[*i]).count(),
@@ -200,10 +216,10 @@ impl Loop {
         }
     }
 
-    /// Checks the direction of the loop and the swing of the normal force.
+    /// Checks the swing of the normal force.
     fn check(&self) -> Result<(), Error> {
         let fail = |reason: String| error(format!("{}: {reason}", self.name));
-        let swing = mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt() / self.normal_force;
+        let swing = self.swing();
         if swing > LARGEST_SWING {
             return fail(format!(
                 "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under \
@@ -211,21 +227,37 @@ impl Loop {
                 100.0 * swing
             ));
         }
-        let forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
-        let area = self.energy(&forces) / (range(&forces) * 2.0 * self.amplitude);
-        if area < -0.01 {
-            let moment = |f: &dyn Fn(&Sample) -> f64| mean(self.samples.iter().map(f));
-            let [x, force] = [moment(&|sample| sample.displacement), moment(&|sample| sample.force)];
-            let rises = moment(&|sample| (sample.displacement - x) * (sample.force - force)) > 0.0;
-            return fail(if rises {
-                "the loop has a negative energy: the columns of displacement and force are swapped".to_owned()
-            } else {
-                "the loop has a negative energy: the sign of displacement or force is reversed; the force must resist the \
-                 displacement that it is plotted against, and grow with it"
-                    .to_owned()
-            });
-        }
         Ok(())
+    }
+
+    /// Energy per cycle over that of the rectangle around the loop.
+    fn area(&self) -> f64 {
+        let forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
+        self.energy(&forces) / (range(&forces) * 2.0 * self.amplitude)
+    }
+
+    /// Checks the direction of the loop. If another loop has a positive area that is much larger, the force is late by some samples,
+    /// which is left to the fit.
+    pub fn check_direction(&self, loops: &[Loop]) -> Result<(), Error> {
+        let area = self.area();
+        if area > -0.01 || loops.iter().any(|one| one.area() > -OPEN * area) {
+            return Ok(());
+        }
+        let moment = |f: &dyn Fn(&Sample) -> f64| mean(self.samples.iter().map(f));
+        let [x, force] = [moment(&|sample| sample.displacement), moment(&|sample| sample.force)];
+        let rises = moment(&|sample| (sample.displacement - x) * (sample.force - force)) > 0.0;
+        let reason = if rises {
+            "the columns of displacement and force are swapped, or the force is late"
+        } else {
+            "the sign of displacement or force is reversed; the force must resist the displacement that it is plotted against, and \
+             grow with it"
+        };
+        error(format!("{}: the loop has a negative energy: {reason}", self.name))
+    }
+
+    /// Amplitude of the normal force over its mean.
+    pub fn swing(&self) -> f64 {
+        mean(self.samples.iter().map(|sample| 2.0 * sample.load_excess.powi(2))).sqrt() / self.normal_force
     }
 
     /// Half the range of the force, without outliers.

@@ -15,6 +15,11 @@ pub(crate) struct Record {
     pub normal_force: Vec<f64>,
     /// Standard deviation of the noise of displacement and force.
     pub noise: [f64; 2],
+    /// Smallest difference between two values of the force: the step of a digitiser.
+    pub resolution: f64,
+    /// Samples of the measurement that are averaged in one, and their time; without times, their number.
+    pub interval: f64,
+    pub step: f64,
 }
 
 /// Samples that a record needs at least.
@@ -94,10 +99,12 @@ impl Record {
         let index: Vec<_> = (0..count).map(|i| i as f64).collect();
         let time = time.as_ref().unwrap_or(&index);
         let length = time[count - 1] - time[0];
+        let (interval, step) = (1.0, length / (count - 1) as f64);
         let time = time.iter().map(|at| 2.0 * (at - time[0]) / length - 1.0).collect();
         let noise = [noise(displacement), noise(force)];
         let (displacement, force, normal_force) = (displacement.clone(), force.clone(), smoothed(normal_force));
-        Ok(Record { name, time, displacement, force, normal_force, noise })
+        let resolution = resolution(&force);
+        Ok(Record { name, time, displacement, force, normal_force, noise, resolution, interval, step })
     }
 
     /// Means of the given number of successive samples.
@@ -113,6 +120,9 @@ impl Record {
             displacement,
             force,
             normal_force: mean(&self.normal_force),
+            resolution: self.resolution,
+            interval: self.interval * samples as f64,
+            step: self.step * samples as f64,
         }
     }
 
@@ -125,7 +135,7 @@ impl Record {
             displacement: rotate(&self.displacement),
             force: rotate(&self.force),
             normal_force: rotate(&self.normal_force),
-            noise: self.noise,
+            ..*self
         }
     }
 }
@@ -159,15 +169,26 @@ fn noise(values: &[f64]) -> f64 {
     (kept.iter().sum::<f64>() / kept.len() as f64 / 70.0).sqrt() / 0.6071
 }
 
+/// Smallest difference of two values that is not rounding of the last digits.
+fn resolution(values: &[f64]) -> f64 {
+    let (mut sorted, least) = (values.to_vec(), 1e-9 * range(values));
+    sorted.sort_by(f64::total_cmp);
+    sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > least).fold(f64::INFINITY, f64::min)
+}
+
 /// The value of a plateau of a saturated sensor: many samples have exactly the largest or smallest value, but neighbours elsewhere
 /// differ, so that it is no resolution of the sensor, and there is noise, so that it is no computed loop.
 fn saturation(values: &[f64]) -> Option<f64> {
     let count = |is: &dyn Fn(f64, f64) -> bool| values.windows(2).filter(|pair| is(pair[0], pair[1])).count();
     let [low, high] = ends(values);
     let least = (CLIPPED * values.len() as f64).max(5.0) as usize;
-    let clipped = [low, high].map(|end| count(&|one, other| one == end && other == end));
-    let equal_elsewhere = count(&|one, other| one == other) - clipped.iter().sum::<usize>();
-    let noisy = noise(values) > 1e-5 * (high - low) && 20 * equal_elsewhere < values.len();
+    // Noise separates four equal values of a digitiser, but not of a saturated sensor.
+    let clipped =
+        [low, high].map(|end| values.windows(4).filter(|near| near.iter().all(|value| *value == end)).count());
+    let equal_elsewhere = count(&|one, other| one == other && one != low && one != high);
+    // Rounding to steps has 0.29 of a step as its standard deviation.
+    let least_noise = (1e-5 * (high - low)).max(0.5 * resolution(values));
+    let noisy = noise(values) > least_noise && 20 * equal_elsewhere < values.len();
     let end = [low, high].into_iter().zip(clipped).find(|(_, clipped)| *clipped >= least);
     end.filter(|_| noisy).map(|(end, _)| end)
 }

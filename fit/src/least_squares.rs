@@ -6,12 +6,15 @@
 
 use crate::cycles::{Loop, Sample};
 use crate::error::Error;
-use crate::model::{CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARAMETERS, SERIES, SHAPE};
+use crate::model::{CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARAMETERS, Prediction, SERIES, SHAPE};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 /// Which of the parameters are fitted.
 pub(crate) type Free = [bool; PARAMETERS];
+
+/// Least square of the error of the model in a loop, over the mean square of all loops.
+const LEAST_ERROR: f64 = 0.1;
 
 /// The loops and a state of the fit.
 #[derive(Debug, Clone)]
@@ -77,7 +80,8 @@ impl<'a> Fit<'a> {
     }
 
     /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a
-    /// loop is an error of the model, of the same size everywhere.
+    /// loop is an error of the model, of the same size everywhere. A loop that is fitted better than the others by chance has not all
+    /// the weight.
     pub fn update_targets(&mut self) {
         let target = |(one, model): (&Loop, LoopModel)| {
             let [of_displacement, of_force] = one.noise;
@@ -87,14 +91,17 @@ impl<'a> Fit<'a> {
                 let variance = of_force.powi(2) + (at.stiffness * of_displacement).powi(2);
                 ([force, variance], (force - at.force).powi(2) - variance)
             };
-            let (mut targets, excess): (Vec<_>, Vec<_>) = one.samples.iter().map(at).unzip();
-            // Computed loops may have no noise.
-            let least = (1e-7 * one.height()).powi(2);
-            let excess = (excess.iter().sum::<f64>() / excess.len() as f64).max(least);
-            targets.iter_mut().for_each(|[_, variance]| *variance = (*variance + excess).sqrt());
-            targets
+            let (targets, excess): (Vec<_>, Vec<_>) = one.samples.iter().map(at).unzip();
+            (targets, excess.iter().sum::<f64>() / excess.len() as f64 / one.height().powi(2))
         };
-        self.targets = self.models().map(target).collect();
+        let (mut targets, excesses): (Vec<Vec<_>>, Vec<f64>) = self.models().map(target).unzip();
+        // Computed loops may have no noise.
+        let least = (LEAST_ERROR * excesses.iter().sum::<f64>() / excesses.len() as f64).max(1e-14);
+        for ((one, targets), excess) in self.loops.iter().zip(&mut targets).zip(excesses) {
+            let excess = excess.max(least) * one.height().powi(2);
+            targets.iter_mut().for_each(|[_, variance]| *variance = (*variance + excess).sqrt());
+        }
+        self.targets = targets;
     }
 
     /// Fits, with weights that follow the model.
@@ -171,6 +178,37 @@ impl<'a> Fit<'a> {
             one.samples.iter().map(at).collect()
         };
         self.models().zip(&self.nuisances).map(of_loop).collect()
+    }
+
+    /// Predictions without offset and drift, and the standard deviations of the residuals, at the samples of each loop.
+    pub fn predictions(&self) -> impl Iterator<Item = (&Loop, Vec<(Prediction, f64)>)> {
+        self.models().zip(&self.nuisances).zip(&self.targets).map(|(((one, model), nuisances), targets)| {
+            let at = |(sample, [_, sigma]): (&Sample, &[f64; 2])| {
+                let at = model.at(sample);
+                (Prediction { force: at.force - nuisances[0] - nuisances[1] * sample.time, ..at }, *sigma)
+            };
+            (one, one.samples.iter().zip(targets).map(at).collect())
+        })
+    }
+
+    /// All residuals, measured less computed, and factors Q R of their derivatives with respect to the free parameters.
+    pub fn factors(&self) -> Option<(DVector<f64>, DMatrix<f64>, DMatrix<f64>)> {
+        let (basis, upper) = self.jacobian()?.qr().unpack();
+        Some((-self.residuals()?, basis, upper))
+    }
+
+    /// Parameters of which the first derivatives are those of a solution of R.
+    pub fn of_columns(&self, solution: &DVector<f64>) -> [f64; PARAMETERS] {
+        let mut parameters = [0.0; PARAMETERS];
+        self.columns().into_iter().zip(solution.iter()).for_each(|(i, value)| parameters[i] = *value);
+        parameters
+    }
+
+    /// Frees parameters, except those at a limit, and a shape without effect.
+    pub fn release(&mut self, free: Free) {
+        let at_limit = self.limits_at_which(|_| true);
+        self.free = std::array::from_fn(|i| free[i] && !at_limit[i]);
+        self.free[SHAPE] &= self.parameters[CONTACT] > 0.0;
     }
 
     /// Largest displacement of each loop over that at the onset of gross slip.

@@ -1,13 +1,15 @@
 //! Identification of the friction law from measured friction loops.
 //!
 //! [`fit`] takes loops of displacement and force and a contact, and returns friction coefficient, series compliance, contact
-//! compliance and shape with intervals of confidence, and which of them the data determine.
+//! compliance and shape with intervals of confidence, whether the law explains the loops, and which parameters they determine.
 
+mod causes;
 mod cycles;
 mod data;
 mod error;
 mod input;
 mod least_squares;
+mod misfit;
 mod model;
 mod plausibility;
 mod report;
@@ -18,7 +20,9 @@ pub use input::{
     Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter,
     missing_parameters,
 };
-pub use report::{Estimate, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status};
+pub use report::{
+    Cause, CauseKind, Estimate, Explanation, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status,
+};
 
 use data::Record;
 use error::error;
@@ -40,6 +44,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     for (index, measurement) in measurements.iter().enumerate() {
         loops.extend(cycles::loops(&Record::new(measurement, index, contact.normal_force)?)?);
     }
+    loops.iter().try_for_each(|one| one.check_direction(&loops))?;
     let shape = family.shape();
     let range = shape.filter(|_| options.shape != ShapeParameter::Fixed).map(|_| family.shape_range());
 
@@ -65,13 +70,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let spring_slider =
         SpringSlider { friction_coefficient, stiffness: 1.0 / compliance, misfit: Misfit::new(&loops, &slider_forces) };
 
-    let (forces, [mut friction, series, contact_compliance, shape_estimate]) =
-        (solution.fit.forces(), solution.estimates);
-    if !solution.slips && friction.status != Status::Fixed {
-        // The largest force that the contact carried.
-        friction.lower = plausibility::carried(&loops);
-        friction.upper = None;
-    }
+    let (forces, [friction, series, contact_compliance, shape_estimate]) = (solution.fit.forces(), solution.estimates);
     let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
     let shape = shape.map(|given| match range {
         Some(_) => shape_estimate,
@@ -85,9 +84,10 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         contact_compliance,
         total_compliance: solution.total_compliance,
         shape,
+        explanation: solution.explanation.clone(),
         law: Misfit::new(&loops, &forces),
         spring_slider,
-        verdict: verdict::sentences(&solution, &friction, range),
+        verdict: verdict::sentences(&solution, range),
         profile: solution.profile,
         warnings,
         contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),

@@ -60,8 +60,3 @@ pub(crate) fn check(loops: &[Loop], contact: &[f64], friction: f64, compliance: 
     }
     Ok(warnings)
 }
-
-/// Largest half height of a loop over its normal force, a lower bound of the friction coefficient.
-pub(crate) fn carried(loops: &[Loop]) -> f64 {
-    loops.iter().map(|one| one.height() / one.normal_force).fold(0.0, f64::max)
-}

@@ -17,6 +17,8 @@ pub struct Report {
     pub total_compliance: Estimate,
     /// Half-width of the flat over that of the contact under the normal force of the contact \[-\]; none of an ellipse.
     pub shape: Option<Estimate>,
+    /// Whether the law explains the loops. If not, no parameter is determined.
+    pub explanation: Explanation,
     /// Misfit of the law.
     pub law: Misfit,
     /// The best spring-slider, and its misfit.
@@ -56,8 +58,60 @@ pub enum Status {
     Determined,
     /// Only one end of the interval is narrow, or it excludes a part of the range.
     Bounded,
-    /// The interval contains all values that make sense.
+    /// Of the friction coefficient without a plateau of gross slip: the largest force over the normal force.
+    LowerBound,
+    /// The interval contains all values that make sense, or the law does not explain the loops.
     NotDetermined,
+}
+
+/// Misfit against noise, of the loop with the largest ratio of both.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Explanation {
+    /// Whether the misfit is at most twice the noise.
+    pub explained: bool,
+    /// Name of the loop.
+    pub name: String,
+    /// Root mean square of the residuals \[N\].
+    pub misfit: f64,
+    /// The same over the slip force of the fit, mu N \[-\].
+    pub relative_misfit: f64,
+    /// Root mean square that noise, steps of a digitiser and errors of the model explain \[N\].
+    pub noise: f64,
+    /// What the residuals of loops that are not explained show, the cause that explains most first.
+    pub causes: Vec<Cause>,
+}
+
+/// A cause of residuals.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Cause {
+    /// Which.
+    pub kind: CauseKind,
+    /// Its size, see [`CauseKind`].
+    pub size: f64,
+    /// The part of the sum of squares of the residuals that it explains \[-\].
+    pub share: f64,
+}
+
+/// Kinds of causes, with the meaning of their size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CauseKind {
+    /// Plateaus of different height: relative change of positive forces.
+    DifferentPlateaus,
+    /// A force that depends on the amplitude: relative change from the smallest to the largest amplitude.
+    Amplitude,
+    /// A force that changes from cycle to cycle: relative change over the record.
+    Cycle,
+    /// Plateaus with a slope in speed: relative change up to the largest speed.
+    Speed,
+    /// Lag of the force: in samples of the measurement.
+    Lag,
+    /// Play around zero force: its displacement \[m\].
+    Play,
+    /// A viscous part: its force at the largest speed over mu N.
+    Viscous,
+    /// A spring in parallel: its force at the largest amplitude over mu N.
+    ParallelSpring,
 }
 
 /// Difference between measurement and model.
@@ -114,6 +168,13 @@ pub struct FittedLoop {
     pub force: Vec<f64>,
     /// Forces of the spring-slider \[N\].
     pub slider_force: Vec<f64>,
+}
+
+impl CauseKind {
+    /// Its name in JSON.
+    pub fn name(self) -> String {
+        serde_json::to_value(self).ok().and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
+    }
 }
 
 impl Misfit {

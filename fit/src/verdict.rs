@@ -3,12 +3,17 @@
 //! The shape is varied over its whole range, with all other parameters fitted at each value: the profile. Its interval is where the
 //! sum of squares exceeds the least one by no more than the quantile of chi squared. The intervals of the others follow from the
 //! covariance, if the shape is determined, and otherwise enclose those at all admitted shapes.
+//!
+//! Three questions come first: whether the law explains the loops at all, whether they have a plateau of gross slip, and whether they
+//! show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without microslip.
 
+use crate::causes::{Effect, causes};
 use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
+use crate::misfit::{FACTOR, LoopMisfit};
 use crate::model::{CONTACT, FRICTION, PARAMETERS, SERIES, SHAPE};
-use crate::report::{Estimate, ProfilePoint, Status};
+use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status};
 
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
 const QUANTILE: f64 = 1.96;
@@ -26,8 +31,28 @@ pub(crate) struct Solution<'a> {
     /// Initial compliance of contact, rig and bodies.
     pub total_compliance: Estimate,
     pub profile: Vec<ProfilePoint>,
-    pub slips: bool,
+    pub explanation: Explanation,
+    /// Whether a spring and a slider fit as well.
+    pub is_spring_slider: bool,
 }
+
+/// Steps of the friction coefficient, as factors, towards a fit without a plateau.
+const FRICTION_STEPS: [f64; 7] = [1.02, 1.05, 1.1, 1.2, 1.4, 2.0, 3.0];
+/// A cause is significant if it explains the square of this times what a direction of no effect explains, one over the number of
+/// independent residuals: by chance in one of 2000 fits, each of the eight causes in one of 16,000.
+const SIGNIFICANT: f64 = 4.0;
+/// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a quarter at
+/// most.
+const LEAST_SHARE: f64 = 0.1;
+/// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
+/// before it.
+const SHORTEST_PLATEAU: f64 = 0.02;
+/// A contact that has less than this part of the total compliance, as it is given, is hidden by the rest.
+const SMALL_PART: f64 = 0.1;
+/// A spring and a slider fit as well as the law if their misfit is larger by no more than this part.
+const EQUAL: f64 = 0.05;
+/// A plateau is claimed only beyond this multiple of the quantile: with a confidence of 0.9999.
+const CLAIM: f64 = 2.0;
 
 /// A fit at one shape.
 #[derive(Clone)]
@@ -67,7 +92,10 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     });
     let (profile, excesses): (Vec<_>, Vec<_>) = points.unzip();
 
-    let slips = fit.slip_ratios().iter().any(|ratio| *ratio > 1.0);
+    let free = if range.is_some() { all } else { others };
+    let excess = |candidate: &Candidate| (candidate.chi_squared - chi_squared) / unit;
+    let without_plateau = without_plateau(&fit, free, |candidate| excess(candidate).max(0.0).sqrt());
+    let has_plateau = without_plateau.is_none();
     let mut estimates = fit.parameters.map(fixed);
     let mut of_shapes = vec![(fit.clone(), others)];
     if let Some(range) = range {
@@ -83,12 +111,34 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
             admitted.map(|(candidate, _)| (candidate.fit, others)).collect()
         };
     }
-    let (values, lower, upper) = intervals(&fit, of_shapes, unit);
+    of_shapes.extend(without_plateau.map(|candidate| (candidate.fit, others)));
+    let (values, mut lower, mut upper) = intervals(&fit, of_shapes, unit);
+    let (mut explanation, mut released) = (explanation(&fit), fit.clone());
+    let significant = SIGNIFICANT.powi(2) / independent;
+    released.release(free);
+    let effects = causes(&released, if explanation.explained { significant } else { LEAST_SHARE });
+    explanation.causes = effects.iter().map(|effect| effect.cause).collect();
+    for Effect { errors, .. } in effects {
+        let of_total = errors[SERIES]
+            + fit.law_compliance()[0] * errors[CONTACT]
+            + fit.parameters[CONTACT] * fit.law_compliance()[1] * errors[SHAPE];
+        for (i, error) in [errors[FRICTION], errors[SERIES], errors[CONTACT], of_total].into_iter().enumerate() {
+            (lower[i], upper[i]) = (lower[i] - error.max(0.0), upper[i] - error.min(0.0));
+        }
+        if let Some([low, high]) = range {
+            let shape = &mut estimates[SHAPE];
+            shape.lower = (shape.lower - errors[SHAPE].max(0.0)).max(low);
+            shape.upper = shape.upper.map(|upper| (upper - errors[SHAPE].min(0.0)).min(high));
+            let width = shape.upper.unwrap_or(high) - shape.lower;
+            if shape.status == Status::Determined && width > WIDEST_SHAPE {
+                shape.status = Status::Bounded;
+            }
+        }
+    }
     let scales = [values[FRICTION], values[TOTAL], values[CONTACT], values[TOTAL]];
     let estimate = |i: usize| {
         let half_width = 0.5 * (upper[i] - lower[i]);
         let status = match i {
-            FRICTION if !slips => Status::Bounded,
             _ if half_width <= WIDEST[i] * scales[i] => Status::Determined,
             SERIES if upper[i] < scales[i] => Status::Bounded,
             _ if lower[i] > 0.0 => Status::Bounded,
@@ -100,9 +150,79 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
         estimates[i] = estimate(i);
     }
     let is_fixed = !others[SERIES] && !others[CONTACT] && range.is_none();
-    let total_compliance = if is_fixed { fixed(values[TOTAL]) } else { estimate(TOTAL) };
+    let mut total_compliance = if is_fixed { fixed(values[TOTAL]) } else { estimate(TOTAL) };
     let profile = if range.is_some() { profile } else { Vec::new() };
-    Ok(Solution { fit, estimates, total_compliance, profile, slips })
+
+    if !explanation.explained {
+        let fitted = estimates.iter_mut().chain([&mut total_compliance]).filter(|one| one.status != Status::Fixed);
+        fitted.for_each(|estimate| estimate.status = Status::NotDetermined);
+    }
+    if !has_plateau && others[FRICTION] {
+        // A quarter of the residuals is near the largest force.
+        let largest = carried(&fit, 2.0 * QUANTILE * explanation.misfit / independent.sqrt());
+        let slips = fit.slip_ratios().iter().any(|ratio| *ratio > 1.0);
+        let lower = if slips { largest.min(lower[FRICTION]).max(0.0) } else { largest };
+        estimates[FRICTION] = Estimate { lower, upper: None, status: Status::LowerBound, ..estimates[FRICTION] };
+    }
+    let is_spring_slider = is_spring_slider(&fit, others);
+    Ok(Solution { fit, estimates, total_compliance, profile, explanation, is_spring_slider })
+}
+
+/// Compares the misfit of each loop with its noise.
+fn explanation(fit: &Fit) -> Explanation {
+    let forces = fit.forces();
+    let misfits = fit.predictions().zip(&forces).map(|((one, predictions), forces)| {
+        let stiffnesses: Vec<_> = predictions.iter().map(|(at, _)| at.stiffness).collect();
+        (one, LoopMisfit::new(one, forces, &stiffnesses))
+    });
+    let worst = misfits.max_by(|(_, one), (_, other)| one.ratio().total_cmp(&other.ratio()));
+    let (one, found) = worst.expect("there are loops");
+    let explained = found.ratio() <= FACTOR;
+    Explanation {
+        explained,
+        name: one.name.clone(),
+        misfit: found.misfit,
+        relative_misfit: found.misfit / (fit.parameters[FRICTION] * one.normal_force),
+        noise: found.noise,
+        causes: Vec::new(),
+    }
+}
+
+/// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if there is none, and the
+/// loops have a plateau.
+fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -> f64) -> Option<Candidate<'a>> {
+    let slips = |fit: &Fit| fit.slip_ratios().iter().any(|ratio| *ratio > 1.0 + SHORTEST_PLATEAU);
+    let mut candidate = Candidate { fit: best.clone(), chi_squared: best.chi_squared() };
+    let others = std::array::from_fn(|i| free[i] && i != FRICTION);
+    let mut steps = FRICTION_STEPS.into_iter();
+    while slips(&candidate.fit) && excess(&candidate) <= CLAIM * QUANTILE {
+        if !free[FRICTION] {
+            return None;
+        }
+        let mut fit = candidate.fit;
+        fit.parameters[FRICTION] = best.parameters[FRICTION] * steps.next()?;
+        candidate = Candidate::new(fit, others);
+    }
+    (excess(&candidate) <= CLAIM * QUANTILE).then_some(candidate)
+}
+
+/// Largest force of the law at the mean normal force, less its error, over the normal force.
+fn carried(fit: &Fit, error: f64) -> f64 {
+    let of_loop = |(one, predictions): (&crate::cycles::Loop, Vec<(crate::model::Prediction, f64)>)| {
+        let largest = predictions.iter().map(|(at, _)| at.force.abs()).fold(0.0, f64::max);
+        (largest - error) / one.normal_force
+    };
+    fit.predictions().map(of_loop).fold(0.0, f64::max)
+}
+
+/// Whether a spring and a slider fit as well as the law.
+fn is_spring_slider(best: &Fit, others: Free) -> bool {
+    let [_, series, contact, _] = best.parameters;
+    let mut fit = best.clone();
+    fit.parameters[SERIES] = series + contact * best.law_compliance()[0];
+    fit.parameters[CONTACT] = 0.0;
+    let slider = Candidate::new(fit, [others[FRICTION], true, false, false]);
+    slider.chi_squared <= (1.0 + EQUAL).powi(2) * best.chi_squared()
 }
 
 /// Fits at shapes over the whole range, each from the one beside it, and at the best shape, in the order of the shapes.
@@ -215,20 +335,44 @@ fn correlation(residuals: &[Vec<f64>]) -> f64 {
 }
 
 /// The verdict in sentences.
-pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<[f64; 2]>) -> Vec<String> {
-    let [_, series, contact, shape] = &solution.estimates;
+pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>) -> Vec<String> {
+    let ([friction, series, contact, shape], explanation) = (&solution.estimates, &solution.explanation);
     let interval =
         |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
     let mut sentences = Vec::new();
-    if friction.status != Status::Fixed {
-        sentences.push(match friction.status {
-            _ if !solution.slips => {
-                let bound = friction.lower;
-                format!("No loop reaches gross slip: the friction coefficient has only a lower bound, {bound:.4}.")
-            }
-            Status::Determined => format!("The friction coefficient is determined: {}.", interval(friction)),
-            _ => format!("The friction coefficient is only bounded: {}.", interval(friction)),
-        });
+    if !explanation.explained {
+        let Explanation { name, misfit, relative_misfit, noise, .. } = explanation;
+        let percent = 100.0 * relative_misfit;
+        sentences.push(format!(
+            "The law does not explain these loops: the misfit of {name} is {misfit:.3e} N, {percent:.2} % of mu N, and noise \
+             explains {noise:.3e} N. No parameter is determined."
+        ));
+        if explanation.causes.is_empty() {
+            sentences.push("The residuals show none of the causes that are looked for.".to_owned());
+        }
+    }
+    sentences.extend(explanation.causes.iter().map(cause));
+    if explanation.explained && !explanation.causes.is_empty() {
+        sentences.push("This is less than noise; the intervals include its effect.".to_owned());
+    }
+    match friction.status {
+        Status::Fixed => {}
+        Status::LowerBound => {
+            let bound = friction.lower;
+            sentences.push(format!(
+                "No loop has a plateau of gross slip: the friction coefficient has only a lower bound, {bound:.4}."
+            ));
+        }
+        Status::Determined => {
+            sentences.push(format!("The friction coefficient is determined: {}.", interval(friction)));
+        }
+        _ if explanation.explained => {
+            sentences.push(format!("The friction coefficient is only bounded: {}.", interval(friction)));
+        }
+        _ => {}
+    }
+    if !explanation.explained {
+        return sentences;
     }
     let total = &solution.total_compliance;
     let part = (1.0 - series.value / total.value).max(0.0);
@@ -246,20 +390,57 @@ pub(crate) fn sentences(solution: &Solution, friction: &Estimate, range: Option<
             Status::Fixed => {}
             Status::Determined => sentences.push(format!("The {name} is determined.")),
             Status::Bounded => sentences.push(format!("The {name} is known only roughly.")),
-            Status::NotDetermined => sentences.push(format!("The {name} is not determined.")),
+            _ => sentences.push(format!("The {name} is not determined.")),
         }
+    }
+    let hides = solution.fit.law_compliance()[0] < SMALL_PART * total.value;
+    let is_seen = [contact, shape].iter().any(|estimate| estimate.status == Status::Determined);
+    if solution.is_spring_slider && !hides && !is_seen {
+        sentences.push("No microslip is seen: a spring and a slider fit as well.".to_owned());
     }
     if let Some([low, high]) = range {
         sentences.push(match shape.status {
             Status::Determined => format!("The shape is determined: a/b is {}.", interval(shape)),
-            Status::NotDetermined if contact.status == Status::NotDetermined || part < 0.1 => format!(
-                "The series compliance hides the microslip: every shape, a/b from {low} to {high}, fits equally."
-            ),
+            Status::NotDetermined if hides => {
+                format!(
+                    "The series compliance hides the microslip: every shape, a/b from {low} to {high}, fits equally."
+                )
+            }
             Status::NotDetermined => format!("The shape is not determined: a/b from {low} to {high} fit equally."),
             _ => format!("The shape is only bounded: a/b is {}.", interval(shape)),
         });
     }
     sentences
+}
+
+/// A cause of the residuals in a sentence.
+fn cause(cause: &Cause) -> String {
+    let percent = 100.0 * cause.size.abs();
+    let changes = if cause.size > 0.0 { "grows" } else { "falls" };
+    let what = match cause.kind {
+        CauseKind::DifferentPlateaus => {
+            let side = if cause.size > 0.0 { "positive" } else { "negative" };
+            format!("different plateaus: the force is larger on the {side} side by {percent:.1} % (offset or wear)")
+        }
+        CauseKind::Amplitude => {
+            format!("a force that {changes} by {percent:.1} % from the smallest to the largest amplitude")
+        }
+        CauseKind::Cycle => format!("a force that {changes} by {percent:.1} % from the first to the last cycle (wear)"),
+        CauseKind::Speed => {
+            format!("plateaus with a slope in speed: the force {changes} by {percent:.1} % up to the largest speed")
+        }
+        CauseKind::Lag => {
+            let column = if cause.size > 0.0 { "force" } else { "displacement" };
+            format!("a lag between the columns: the {column} is late by {:.1} samples", cause.size.abs())
+        }
+        CauseKind::Play => format!("play around zero force: {:.2e} of the displacement", cause.size),
+        CauseKind::Viscous => format!("a viscous part: {percent:.1} % of mu N at the largest speed"),
+        CauseKind::ParallelSpring => {
+            let sign = if cause.size > 0.0 { "" } else { "-" };
+            format!("plateaus with a slope in displacement: {sign}{percent:.1} % of mu N at the largest amplitude")
+        }
+    };
+    format!("The residuals show {what}; this explains {:.0} % of their squares.", 100.0 * cause.share)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::fs;
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/measured/tribometer_loop_mid.csv");
 
 #[test]
-fn a_tribometer_determines_friction_and_the_stiffness_of_the_rig_but_no_shape() {
+fn a_tribometer_has_friction_that_one_coefficient_does_not_explain() {
     let Ok(text) = fs::read_to_string(FILE) else { return println!("skipped: no file {FILE}") };
     let rows = text.lines().filter(|line| !line.starts_with('#'));
     let rows: Vec<Vec<f64>> = rows.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
@@ -38,7 +38,10 @@ fn a_tribometer_determines_friction_and_the_stiffness_of_the_rig_but_no_shape() 
         // Half the distance between the plateaus is 0.467 of N, the slope of the flanks 0.040 N/µm, read to some percent.
         assert!((friction.lower..=friction.upper.unwrap()).contains(&0.467), "{friction:?}");
         assert!((stiffness / 0.040 - 1.0).abs() < 0.05, "{stiffness}");
-        assert_eq!(report.shape.unwrap().status, Status::NotDetermined);
-        assert!(report.verdict.iter().any(|sentence| sentence.contains("hides the microslip")), "{:?}", report.verdict);
+        // The force wanders by 6 % on the plateaus, which is more than its scatter between both directions.
+        let statuses = [friction.status, report.total_compliance.status, report.shape.unwrap().status];
+        assert_eq!(statuses, [Status::NotDetermined; 3]);
+        assert!((0.05..0.07).contains(&report.explanation.relative_misfit), "{:?}", report.explanation);
+        assert!(report.verdict[0].starts_with("The law does not explain these loops"), "{:?}", report.verdict);
     }
 }

@@ -1,0 +1,133 @@
+//! What the residuals show.
+//!
+//! Each cause has a direction: the derivative of the forces with respect to its size. What the parameters of the fit could take of
+//! residuals and directions is removed, and the residuals are regressed on one direction after the other, the one that explains most
+//! first. The direction is that at the fit, so that sizes of large effects are estimates.
+
+use crate::cycles::{Loop, Sample};
+use crate::least_squares::Fit;
+use crate::model::{FRICTION, PARAMETERS, Prediction};
+use crate::report::{Cause, CauseKind};
+use nalgebra::{DMatrix, DVector};
+
+/// A cause and the errors of the parameters that it has in a fit that does not know it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effect {
+    pub cause: Cause,
+    pub errors: [f64; PARAMETERS],
+}
+
+/// A direction of which the parameters of the fit take all but this part is not distinguished from them.
+const DISTINCT: f64 = 0.03;
+
+/// The model at a sample.
+struct At<'a> {
+    one: &'a Loop,
+    sample: &'a Sample,
+    /// Without offset and drift.
+    prediction: Prediction,
+    /// Change of the force per sample of the measurement.
+    force_step: f64,
+    /// Standard deviation of the residual.
+    sigma: f64,
+}
+
+/// Friction coefficient, and ranges over all loops.
+struct Ranges {
+    friction: f64,
+    speed: f64,
+    amplitude: [f64; 2],
+}
+
+impl Ranges {
+    /// dF/d(size) of a cause.
+    fn direction(&self, kind: CauseKind, at: &At) -> f64 {
+        let [smallest, largest] = self.amplitude;
+        let (force, speed) = (at.prediction.force, at.sample.velocity / self.speed);
+        let slip_force = self.friction * at.one.normal_force;
+        match kind {
+            CauseKind::DifferentPlateaus => force.max(0.0),
+            CauseKind::Amplitude => force * (at.one.amplitude - smallest) / (largest - smallest).max(f64::MIN_POSITIVE),
+            CauseKind::Cycle => 0.5 * force * at.sample.time,
+            CauseKind::Speed => force * speed.abs(),
+            CauseKind::Lag => -at.force_step,
+            // The displacement of the contact is less by half the play in the direction of the force.
+            CauseKind::Play => {
+                let [_, _, low, high] = at.prediction.nuisance_slopes;
+                -0.5 * (low + high + at.prediction.stiffness * force.signum())
+            }
+            CauseKind::Viscous => slip_force * speed,
+            CauseKind::ParallelSpring => slip_force * at.sample.displacement / largest,
+        }
+    }
+}
+
+const KINDS: [CauseKind; 8] = [
+    CauseKind::DifferentPlateaus,
+    CauseKind::Amplitude,
+    CauseKind::Cycle,
+    CauseKind::Speed,
+    CauseKind::Lag,
+    CauseKind::Play,
+    CauseKind::Viscous,
+    CauseKind::ParallelSpring,
+];
+
+/// The model at all samples.
+fn samples<'a>(fit: &'a Fit) -> Vec<At<'a>> {
+    let of_loop = |(one, predictions): (&'a Loop, Vec<(Prediction, f64)>)| -> Vec<At> {
+        let force = |i: usize| predictions[i].0.force;
+        let at = |(i, sample): (usize, &'a Sample)| {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(predictions.len() - 1));
+            let (prediction, sigma) = predictions[i];
+            let force_step = (force(after) - force(before)) / ((after - before) as f64 * one.interval);
+            At { one, sample, prediction, force_step, sigma }
+        };
+        one.samples.iter().enumerate().map(at).collect()
+    };
+    fit.predictions().flat_map(of_loop).collect()
+}
+
+/// The causes that explain at least this share of the residuals, the one that explains most first.
+pub(crate) fn causes(fit: &Fit, least_share: f64) -> Vec<Effect> {
+    let Some((residuals, parameters, upper)) = fit.factors() else { return Vec::new() };
+    let samples = samples(fit);
+    let least = |value: &dyn Fn(&At) -> f64| samples.iter().map(value).fold(f64::INFINITY, f64::min);
+    let ranges = Ranges {
+        friction: fit.parameters[FRICTION],
+        speed: -least(&|at| -at.sample.velocity.abs()),
+        amplitude: [least(&|at| at.one.amplitude), -least(&|at| -at.one.amplitude)],
+    };
+    let remove = |vector: &mut DVector<f64>, basis: &DMatrix<f64>| *vector -= basis * basis.tr_mul(vector);
+    let direction = |kind| {
+        // The corrections of the reversals have residuals of their own, which no cause has.
+        let mut direction = DVector::zeros(residuals.len());
+        samples.iter().enumerate().for_each(|(row, at)| direction[row] = ranges.direction(kind, at) / at.sigma);
+        let whole = direction.norm();
+        let errors = upper.solve_upper_triangular(&parameters.tr_mul(&direction));
+        remove(&mut direction, &parameters);
+        (direction.norm() > DISTINCT * whole).then_some((kind, direction, fit.of_columns(&errors?)))
+    };
+    let mut directions: Vec<_> = KINDS.into_iter().filter_map(direction).collect();
+    let (mut rest, mut found) = (residuals.clone(), Vec::new());
+    remove(&mut rest, &parameters);
+    let whole = rest.norm_squared();
+    loop {
+        let explained = |(kind, direction, errors): (CauseKind, DVector<f64>, [f64; PARAMETERS])| {
+            let size = direction.dot(&rest) / direction.norm_squared();
+            let share = size * size * direction.norm_squared() / whole;
+            let is_possible = size > 0.0 || !matches!(kind, CauseKind::Play | CauseKind::Viscous);
+            let errors = errors.map(|error| size * error);
+            (is_possible && share > least_share)
+                .then_some((Effect { cause: Cause { kind, size, share }, errors }, direction))
+        };
+        let effects = directions.iter().cloned().filter_map(explained);
+        let largest = effects.max_by(|(one, _), (other, _)| one.cause.share.total_cmp(&other.cause.share));
+        let Some((effect, direction)) = largest else { return found };
+        rest -= &direction * effect.cause.size;
+        directions.retain(|(kind, ..)| *kind != effect.cause.kind);
+        let unit = DMatrix::from_columns(&[direction.normalize()]);
+        directions.iter_mut().for_each(|(_, other, _)| remove(other, &unit));
+        found.push(effect);
+    }
+}
