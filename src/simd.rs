@@ -1,7 +1,7 @@
 //! SIMD dispatch: kernels compiled for the baseline and for AVX2, selected at run time.
 //!
-//! A kernel is one loop, or a few, over arrays; the control flow around it is compiled once. Both variants perform the same operations in
-//! the same order, without fused multiply-add: the results are bit-identical.
+//! A kernel is one loop, or a few, over arrays; the control flow around it is compiled once. Both variants perform the same
+//! operations in the same order, without fused multiply-add: the results are bit-identical.
 //!
 //! This is the only unsafe code outside `ffi`: a function compiled for AVX2 may be called if the processor has AVX2, and no other
 //! module can check that next to the call. It reads and writes no memory of its own.
@@ -17,7 +17,8 @@ pub(crate) fn has_avx2() -> bool {
     std::is_x86_feature_detected!("avx2")
 }
 
-/// Calls a kernel, which must be `#[inline(always)]`, in the variant for the present processor: `dispatch!(kernel, x: &[f64] => f64)`.
+/// Calls a kernel, which must be `#[inline(always)]`, in the variant for the present processor:
+/// `dispatch!(kernel, x: &[f64] => f64)`.
 macro_rules! dispatch {
     ($kernel:expr, $([$(const $generic:ident: $kind:ty),+])? $($argument:ident: $type:ty),+ => $result:ty) => {{
         #[inline(never)]
@@ -44,8 +45,8 @@ macro_rules! dispatch {
 
 pub(crate) use dispatch;
 
-/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they overlap, would
-/// not combine them in a vector.
+/// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they
+/// overlap, would not combine them in a vector.
 #[inline(always)]
 pub(crate) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
     let ([a, b, c, d], [e, f, g, h]) = (target, row);

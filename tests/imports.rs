@@ -1,5 +1,5 @@
-//! Imports only go down: each module of `src/` uses those that the table of `docs/architecture.md` allows, which stand above it there,
-//! and no files of a module import each other in a circle. Test modules are not read.
+//! Imports only go down: each module of `src/` uses those that the table of `docs/architecture.md` allows, which stand above it
+//! there, and no files of a module import each other in a circle. Test modules are not read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -153,8 +153,8 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
     Some(evaluator.on_branch(response))
 }
 
-/// Finds a step by the variant that the state and the requested energy need, and evaluates an expression of the step and its energy. The
-/// variants, and the expression for each, are kept apart: a step that may have to be changed would live in memory.
+/// Finds a step by the variant that the state and the requested energy need, and evaluates an expression of the step and its energy.
+/// The variants, and the expression for each, are kept apart: a step that may have to be changed would live in memory.
 macro_rules! with_step {
     ($contact:expr, $state:expr, $displacement:expr, $with_energy:expr, |$step:ident, $energy:ident| $result:expr) => {
         if $with_energy {

@@ -107,7 +107,12 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    let length = |directions| with_law!(directions, L => <L as ElementLaw>::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()));
+    let length = |directions| {
+        let length = with_law!(directions, L => {
+            <L as ElementLaw>::Layout::new(harmonics, samples).map(|layout| layout.length())
+        });
+        length.unwrap_or(0)
+    };
     check_element_rule(directions, rule).map_or(0, length)
 }
 

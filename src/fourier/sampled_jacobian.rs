@@ -69,7 +69,13 @@ impl<'a> Assembly<'a> {
     #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
         let assembly = self;
-        dispatch!(Assembly::sums_kernel, assembly: &mut Assembly, columns: &mut [f64], stride: usize, offset: usize => ());
+        dispatch!(
+            Assembly::sums_kernel,
+            assembly: &mut Assembly,
+            columns: &mut [f64],
+            stride: usize,
+            offset: usize => ()
+        );
     }
 
     /// Writes `Σ w φ ⊗ φ` and the outer products with the rows Y of an index to the first rows of the columns. Under half-wave symmetry

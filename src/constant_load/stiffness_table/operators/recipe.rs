@@ -1,5 +1,5 @@
-//! How the operators are computed. Gauss-Legendre rules of 32 nodes are exact to rounding: where a root begins in a piece or next to it,
-//! its square root is the variable.
+//! How the operators are computed. Gauss-Legendre rules of 32 nodes are exact to rounding: where a root begins in a piece or next
+//! to it, its square root is the variable.
 
 use super::{FIRST, Functionals, OPERATORS, Operator, Operators, POINTS, TAYLOR, TOP, VALUES};
 use crate::numerics::chebyshev::{Interpolant, TERMS};
