@@ -8,11 +8,12 @@
 //! show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without microslip.
 
 use crate::causes::{Effect, causes};
+use crate::cycles::Loop;
 use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
 use crate::misfit::{FACTOR, LoopMisfit};
-use crate::model::{CONTACT, FRICTION, PARAMETERS, SERIES, SHAPE};
+use crate::model::{CONTACT, FRICTION, PARAMETERS, Prediction, SERIES, SHAPE};
 use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status};
 
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
@@ -114,26 +115,20 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     of_shapes.extend(without_plateau.map(|candidate| (candidate.fit, others)));
     let (values, mut lower, mut upper) = intervals(&fit, of_shapes, unit);
     let (mut explanation, mut released) = (explanation(&fit), fit.clone());
-    let significant = SIGNIFICANT.powi(2) / independent;
+    // Residuals below the noise that digitiser and model explain are no evidence.
+    let significant = SIGNIFICANT.powi(2) / independent * (explanation.noise / explanation.misfit).powi(2).max(1.0);
     released.release(free);
     let effects = causes(&released, if explanation.explained { significant } else { LEAST_SHARE });
     explanation.causes = effects.iter().map(|effect| effect.cause).collect();
-    for Effect { errors, .. } in effects {
-        let of_total = errors[SERIES]
-            + fit.law_compliance()[0] * errors[CONTACT]
-            + fit.parameters[CONTACT] * fit.law_compliance()[1] * errors[SHAPE];
+    for Effect { errors, .. } in &effects {
+        let [law, slope] = fit.law_compliance();
+        let of_total = errors[SERIES] + law * errors[CONTACT] + fit.parameters[CONTACT] * slope * errors[SHAPE];
         for (i, error) in [errors[FRICTION], errors[SERIES], errors[CONTACT], of_total].into_iter().enumerate() {
             (lower[i], upper[i]) = (lower[i] - error.max(0.0), upper[i] - error.min(0.0));
         }
-        if let Some([low, high]) = range {
-            let shape = &mut estimates[SHAPE];
-            shape.lower = (shape.lower - errors[SHAPE].max(0.0)).max(low);
-            shape.upper = shape.upper.map(|upper| (upper - errors[SHAPE].min(0.0)).min(high));
-            let width = shape.upper.unwrap_or(high) - shape.lower;
-            if shape.status == Status::Determined && width > WIDEST_SHAPE {
-                shape.status = Status::Bounded;
-            }
-        }
+    }
+    if let Some(range) = range {
+        effects.iter().for_each(|effect| widen_shape(&mut estimates[SHAPE], effect.errors[SHAPE], range));
     }
     let scales = [values[FRICTION], values[TOTAL], values[CONTACT], values[TOTAL]];
     let estimate = |i: usize| {
@@ -208,7 +203,7 @@ fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -
 
 /// Largest force of the law at the mean normal force, less its error, over the normal force.
 fn carried(fit: &Fit, error: f64) -> f64 {
-    let of_loop = |(one, predictions): (&crate::cycles::Loop, Vec<(crate::model::Prediction, f64)>)| {
+    let of_loop = |(one, predictions): (&Loop, Vec<(Prediction, f64)>)| {
         let largest = predictions.iter().map(|(at, _)| at.force.abs()).fold(0.0, f64::max);
         (largest - error) / one.normal_force
     };
@@ -294,6 +289,16 @@ fn shape_estimate(
     Estimate { value, lower, upper: Some(upper), status }
 }
 
+/// Includes the shape without the error by a cause.
+fn widen_shape(shape: &mut Estimate, error: f64, [low, high]: [f64; 2]) {
+    let upper = (shape.upper.unwrap_or(high) - error.min(0.0)).min(high);
+    shape.lower = (shape.lower - error.max(0.0)).max(low);
+    shape.upper = Some(upper);
+    if shape.status == Status::Determined && upper - shape.lower > WIDEST_SHAPE {
+        shape.status = Status::Bounded;
+    }
+}
+
 /// Place of the total compliance C + κ/k beside the three parameters.
 const TOTAL: usize = 3;
 
@@ -353,7 +358,7 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>) -> Vec<Str
     }
     sentences.extend(explanation.causes.iter().map(cause));
     if explanation.explained && !explanation.causes.is_empty() {
-        sentences.push("This is less than noise; the intervals include its effect.".to_owned());
+        sentences.push("That is below twice the noise; the intervals include its effect.".to_owned());
     }
     match friction.status {
         Status::Fixed => {}

@@ -205,7 +205,7 @@ fn loops_of_the_law_are_explained() {
         "loops of the law: {explained} explained, {named} with a cause, mu determined {determined}, wrong {wrong}"
     );
     assert!(is_rare(seeds() as usize - explained, 0.0) && is_rare(seeds() as usize - determined, 0.0));
-    assert!(is_rare(named, 0.03));
+    assert!(is_rare(named, 0.01));
     // One of five intervals of 95 % does not contain the truth.
     assert!(is_rare(wrong, 0.25), "{wrong}");
 }
