@@ -5,6 +5,11 @@
 /// Calls a function, which must be `#[inline(always)]`, in the variant for the present processor.
 macro_rules! dispatch_simd {
     ($function:path, $($argument:ident: $type:ty),+ => $result:ty) => {{
+        // A function of its own, so that the variant for AVX2 does not run above its frame.
+        #[inline(never)]
+        fn on_baseline($($argument: $type),+) -> $result {
+            $function($($argument),+)
+        }
         #[cfg(target_arch = "x86_64")]
         {
             #[target_feature(enable = "avx2")]
@@ -15,11 +20,6 @@ macro_rules! dispatch_simd {
                 // SAFETY: the processor supports AVX2.
                 return unsafe { on_avx2($($argument),+) };
             }
-        }
-        // A function of its own, so that the variant for AVX2 does not run above its frame.
-        #[inline(never)]
-        fn on_baseline($($argument: $type),+) -> $result {
-            $function($($argument),+)
         }
         on_baseline($($argument),+)
     }};
