@@ -1,5 +1,6 @@
-/* Random contacts, elements and motions from the whole range that is allowed, in the four rounding modes: no call raises an exception
-   that may be trapped, every state that results passes its check, and no call takes more stack than docs/cluster.md states.
+/* Random contacts, elements and motions from the whole range that is allowed, in the four rounding modes: no call raises an
+   exception that may be trapped, every state that results passes its check, and no call takes more stack than docs/cluster.md
+   states.
 
    extremes [FIRST [DRAWS]]: the number of a draw is its seed. */
 #include "calls.h"
@@ -46,7 +47,8 @@ static int is_warm; /* the linker has resolved the functions of the C library, f
 static int rounding;
 static const int roundings[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
 
-/* The thread's stack, of which a part below the caller is filled with a pattern, and the deepest use by the number of directions. */
+/* The thread's stack, of which a part below the caller is filled with a pattern, and the deepest use for each number of
+   directions. */
 enum { STACK = 1 << 20, FILLED = 96 * 1024, OWN_FRAME = 1024 };
 static const uint64_t pattern = 0xa5a5a5a5a5a5a5a5;
 static uint64_t *stack;
@@ -169,10 +171,9 @@ static double largest_normal(const mslip_element *element, double from, int by_f
     double low = from, high = 1e150;
     for (int i = 0; i < 60; ++i) {
         const double middle = sqrt(low) * sqrt(high);
-        const int is_allowed = (by_force ? MAKE("mslip_normal_approach", 1, mslip_normal_approach(element, 1, &middle, NULL, NULL, NULL))
-                                         : MAKE("mslip_normal_force", 1, mslip_normal_force(element, 1, &middle, NULL, NULL, NULL)))
-                               == MSLIP_OK;
-        *(is_allowed ? &low : &high) = middle;
+        MAKE("normal law", 1, by_force ? mslip_normal_approach(element, 1, &middle, NULL, NULL, NULL)
+                                       : mslip_normal_force(element, 1, &middle, NULL, NULL, NULL));
+        *(status == MSLIP_OK ? &low : &high) = middle;
     }
     return low;
 }

@@ -95,12 +95,12 @@ const TWO_DIRECTIONS: u64 = 4;
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
-/// 2^-80: the same with two directions. There the shell at the edge of a flat, at 1e-8 of the size of the parameters, is 1e8 times as stiff
-/// as the others, and derivatives lose the digits of its square.
+/// 2^-80: the same with two directions. There the shell at the edge of a flat, at 1e-8 of the size of the parameters, is 1e8 times
+/// as stiff as the others, and derivatives lose the digits of its square.
 const SMALLEST_OF_SPRINGS: f64 = f64::from_bits((1023 - 80) << 52);
 
-/// 2^100: the largest approach with two directions, relative to that of the parameters. With the same law for loads, 2^150, squares do
-/// not overflow in the units of the springs.
+/// 2^100: the largest approach with two directions, relative to that of the parameters; the largest force is 2^150 times theirs.
+/// Squares in the units of the springs do not overflow then.
 const MOST_APPROACH: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
