@@ -1,8 +1,8 @@
 //! What the residuals show.
 //!
-//! Each cause has a direction: the derivative of the forces with respect to its size. What the parameters of the fit could take of
-//! residuals and directions is removed, and the residuals are regressed on one direction after the other, the one that explains most
-//! first. The direction is that at the fit, so that sizes of large effects are estimates.
+//! Each cause has a direction: the derivative of the forces with respect to its size. What the parameters of the fit could take
+//! of residuals and directions is removed, and the residuals are regressed on one direction after the other, the one that
+//! explains most first. The direction is that at the fit, so that sizes of large effects are estimates.
 
 use crate::cycles::{Loop, Sample};
 use crate::least_squares::Fit;

@@ -236,8 +236,8 @@ impl Loop {
         self.energy(&forces) / (range(&forces) * 2.0 * self.amplitude)
     }
 
-    /// Checks the direction of the loop. If another loop has a positive area that is much larger, the force is late by some samples,
-    /// which is left to the fit.
+    /// Checks the direction of the loop. If another loop has a positive area that is much larger, the force is late by some
+    /// samples, which is left to the fit.
     pub fn check_direction(&self, loops: &[Loop]) -> Result<(), Error> {
         let area = self.area();
         if area > -0.01 || loops.iter().any(|one| one.area() > -OPEN * area) {

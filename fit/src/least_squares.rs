@@ -80,8 +80,8 @@ impl<'a> Fit<'a> {
     }
 
     /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a
-    /// loop is an error of the model, of the same size everywhere. A loop that is fitted better than the others by chance has not all
-    /// the weight.
+    /// loop is an error of the model, of the same size everywhere. A loop that is fitted better than the others by chance has not
+    /// all the weight.
     pub fn update_targets(&mut self) {
         let target = |(one, model): (&Loop, LoopModel)| {
             let [of_displacement, of_force] = one.noise;

@@ -6,9 +6,9 @@
 use crate::cycles::Loop;
 use nalgebra::{DMatrix, DVector};
 
-/// The law explains a loop if its misfit is at most this factor times the noise. Rounding to the steps q of a digitiser has errors
-/// up to q/2, less than twice its standard deviation q/sqrt(12). Of a misfit twice the noise 3/4 of the square repeat in each cycle,
-/// and the intervals of the parameters, which take the residuals for random, no longer contain the error.
+/// The law explains a loop if its misfit is at most this factor times the noise. Rounding to the steps q of a digitiser has
+/// errors up to q/2, less than twice its standard deviation q/sqrt(12). Of a misfit twice the noise 3/4 of the square repeat in
+/// each cycle, and the intervals of the parameters, which take the residuals for random, no longer contain the error.
 pub(crate) const FACTOR: f64 = 2.0;
 /// Error of the model itself over the largest force: a smaller misfit is explained. Averaged samples cut off the kink of a
 /// reversal, and corrections of reversals are of first order.
@@ -46,8 +46,8 @@ impl LoopMisfit {
 }
 
 /// Variance of the noise from the differences of the residuals of a branch and of the same branch one cycle before, at the same
-/// displacement, without the change of offset and height, which is no noise. Of a single cycle, both branches are compared, of which
-/// one is mirrored.
+/// displacement, without the change of offset and height, which is no noise. Of a single cycle, both branches are compared, of
+/// which one is mirrored.
 fn between_branches(one: &Loop, residuals: &[f64], forces: &[[f64; 2]]) -> f64 {
     let turns = (1..one.samples.len()).filter(|i| one.samples[*i].direction != one.samples[i - 1].direction);
     let ends: Vec<_> = [0].into_iter().chain(turns).chain([one.samples.len()]).collect();

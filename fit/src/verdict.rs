@@ -4,8 +4,9 @@
 //! sum of squares exceeds the least one by no more than the quantile of chi squared. The intervals of the others follow from the
 //! covariance, if the shape is determined, and otherwise enclose those at all admitted shapes.
 //!
-//! Three questions come first: whether the law explains the loops at all, whether they have a plateau of gross slip, and whether they
-//! show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without microslip.
+//! Three questions come first: whether the law explains the loops at all, whether they have a plateau of gross slip, and whether
+//! they show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without
+//! microslip.
 
 use crate::causes::{Effect, causes};
 use crate::cycles::Loop;
@@ -42,8 +43,8 @@ const FRICTION_STEPS: [f64; 7] = [1.02, 1.05, 1.1, 1.2, 1.4, 2.0, 3.0];
 /// A cause is significant if it explains the square of this times what a direction of no effect explains, one over the number of
 /// independent residuals: by chance in one of 2000 fits, each of the eight causes in one of 16,000.
 const SIGNIFICANT: f64 = 4.0;
-/// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a quarter at
-/// most.
+/// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a
+/// quarter at most.
 const LEAST_SHARE: f64 = 0.1;
 /// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
 /// before it.
@@ -183,8 +184,8 @@ fn explanation(fit: &Fit) -> Explanation {
     }
 }
 
-/// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if there is none, and the
-/// loops have a plateau.
+/// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if there is none,
+/// and the loops have a plateau.
 fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -> f64) -> Option<Candidate<'a>> {
     let slips = |fit: &Fit| fit.slip_ratios().iter().any(|ratio| *ratio > 1.0 + SHORTEST_PLATEAU);
     let mut candidate = Candidate { fit: best.clone(), chi_squared: best.chi_squared() };

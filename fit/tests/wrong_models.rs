@@ -1,7 +1,7 @@
 //! Loops that the law does not describe: nothing is determined that is wrong, and the cause is named.
 //!
-//! Each seed draws contact, rig, noise, drift and the steps of a digitiser. `MICROSLIP_SEEDS` sets the number of seeds of each kind and
-//! size; 200 is the full test.
+//! Each seed draws contact, rig, noise, drift and the steps of a digitiser. `MICROSLIP_SEEDS` sets the number of seeds of each
+//! kind and size; 200 is the full test.
 
 mod common;
 use common::*;
@@ -141,8 +141,8 @@ const KINDS: [(CauseKind, &str, [f64; 3]); 8] = [
     (CauseKind::ParallelSpring, "force of a parallel spring over μN", [0.05, 0.15, 0.3]),
 ];
 
-/// Whether a parameter is determined, and its interval beside the truth. If the cause changes all forces, the truth is a range. Without
-/// noise, the fit has an error of 1e-3.
+/// Whether a parameter is determined, and its interval beside the truth. If the cause changes all forces, the truth is a range.
+/// Without noise, the fit has an error of 1e-3.
 fn is_wrong(report: &Report, truth: [f64; 5], kind: CauseKind, size: f64) -> bool {
     let changes_forces = !matches!(kind, CauseKind::Lag | CauseKind::Play | CauseKind::ParallelSpring);
     let factor = if changes_forces { 1.0 + size } else { 1.0 };
