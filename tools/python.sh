@@ -29,6 +29,7 @@ tools() {
     "$tools/bin/python" -c 'import ziglang' 2> /dev/null ||
         { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
 }
+# shellcheck disable=SC2086  # flags are a list
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
         (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated \
