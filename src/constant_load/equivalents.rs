@@ -91,6 +91,14 @@ fn minus_sine(s: f64) -> f64 {
 /// With this number of sliders the error is 4e-12 of mu N for a cylinder, and the computation takes seconds.
 pub const MAX_SLIDERS: usize = 1 << 16;
 
+/// Checks a number of sliders.
+///
+/// # Errors
+/// `BadCount` if there are none, or more than [`MAX_SLIDERS`].
+pub fn check_count(sliders: usize) -> Result<(), Error> {
+    if (1..=MAX_SLIDERS).contains(&sliders) { Ok(()) } else { Err(Error::BadCount) }
+}
+
 /// n parallel spring-sliders with the contact's monotonic curve; `emit` is called for each. Returns the maximum error of the
 /// force over mu N.
 ///
@@ -100,11 +108,9 @@ pub const MAX_SLIDERS: usize = 1 << 16;
 /// found by bisection.
 ///
 /// # Errors
-/// `BadCount` if there are no sliders, or more than [`MAX_SLIDERS`].
+/// That of [`check_count`].
 pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider)) -> Result<f64, Error> {
-    if !(1..=MAX_SLIDERS).contains(&sliders) {
-        return Err(Error::BadCount);
-    }
+    check_count(sliders)?;
     if contact.is_frictionless() {
         (0..sliders).for_each(|_| emit(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);

@@ -262,11 +262,12 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
     force_error: *mut f64,
 ) -> i32 {
     let compute = || {
+        pointers::check_length::<f64>(n)?;
+        // Before arrays of that length are assumed.
+        equivalents::check_count(n)?;
         // SAFETY: by the function's contract.
-        let (contact, [mut stiffness, mut slip_force], mut force_error) = unsafe {
-            let outputs = outputs([stiffness, slip_force], n);
-            (pointers::contact(contact)?, outputs?, output(force_error, 1)?)
-        };
+        let (contact, [mut stiffness, mut slip_force], mut force_error) =
+            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?) };
         let mut i = 0;
         let error = equivalents::iwan(contact, n, |slider| {
             set(&mut stiffness, i, || slider.stiffness);
