@@ -138,10 +138,11 @@ impl<'a, T> Items<'a, T> {
         index: *const i32,
         active: *const i32,
     ) -> Result<Items<'a, T>, Error> {
+        // Of the largest items, before arrays of that length are assumed.
+        check_length::<f64>(n)?;
         // SAFETY: by the function's contract.
         let (laws, index, active) =
             unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
-        check_length::<f64>(n)?;
         Ok(Items { n, laws, index, active })
     }
 
