@@ -314,7 +314,10 @@ fn memory() {
                     let least = law.memory_length(call, "state");
                     (n >= least).then(|| Memory::of(&one.values::<u64>()[..least].repeat(call.items())))
                 }
-                Workspace if of_element && call.has(Element) => Some(other.workspace(call)),
+                // The arrays of a batch have the lengths of its workspace: a longer one would exceed them.
+                Workspace if of_element && call.has(Element) && !(call.has(Index) && other.directions == 2) => {
+                    Some(other.workspace(call))
+                }
                 _ => None,
             };
             if let Some(foreign) = foreign {
