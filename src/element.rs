@@ -1,15 +1,13 @@
 //! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all
 //! contact points of a geometry.
 
-use crate::limits::check_displacement;
-use crate::parameters::check_moduli;
 pub(crate) mod springs;
 mod table;
 
 use crate::error::Error;
-use crate::limits::in_range;
+use crate::limits::{check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, le};
-use crate::parameters::{EllipticParameters, Pair, Parameters};
+use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
 use crate::shape::{HertzEllipse, Plane, Relation, RoundedFlat, Shape};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
