@@ -126,6 +126,10 @@ module microslip
     !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 14  !! normal_compliance of a layer must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_TANGENTIAL_COMPLIANCE = 15
+    !! tangential_compliance of a layer must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_STIFFENING_LOAD = 16  !! stiffening_load of a layer must be >= 0, or infinite
   integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
     !! invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
@@ -257,7 +261,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(5533) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(6560) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 

@@ -70,6 +70,15 @@
 // parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
 #define MSLIP_OUT_OF_RANGE 13
 
+// normal_compliance of a layer must be finite and >= 0
+#define MSLIP_BAD_NORMAL_COMPLIANCE 14
+
+// tangential_compliance of a layer must be finite and >= 0
+#define MSLIP_BAD_TANGENTIAL_COMPLIANCE 15
+
+// stiffening_load of a layer must be >= 0, or infinite
+#define MSLIP_BAD_STIFFENING_LOAD 16
+
 // invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
 #define MSLIP_BAD_CONTACT 20
 
@@ -270,7 +279,7 @@ typedef struct mslip_element {
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[5533];
+    double reserved[6560];
 } mslip_element;
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::limits::{check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, le};
 use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
-use crate::shape::{HertzEllipse, Plane, Relation, RoundedFlat, Shape};
+use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 use springs::{Pressed, PressedSlopes, Springs};
@@ -65,13 +65,15 @@ pub struct Element {
     pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.
     smallest_input: f64,
-    /// S = `shift_per_approach` U + `shift_per_load` N, exactly.
+    /// S = `shift_per_approach` U + `shift_per_load` N, exactly, without a layer.
     shift_per_approach: f64,
     shift_per_load: f64,
-    flat: RoundedFlat,
-    ellipse: HertzEllipse,
+    flat: Layered<RoundedFlat>,
+    ellipse: Layered<HertzEllipse>,
     /// N(U) or S(N): the quantity that the input does not give.
     of_input: Table,
+    /// S(U) or U(N), the third quantity, with a layer.
+    third: Table,
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
@@ -88,6 +90,7 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
+const LAYERED: u64 = 8;
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
@@ -169,10 +172,12 @@ impl Element {
         in_range(&[normal_force], &[length, flat.half_width()])?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&flat.plane(), [normal_force, friction_coefficient], directions, input)?;
+        let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)? };
+        let plane = Plane { shape: &layered, ..flat.plane() };
+        self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
-        (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
+        (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
         Ok(())
     }
 
@@ -199,11 +204,13 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[normal_force], &[axis, composite_modulus])?;
         }
-        self.init(&ellipse.plane(), [normal_force, friction_coefficient], directions, input)?;
+        let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)? };
+        let plane = Plane { shape: &layered, ..ellipse.plane() };
+        self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
-        (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
+        (self.flat, self.ellipse) = (EMPTY.flat, layered);
         Ok(())
     }
 
@@ -211,10 +218,14 @@ impl Element {
     fn init(
         &mut self,
         plane: &Plane,
+        layer: &Layer,
         [normal_force, friction_coefficient]: [f64; 2],
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
+        if directions == Directions::Two && !layer.is_none() {
+            return Err(Error::NotAvailable);
+        }
         let shape = plane.shape;
         let largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
         let w = shape.at_load(normal_force);
@@ -245,6 +256,7 @@ impl Element {
         self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        self.tag |= if layer.is_none() { 0 } else { LAYERED };
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
         (self.shift, self.size) = (shift, w);
@@ -261,12 +273,19 @@ impl Element {
         match input {
             NormalInput::Approach => {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
-                self.of_input.fill(regular(approach, self.largest_approach), &load_of_approach);
+                let largest = regular(approach, self.largest_approach);
+                self.of_input.fill(largest, &load_of_approach);
+                if self.is_layered() {
+                    self.third.fill(largest, &|x| shape.series(shape.at_approach(x), Relation::ShiftOfApproach));
+                }
             }
             NormalInput::Force => {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
                 // The load of the parameters without the rounding error of its size.
                 self.of_input.fill(normal_force, &shift_of_load);
+                if self.is_layered() {
+                    self.third.fill(normal_force, &|x| shape.series(shape.at_load(x), Relation::ApproachOfLoad));
+                }
             }
         }
         for (value, middle) in self.potential.iter_mut().zip(self.load_of_shift.middles()) {
@@ -311,7 +330,7 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS) == TAG
+        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS | LAYERED) == TAG
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
@@ -320,7 +339,7 @@ impl Element {
     /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
-        match self.tag & !(ELLIPTIC | FORCE_INPUT) {
+        match self.tag & !(ELLIPTIC | FORCE_INPUT | LAYERED) {
             tag if tag == TAG | tag_of(directions) => Ok(()),
             _ if self.is_initialised() => Err(Error::BadDirections),
             _ => Err(Error::BadElement),
@@ -353,6 +372,10 @@ impl Element {
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
         let Some(at) = position else { return self.approach_outside(normal_force) };
+        if self.is_layered() {
+            let (value, slope) = self.third.value_and_slope(normal_force, at);
+            return NormalPoint { value, slope };
+        }
         let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
         let per_approach = 1.0 / self.shift_per_approach;
         let value = per_approach * (shift - self.shift_per_load * normal_force);
@@ -410,6 +433,12 @@ impl Element {
     /// Whether the normal component of a displacement is the approach.
     pub(crate) fn by_approach(&self) -> bool {
         self.tag & FORCE_INPUT == 0
+    }
+
+    /// Whether a layer is in series with the contact.
+    #[inline(always)]
+    fn is_layered(&self) -> bool {
+        self.tag & LAYERED != 0
     }
 
     /// The family of sizes.
@@ -478,12 +507,13 @@ impl Element {
             None => self.outside(input),
         };
         if self.by_approach() {
-            Normal {
-                load: value,
-                shift: self.shift_per_approach * input + self.shift_per_load * value,
-                load_slope: slope,
-                shift_slope: self.shift_per_approach + self.shift_per_load * slope,
-            }
+            let (shift, shift_slope) = if self.is_layered() {
+                self.shift_of_approach(input)
+            } else {
+                let per_load = self.shift_per_load;
+                (self.shift_per_approach * input + per_load * value, self.shift_per_approach + per_load * slope)
+            };
+            Normal { load: value, shift, load_slope: slope, shift_slope }
         } else {
             Normal { load: input, shift: value, load_slope: 1.0, shift_slope: slope }
         }
@@ -519,6 +549,10 @@ impl Element {
         }
         let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
         let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
+        if self.is_layered() {
+            (shift, shift_slope) = self.third.four::<SLOPES>(input).unwrap_or_else(|| self.four_shifts_outside(input));
+            return [value, shift, slope, shift_slope];
+        }
         for k in 0..4 {
             shift[k] = ratio * input[k] + per_load * value[k];
             shift_slope[k] = ratio + per_load * slope[k];
@@ -536,6 +570,31 @@ impl Element {
             };
         }
         (value, slope)
+    }
+
+    /// S(U) and its slope with a layer.
+    #[inline(always)]
+    fn shift_of_approach(&self, approach: f64) -> (f64, f64) {
+        match self.third.position(approach) {
+            Some(at) => self.third.value_and_slope(approach, at),
+            None => self.shift_of_approach_outside(approach),
+        }
+    }
+
+    #[inline(never)]
+    fn shift_of_approach_outside(&self, approach: f64) -> (f64, f64) {
+        let (load, load_slope) = self.load_of_approach_outside(approach);
+        let (shift, slope) = self.shift_of_load(load);
+        (shift, slope * load_slope)
+    }
+
+    #[inline(never)]
+    fn four_shifts_outside(&self, approach: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
+        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
+        for ((shift, slope), &approach) in shift.iter_mut().zip(&mut shift_slope).zip(approach) {
+            (*shift, *slope) = self.shift_of_approach(approach);
+        }
+        (shift, shift_slope)
     }
 
     /// N and, if requested, 1/K_t at four shifts S >= 0.
@@ -685,9 +744,10 @@ const EMPTY: Element = Element {
     smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
-    flat: RoundedFlat::EMPTY,
-    ellipse: HertzEllipse::EMPTY,
+    flat: Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE },
+    ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
     of_input: Table::EMPTY,
+    third: Table::EMPTY,
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
     lateral: [0.0; 2],
@@ -696,4 +756,4 @@ const EMPTY: Element = Element {
     springs: Springs::EMPTY,
 };
 
-const _: () = assert!(size_of::<Element>() <= 45_000);
+const _: () = assert!(size_of::<Element>() <= 53_200);

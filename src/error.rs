@@ -61,6 +61,10 @@ status_codes! {
     LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:
         "length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness";
     OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
+    BadNormalCompliance, MSLIP_BAD_NORMAL_COMPLIANCE = 14: "normal_compliance of a layer must be finite and >= 0";
+    BadTangentialCompliance, MSLIP_BAD_TANGENTIAL_COMPLIANCE = 15:
+        "tangential_compliance of a layer must be finite and >= 0";
+    BadStiffeningLoad, MSLIP_BAD_STIFFENING_LOAD = 16: "stiffening_load of a layer must be >= 0, or infinite";
     BadContact, MSLIP_BAD_CONTACT = 20:
         "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
     BadState, MSLIP_BAD_STATE = 21:

@@ -5,6 +5,8 @@
 
 #![allow(unsafe_code, non_camel_case_types)]
 
+mod parameters;
+
 mod pointers;
 
 mod constant_load;
@@ -22,11 +24,11 @@ pub use constant_load::cycle::*;
 pub use constant_load::history::*;
 pub use element::*;
 pub use harmonic_force::*;
+pub use parameters::*;
 
 use crate::constant_load::contact::Contact;
 use crate::element::Element;
 use crate::error::Error;
-use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
@@ -108,7 +110,7 @@ pub struct mslip_element {
     /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 5533],
+    pub reserved: [f64; 6560],
 }
 
 const _: () = {
@@ -123,9 +125,9 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 80 && size_of::<EllipticParameters>() == 64);
-    assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, displacement_reference) == 72);
-    assert!(offset_of!(EllipticParameters, material) == 32);
+    assert!(size_of::<mslip_parameters>() == 80 && size_of::<mslip_elliptic_parameters>() == 64);
+    assert!(offset_of!(mslip_parameters, material) == 40 && offset_of!(mslip_parameters, displacement_reference) == 72);
+    assert!(offset_of!(mslip_elliptic_parameters, material) == 32);
 };
 
 /// Version of the library, "1.2.3".

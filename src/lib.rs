@@ -38,4 +38,4 @@ pub use constant_load::contact::Contact;
 pub use constant_load::curve::CurvePoint;
 pub use constant_load::hysteresis_loop::HysteresisLoop;
 pub use error::Error;
-pub use parameters::{EllipticParameters, Material, PARAMETERS, Parameters, Sensitivity};
+pub use parameters::{EllipticParameters, Layer, Material, PARAMETERS, Parameters, Sensitivity};

@@ -19,8 +19,48 @@ pub struct Material {
     pub poisson_ratio: f64,
 }
 
+/// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
+/// the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// Normal compliance c_n >= 0 under the normal force of the parameters \[m/N\]; 0: none. A contact under a constant normal force
+    /// does not use it.
+    pub normal_compliance: f64,
+    /// Tangential compliance c_t >= 0 under that force \[m/N\]; 0: none.
+    pub tangential_compliance: f64,
+    /// N_c \[N\]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or infinite:
+    /// the stiffness is constant.
+    pub stiffening_load: f64,
+}
+
+impl Layer {
+    /// No layer.
+    pub const NONE: Layer = Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0 };
+
+    /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which the
+    /// polynomials of a contact resolve down to this ratio.
+    const SMALLEST_STIFFENING: f64 = 1e-3;
+
+    /// # Errors
+    /// The error of the first field that is negative or NaN, or infinite if it is a compliance; `OutOfRange` if N_c is too small.
+    fn check(&self, normal_force: f64) -> Result<(), Error> {
+        not_negative(self.normal_compliance, Error::BadNormalCompliance)?;
+        not_negative(self.tangential_compliance, Error::BadTangentialCompliance)?;
+        if !in_0_to(f64::INFINITY, self.stiffening_load) {
+            return Err(Error::BadStiffeningLoad);
+        }
+        let too_small = self.stiffening_load > 0.0 && self.stiffening_load < Layer::SMALLEST_STIFFENING * normal_force;
+        if too_small { Err(Error::OutOfRange) } else { Ok(()) }
+    }
+}
+
+impl Default for Layer {
+    fn default() -> Self {
+        Layer::NONE
+    }
+}
+
 /// Flat with rounded edges on a flat (Eq. 1-24); a cylinder if the flat has no width.
-#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
     /// Half-width a >= 0 of the flat \[m\]; 0 is a Hertzian cylinder.
@@ -35,6 +75,8 @@ pub struct Parameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
+    /// A layer in series with the contact.
+    pub layer: Layer,
     /// `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     pub displacement_reference: i32,
     /// Not read; set to 0.
@@ -42,7 +84,6 @@ pub struct Parameters {
 }
 
 /// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
-#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipticParameters {
     /// Semi-axis b > 0 of the contact ellipse along the tangential force \[m\].
@@ -55,6 +96,8 @@ pub struct EllipticParameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
+    /// A layer in series with the contact.
+    pub layer: Layer,
 }
 
 /// Default of all parameters: NaN, so that an omitted parameter is rejected by its own error.
@@ -71,6 +114,7 @@ impl Default for Parameters {
             normal_force: UNSET,
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
+            layer: Layer::NONE,
             displacement_reference: CENTRE_POINT,
             reserved: 0,
         }
@@ -85,6 +129,7 @@ impl Default for EllipticParameters {
             normal_force: UNSET,
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
+            layer: Layer::NONE,
         }
     }
 }
@@ -133,6 +178,7 @@ impl Parameters {
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         check_materials(&self.material)?;
+        self.layer.check(self.normal_force)?;
         match self.displacement_reference {
             CENTRE_POINT | RIGID_STRIP => Ok(()),
             _ => Err(Error::BadDisplacementReference),
@@ -150,7 +196,8 @@ impl EllipticParameters {
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)
+        check_materials(&self.material)?;
+        self.layer.check(self.normal_force)
     }
 }
 
@@ -219,6 +266,24 @@ mod tests {
         assert_eq!(one.check(), Err(Error::BadDisplacementReference));
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
+    }
+
+    #[test]
+    fn layers_are_checked() {
+        let check = |normal_compliance, tangential_compliance, stiffening_load| {
+            let layer = Layer { normal_compliance, tangential_compliance, stiffening_load };
+            Parameters { layer, ..steel() }.check()
+        };
+        for stiffening_load in [0.0, 0.1, f64::INFINITY] {
+            assert_eq!(check(1e-9, 0.0, stiffening_load), Ok(()));
+        }
+        for bad in [-1e-9, f64::NAN] {
+            assert_eq!(check(bad, 0.0, 0.0), Err(Error::BadNormalCompliance));
+            assert_eq!(check(0.0, bad, 0.0), Err(Error::BadTangentialCompliance));
+            assert_eq!(check(0.0, 0.0, bad), Err(Error::BadStiffeningLoad));
+        }
+        assert_eq!(check(f64::INFINITY, 0.0, 0.0), Err(Error::BadNormalCompliance));
+        assert_eq!(check(1e-9, 1e-9, 0.0999), Err(Error::OutOfRange));
     }
 
     #[test]

@@ -14,12 +14,14 @@
 //! Under a constant load only the sizes below the present one are involved: its stick zones.
 
 pub(crate) mod hertz_ellipse;
+pub(crate) mod layer;
 pub(crate) mod rounded_flat;
 pub(crate) mod rounded_punch;
 pub(crate) mod stick_zone;
 pub(crate) mod tractions;
 
 pub use hertz_ellipse::HertzEllipse;
+pub(crate) use layer::{Layer, Layered};
 pub use rounded_flat::RoundedFlat;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
 
@@ -103,6 +105,10 @@ pub enum Relation {
     LoadOfShift,
     /// S as a function of N.
     ShiftOfLoad,
+    /// U as a function of N.
+    ApproachOfLoad,
+    /// S as a function of U.
+    ShiftOfApproach,
 }
 
 /// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of

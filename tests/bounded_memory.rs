@@ -7,7 +7,7 @@ mod common;
 
 use common::{step, unloaded};
 use microslip::constant_load::state::{state_check, state_error};
-use microslip::{Contact, EllipticParameters, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
 use std::sync::Mutex;
 
 const REVERSALS: [usize; 3] = [2, 8, 32];
@@ -41,6 +41,7 @@ fn contacts() -> [(&'static str, Contact); 4] {
         normal_force: 100.0,
         friction_coefficient: 0.5,
         material,
+        layer: Layer::NONE,
     };
     let sphere = Contact::elliptic(&sphere).unwrap();
     [("cylinder", cylinder), ("flat", flat(2e-4, 0.02)), ("slim cylinder", slim), ("sphere", sphere)]

@@ -5,7 +5,7 @@ mod common;
 use common::{advance, harmonic, unloaded};
 use microslip::constant_load::equivalents;
 use microslip::constant_load::harmonic_force::Rule;
-use microslip::{Contact, EllipticParameters, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -44,6 +44,7 @@ fn contact() -> impl Strategy<Value = Contact> {
                 normal_force,
                 friction_coefficient,
                 material,
+                layer: Layer::NONE,
             };
             Contact::elliptic(&parameters).unwrap()
         },

@@ -5,7 +5,7 @@ mod table;
 
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
-use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
+use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use table::{Row, geometry, table};
@@ -22,6 +22,7 @@ fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Ele
         material: [STEEL; 2],
         displacement_reference: CENTRE_POINT,
         reserved: 0,
+        layer: Layer::NONE,
     };
     Element::rounded_flat(&parameters, directions, input).unwrap()
 }
@@ -37,6 +38,7 @@ fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input:
         normal_force: 1000.0,
         friction_coefficient: 0.4,
         material: [STEEL; 2],
+        layer: Layer::NONE,
     };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
@@ -333,6 +335,7 @@ fn mirror_images_and_other_units_give_the_same_bits() {
             normal_force: 1000.0 * newton,
             friction_coefficient: 0.4,
             material,
+            layer: Layer::NONE,
         };
         let (element, scaled) = (
             ellipse_of(1e-3, 3e-3, Directions::Two, input),

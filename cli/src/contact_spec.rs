@@ -7,7 +7,7 @@ use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -255,6 +255,7 @@ impl ContactArgs {
                 normal_force,
                 friction_coefficient,
                 material,
+                layer: Layer::NONE,
             })
         } else {
             ShapeParameters::Flat(Parameters {

@@ -4,7 +4,7 @@ use microslip::constant_load::equivalents::{iwan, jenkins};
 use microslip::constant_load::masing::{self, PathOutput};
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use microslip::{one_direction as element_state, two_directions};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ fn flat_parameters() -> Parameters {
 fn elliptic_parameters() -> EllipticParameters {
     let material = [(200e3, 0.3); 2].map(material);
     let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
-    EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
+    EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer: Layer::NONE }
 }
 
 fn flat() -> Contact {

@@ -108,7 +108,7 @@ impl Contact {
     /// The error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material } =
+        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material, .. } =
             *parameters;
         check_moduli(material)?;
         let composite_modulus = Pair::new(material).composite_modulus;
@@ -271,7 +271,7 @@ const EMPTY: Contact = Contact {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::parameters::{CENTRE_POINT, Material, RIGID_STRIP};
+    use crate::parameters::{CENTRE_POINT, Layer, Material, RIGID_STRIP};
     use core::f64::consts::LN_2;
 
     pub(crate) const TITANIUM: Material = Material { young_modulus: 114e9, poisson_ratio: 0.32 };
@@ -316,6 +316,7 @@ pub(crate) mod tests {
             normal_force: 150.0,
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
+            layer: Layer::NONE,
         })
         .unwrap()
     }
@@ -426,6 +427,7 @@ pub(crate) mod tests {
                             normal_force: three,
                             friction_coefficient: 0.3,
                             material,
+                            layer: Layer::NONE,
                         }));
                     }
                 }
@@ -487,6 +489,7 @@ pub(crate) mod tests {
             material: [body; 2],
             displacement_reference: 1,
             reserved: 0,
+            layer: Layer::NONE,
         };
         assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
     }
@@ -502,6 +505,7 @@ pub(crate) mod tests {
                 normal_force: 100.0,
                 friction_coefficient: 2f64.powi(exponent),
                 material: [soft, TITANIUM],
+                layer: Layer::NONE,
             };
             match Contact::elliptic(&parameters) {
                 Ok(contact) => {

@@ -105,7 +105,7 @@ impl Contact {
 pub(crate) mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, ellipse, parameters};
-    use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters, RIGID_STRIP};
+    use crate::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
     use std::vec::Vec;
 
     const BODIES: [Material; 2] =
@@ -137,6 +137,7 @@ pub(crate) mod tests {
                         material,
                         displacement_reference,
                         reserved: 0,
+                        layer: Layer::NONE,
                     })
                     .unwrap()
                 };
@@ -153,6 +154,7 @@ pub(crate) mod tests {
                 normal_force,
                 friction_coefficient,
                 material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
+                layer: Layer::NONE,
             })
             .unwrap()
         };

@@ -3,13 +3,12 @@
 use super::pointers::{
     self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
 };
-use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
+use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element, mslip_elliptic_parameters, mslip_parameters};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::{ElementLaw, PathOutput, Requested};
 use crate::one_direction::tractions::tractions;
 use crate::one_direction::{self, OneDirection};
-use crate::parameters::{EllipticParameters, Parameters};
 use crate::two_directions;
 use core::{ptr, slice};
 use libc::size_t;
@@ -32,7 +31,7 @@ unsafe fn initialise<P>(
     directions: i32,
     normal_input: i32,
     element: *mut mslip_element,
-    init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
+    init: impl FnOnce(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
     let initialise = || {
         // SAFETY: by the function's contract.
@@ -69,13 +68,17 @@ unsafe fn initialise<P>(
 /// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init(
-    p: *const Parameters,
+    p: *const mslip_parameters,
     directions: i32,
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
     // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_rounded_flat) }
+    unsafe {
+        initialise(p, directions, normal_input, element, |element, p, directions, input| {
+            element.init_rounded_flat(&p.into(), directions, input)
+        })
+    }
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
@@ -89,13 +92,17 @@ pub unsafe extern "C" fn mslip_element_init(
 /// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init_elliptic(
-    p: *const EllipticParameters,
+    p: *const mslip_elliptic_parameters,
     directions: i32,
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
     // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_elliptic) }
+    unsafe {
+        initialise(p, directions, normal_input, element, |element, p, directions, input| {
+            element.init_elliptic(&p.into(), directions, input)
+        })
+    }
 }
 
 /// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other

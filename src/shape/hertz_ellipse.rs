@@ -175,6 +175,8 @@ impl Shape for HertzEllipse {
         let (value, exponent) = match relation {
             Relation::LoadOfApproach | Relation::LoadOfShift => (self.load(w), 1.5),
             Relation::ShiftOfLoad => (self.shift(w), 2.0 / 3.0),
+            Relation::ApproachOfLoad => (self.approach(w), 2.0 / 3.0),
+            Relation::ShiftOfApproach => (self.shift(w), 1.0),
         };
         let mut series = [value; ORDER];
         let mut term = value;
@@ -222,7 +224,7 @@ fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::cylinder;
-    use crate::parameters::{CENTRE_POINT, Material};
+    use crate::parameters::{CENTRE_POINT, Layer, Material};
 
     fn equal_bodies(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
         [Material { young_modulus, poisson_ratio }; 2]
@@ -230,7 +232,14 @@ mod tests {
 
     fn initial_compliance(semi_axis_x: f64, semi_axis_y: f64, material: &[Material; 2]) -> f64 {
         let (normal_force, friction_coefficient, material) = (1.0, 0.3, *material);
-        let parameters = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
+        let parameters = EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient,
+            material,
+            layer: Layer::NONE,
+        };
         HertzEllipse::new(&parameters).unwrap().initial_compliance()
     }
 

@@ -256,7 +256,9 @@ impl Shape for RoundedFlat {
     fn series(&self, w: f64, relation: Relation) -> Series {
         let punch = self.punch_at(w);
         let (flat, constant) = (self.flat, [self.tangential_constant, self.normal_constant]);
-        let constant = constant[usize::from(relation == Relation::LoadOfApproach)];
+        let of_load = matches!(relation, Relation::ShiftOfLoad | Relation::ApproachOfLoad);
+        let tangential = matches!(relation, Relation::ShiftOfLoad | Relation::LoadOfShift);
+        let constant = constant[usize::from(!tangential)];
         let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
         compliance[0] = self.compliance_scale * self.log_compliance(&punch, constant);
         (size[0], load[0]) = (w, self.load_scale * punch.load());
@@ -270,7 +272,7 @@ impl Shape for RoundedFlat {
         for k in 0..ORDER {
             size_angle[k] = angle.product_term(&size, k);
             half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
-            let load_growth = if relation == Relation::ShiftOfLoad {
+            let load_growth = if of_load {
                 let growth = if k == 0 { load[0] } else { 0.0 };
                 load_1.set(k, growth);
                 growth
@@ -282,7 +284,7 @@ impl Shape for RoundedFlat {
             let growth = -self.compliance_scale * size_1.product_term(&size, k);
             let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
             let per_order = PER_ORDER[k];
-            if relation == Relation::ShiftOfLoad {
+            if of_load {
                 set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
             }
             set(&mut load, k + 1, per_order * load_growth);
@@ -291,7 +293,11 @@ impl Shape for RoundedFlat {
             size_reversed.set(k + 1, per_order * size_growth);
             angle.set(k + 1, per_order * angle_growth);
         }
-        if relation == Relation::ShiftOfLoad { shift } else { load }
+        if relation == Relation::ShiftOfApproach {
+            shift[1] = shift[0];
+            shift.iter_mut().zip(load).for_each(|(sum, term)| *sum += self.shift_less_approach() * term);
+        }
+        if of_load || relation == Relation::ShiftOfApproach { shift } else { load }
     }
 }
 

@@ -430,7 +430,7 @@ fn merge_line(workspace: &mut Workspace, jacobian: &mut [f64]) {
 mod tests {
     use super::*;
     use crate::element::{Directions, NormalInput};
-    use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
+    use crate::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
     use std::prelude::rust_2024::*;
     use std::vec;
 
@@ -450,6 +450,7 @@ mod tests {
                 material,
                 displacement_reference: CENTRE_POINT,
                 reserved: 0,
+                layer: Layer::NONE,
             };
             Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
         };
@@ -459,6 +460,7 @@ mod tests {
             normal_force: 1000.0,
             friction_coefficient: 0.4,
             material,
+            layer: Layer::NONE,
         };
         let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
         vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]

@@ -1,7 +1,8 @@
 //! The calls of the C interface with valid arguments: each array is an allocation of its own, of exact length.
 
+use microslip::Material;
 use microslip::ffi::*;
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::ffi::{mslip_elliptic_parameters as EllipticParameters, mslip_parameters as Parameters};
 use std::alloc::{Layout, alloc, dealloc};
 use std::ptr::{self, null_mut};
 use std::sync::OnceLock;

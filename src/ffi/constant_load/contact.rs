@@ -2,8 +2,8 @@
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, check_alignment, input, item, output, outputs, set, status};
+use crate::ffi::{mslip_contact, mslip_elliptic_parameters, mslip_parameters};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
@@ -16,10 +16,10 @@ use libc::size_t;
 /// # Safety
 /// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
+pub unsafe extern "C" fn mslip_parameters_default(p: *mut mslip_parameters) {
     if !p.is_null() {
         // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
-        unsafe { p.write_unaligned(Parameters::default()) }
+        unsafe { p.write_unaligned(Parameters::default().into()) }
     }
 }
 
@@ -28,10 +28,10 @@ pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
 /// # Safety
 /// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
+pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut mslip_elliptic_parameters) {
     if !p.is_null() {
         // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
-        unsafe { p.write_unaligned(EllipticParameters::default()) }
+        unsafe { p.write_unaligned(EllipticParameters::default().into()) }
     }
 }
 
@@ -67,9 +67,9 @@ unsafe fn initialise<P>(
 /// # Safety
 /// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
+pub unsafe extern "C" fn mslip_contact_init(p: *const mslip_parameters, contact: *mut mslip_contact) -> i32 {
     // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::rounded_flat) }
+    unsafe { initialise(p, contact, |p| Contact::rounded_flat(&p.into())) }
 }
 
 /// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -80,9 +80,12 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 /// # Safety
 /// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
+pub unsafe extern "C" fn mslip_contact_init_elliptic(
+    p: *const mslip_elliptic_parameters,
+    contact: *mut mslip_contact,
+) -> i32 {
     // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::elliptic) }
+    unsafe { initialise(p, contact, |p| Contact::elliptic(&p.into())) }
 }
 
 /// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions

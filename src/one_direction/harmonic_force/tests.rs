@@ -4,7 +4,7 @@ use crate::constant_load::harmonic_force::Rule;
 use crate::element::{Directions, NormalInput};
 use crate::fourier::angle;
 use crate::one_direction::{advance, state};
-use crate::parameters::{EllipticParameters, Material};
+use crate::parameters::{EllipticParameters, Layer, Material};
 use std::vec;
 use std::vec::Vec;
 
@@ -19,6 +19,7 @@ fn elements(input: NormalInput) -> Vec<Element> {
         normal_force: 150.0,
         friction_coefficient: 0.4,
         material: [steel; 2],
+        layer: Layer::NONE,
     };
     let flat = |flat| Element::rounded_flat(&parameters(flat), Directions::One, input).unwrap();
     vec![flat(0.0), flat(50e-6), Element::elliptic(&sphere, Directions::One, input).unwrap()]

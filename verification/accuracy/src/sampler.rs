@@ -3,7 +3,7 @@
 use crate::{call, element};
 use microslip::ffi::mslip_contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 use reference::law::load_of_size;
@@ -108,6 +108,7 @@ impl Sampler {
                 normal_force: self.power(-3.0, 5.0),
                 friction_coefficient,
                 material,
+                layer: Layer::NONE,
             });
         }
         // a and w over b; 1 - a/b may be below rounding.
@@ -153,6 +154,7 @@ impl Sampler {
             material,
             displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
             reserved: 0,
+            layer: Layer::NONE,
         })
     }
 

@@ -3,7 +3,7 @@
 pub mod calls;
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::sync::OnceLock;
 
 /// A number relative to a scale.
@@ -127,6 +127,7 @@ impl Choice {
                     normal_force: n.value(100.0),
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
+                    layer: Layer::NONE,
                     displacement_reference: i32::from(if reference < 240 { reference % 2 } else { reference }),
                     reserved: reference.into(),
                 })
@@ -138,6 +139,7 @@ impl Choice {
                     normal_force: n.value(100.0),
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
+                    layer: Layer::NONE,
                 })
             }
         }
@@ -177,6 +179,7 @@ const FLAT: Parameters = Parameters {
     normal_force: 100.0,
     friction_coefficient: 0.5,
     material: [STEEL; 2],
+    layer: Layer::NONE,
     displacement_reference: 0,
     reserved: 0,
 };
@@ -209,7 +212,14 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
             [(1e-4, 1e-4, 100.0), (1e-5, 1e-3, 100.0), (1e-2, 1e-4, 100.0), (1e45, 1e46, 100.0), (1e-4, 1e-4, 0.0)];
         let ellipses = axes.map(|(semi_axis_x, semi_axis_y, normal_force)| {
             let (friction_coefficient, material) = (0.5, [STEEL; 2]);
-            EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
+            EllipticParameters {
+                semi_axis_x,
+                semi_axis_y,
+                normal_force,
+                friction_coefficient,
+                material,
+                layer: Layer::NONE,
+            }
         });
         let extreme_units = [(50e-6, 120, -100), (0.0, -90, 200)].map(|(flat_half_width, length, force)| {
             let (metre, newton) = (2f64.powi(length), 2f64.powi(force));

@@ -4,7 +4,7 @@
 
 use microslip::constant_load::{masing, state};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
+use microslip::{Contact, CurvePoint, EllipticParameters, Layer, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
@@ -97,6 +97,7 @@ impl Case {
             normal_force,
             friction_coefficient: FRICTION,
             material: [STEEL; 2],
+            layer: Layer::NONE,
         };
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;

@@ -3,7 +3,7 @@
 #[path = "../../../tests/golden/table.rs"]
 mod table;
 
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use reference::element::{Element, harmonic_force};
 use reference::family::{Family, Given};
 use reference::history::History;
@@ -239,7 +239,14 @@ fn shape(row: &Row) -> Input {
     let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
     if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
-        Input::Ellipse(EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+        Input::Ellipse(EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient,
+            material,
+            layer: Layer::NONE,
+        })
     } else {
         Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, ..geometry(row) })
     }

@@ -3,7 +3,7 @@
 
 use crate::library::Contact;
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use reference::Input;
 use reference::law::load_of_size;
 
@@ -41,6 +41,7 @@ pub fn flat(shape: &Shape, length: i32, force: i32) -> Input {
         material,
         displacement_reference: shape.reference,
         reserved: 0,
+        layer: Layer::NONE,
     })
 }
 
@@ -55,6 +56,7 @@ pub fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> I
         normal_force: 90.0 * newton,
         friction_coefficient: 0.61,
         material,
+        layer: Layer::NONE,
     })
 }
 

@@ -1,0 +1,412 @@
+//! A compliant layer in series with a contact: roughness, a coating, the body around the contact, the rig.
+//!
+//! Contact and layer carry the same forces N and T, and have one friction coefficient. Then both have the same memory diagram over the
+//! load, so that their displacements add up: the pair is the contact with the sums of U, S and M
+//! ([derivation](../../../docs/derivation.md)). Under the load N of the parameters the layer has the compliances c_n and c_t, and its
+//! stiffness grows in proportion to N + N_c:
+//!
+//! ```text
+//! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N0 + N_c) ln(1 + N/N_c),   m = ∫ N df = (N0 + N_c) [N - N_c ln(1 + N/N_c)]
+//! ```
+//!
+//! N_c infinite: f = N, m = N²/2. [`Layered`] is the sum as a shape; nothing above it knows of layers.
+
+use crate::error::Error;
+use crate::limits::in_range;
+use crate::parameters;
+use crate::shape::{ORDER, Relation, Reversed, Series, Shape, TINY};
+
+/// The layer of a contact, in absolute terms.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layer {
+    /// Normal and tangential compliance without load \[m/N\]: those of the parameters times 1 + N0/N_c.
+    normal: f64,
+    tangential: f64,
+    /// 1/N_c \[1/N\]; 0 for a constant stiffness.
+    stiffening: f64,
+}
+
+impl Layer {
+    pub const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
+
+    /// The layer of parameters that were checked, N > 0.
+    ///
+    /// # Errors
+    /// `OutOfRange` if derived quantities are not representable.
+    pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<Layer, Error> {
+        let parameters::Layer { normal_compliance, tangential_compliance, stiffening_load } = *parameters;
+        for compliance in [normal_compliance, tangential_compliance] {
+            if compliance > 0.0 {
+                in_range(&[compliance], &[])?;
+                in_range(&[compliance, normal_force], &[])?;
+            }
+        }
+        let constant = stiffening_load == 0.0 || stiffening_load == f64::INFINITY;
+        // Beyond 2^200 N the layer is linear to rounding.
+        let stiffening =
+            if constant || stiffening_load > 2f64.powi(200) * normal_force { 0.0 } else { 1.0 / stiffening_load };
+        let unloaded = 1.0 + stiffening * normal_force;
+        Ok(Layer { normal: normal_compliance * unloaded, tangential: tangential_compliance * unloaded, stiffening })
+    }
+
+    pub fn is_none(&self) -> bool {
+        self.normal == 0.0 && self.tangential == 0.0
+    }
+
+    /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
+    fn extent(&self, load: f64) -> f64 {
+        let x = self.stiffening * load;
+        // The next term of the series is x²/3.
+        if x < 1e-8 { load * (1.0 - 0.5 * x) } else { x.ln_1p() / self.stiffening.max(TINY) }
+    }
+
+    /// The load at which [`Layer::extent`] has a value, at most a value of the size of the largest loads.
+    fn load_of_extent(&self, extent: f64) -> f64 {
+        let x = self.stiffening * extent;
+        if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
+    }
+
+    /// dU2/dN and dS2/dN over the compliance without load.
+    fn softness(&self, load: f64) -> f64 {
+        1.0 / (1.0 + self.stiffening * load)
+    }
+
+    /// M2 \[J\].
+    fn potential(&self, load: f64) -> f64 {
+        // (N S2) without overflow of N².
+        load * (self.tangential * load) * logarithm_remainder(self.stiffening * load)
+    }
+
+    /// Taylor coefficients of the extent about a load N, for the load N (1 + ρ): those of `N_c ln(1 + qρ)`, q = N/(N + N_c).
+    fn series(&self, load: f64) -> Series {
+        let mut series = [0.0; ORDER];
+        let ratio = self.stiffening * load * self.softness(load);
+        let mut power = load * self.softness(load);
+        for (k, term) in series.iter_mut().enumerate() {
+            *term = if k == 0 { self.extent(load) } else { power / k as f64 };
+            if k > 0 {
+                power *= -ratio;
+            }
+        }
+        series
+    }
+}
+
+/// `(x - ln(1+x))/x²` for x >= 0, free of cancellation: 1/2 at 0.
+pub(crate) fn logarithm_remainder(x: f64) -> f64 {
+    if x > 1.0 {
+        return (x - x.ln_1p()) / x / x;
+    }
+    // With z = x/(2+x) the logarithm is 2 artanh z, and x - 2z = xz.
+    let z = x / (2.0 + x);
+    (1.0 - 2.0 * z * artanh_remainder(z) / (2.0 + x)) / (2.0 + x)
+}
+
+/// `(artanh z - z)/z³` for z from 0 to 1/2.
+pub(crate) fn artanh_remainder(z: f64) -> f64 {
+    // The first term that is left out is below 2⁻⁵⁴ of the sum.
+    const TERMS: u32 = 26;
+    (0..TERMS).rev().fold(0.0, |sum, k| sum * (z * z) + 1.0 / f64::from(2 * k + 3))
+}
+
+/// A shape and a layer in series with it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Layered<S> {
+    pub shape: S,
+    pub layer: Layer,
+}
+
+impl<S: Shape> Layered<S> {
+    /// A part of the layer under the load of a size; 0 without a layer.
+    #[inline(always)]
+    fn added(&self, w: f64, part: impl FnOnce(&Layer, f64) -> f64) -> f64 {
+        if self.layer.is_none() { 0.0 } else { part(&self.layer, self.shape.load(w)) }
+    }
+
+    /// The size at which a quantity of shape and layer has a value. The size at which the shape alone has it and that at which the
+    /// layer alone has it are both too large, and at the smaller one of both the quantity is at most twice the value: Newton's method in
+    /// the logarithms, from there.
+    fn size_at(&self, value: f64, of_shape: f64, unloaded: f64, quantity: impl Fn(f64) -> [f64; 2]) -> f64 {
+        let of_layer = if unloaded > 0.0 {
+            self.shape.at_load(self.layer.load_of_extent(value / unloaded))
+        } else {
+            f64::INFINITY
+        };
+        let mut w = of_shape.min(of_layer);
+        for _ in 0..20 {
+            if w <= 0.0 {
+                break;
+            }
+            let [found, compliance] = quantity(w);
+            // dN/d(ln w) = 2w²/(dw²/dN).
+            let growth = 2.0 * w / self.shape.size_slope(w) * w * compliance;
+            let step = (value / found).ln() * (found / growth);
+            w *= step.exp();
+            if step.abs() < 1e-8 {
+                break;
+            }
+        }
+        w
+    }
+
+    /// N, U and S about a size as series in ν, for the load N (1 + ν).
+    fn series_of_load(&self, w: f64, relation: Relation) -> Series {
+        let mut series = self.shape.series(w, relation);
+        let compliance = if relation == Relation::ApproachOfLoad { self.layer.normal } else { self.layer.tangential };
+        for (sum, term) in series.iter_mut().zip(self.layer.series(self.shape.load(w))) {
+            *sum += compliance * term;
+        }
+        series
+    }
+}
+
+impl<S: Shape> Shape for Layered<S> {
+    fn half_width(&self, w: f64) -> f64 {
+        self.shape.half_width(w)
+    }
+
+    fn load(&self, w: f64) -> f64 {
+        self.shape.load(w)
+    }
+
+    fn approach(&self, w: f64) -> f64 {
+        self.shape.approach(w) + self.added(w, |layer, load| layer.normal * layer.extent(load))
+    }
+
+    fn shift(&self, w: f64) -> f64 {
+        self.shape.shift(w) + self.added(w, |layer, load| layer.tangential * layer.extent(load))
+    }
+
+    fn potential(&self, w: f64) -> f64 {
+        self.shape.potential(w) + self.added(w, Layer::potential)
+    }
+
+    fn normal_compliance(&self, w: f64) -> f64 {
+        self.shape.normal_compliance(w) + self.added(w, |layer, load| layer.normal * layer.softness(load))
+    }
+
+    fn tangential_compliance(&self, w: f64) -> f64 {
+        self.shape.tangential_compliance(w) + self.added(w, |layer, load| layer.tangential * layer.softness(load))
+    }
+
+    fn compliance_under_flat(&self, half_width: f64) -> f64 {
+        self.shape.compliance_under_flat(half_width)
+    }
+
+    fn pressure_weight(&self, w: f64) -> f64 {
+        self.shape.pressure_weight(w)
+    }
+
+    fn size_slope(&self, w: f64) -> f64 {
+        self.shape.size_slope(w)
+    }
+
+    fn at_load(&self, load: f64) -> f64 {
+        self.shape.at_load(load)
+    }
+
+    fn at_approach(&self, approach: f64) -> f64 {
+        if self.layer.is_none() {
+            return self.shape.at_approach(approach);
+        }
+        let largest = self.shape.approach(self.shape.largest_size());
+        let of_shape = self.shape.at_approach(approach.min(largest));
+        self.size_at(approach, of_shape, self.layer.normal, |w| [self.approach(w), self.normal_compliance(w)])
+    }
+
+    fn at_shift(&self, shift: f64) -> f64 {
+        if self.layer.is_none() {
+            return self.shape.at_shift(shift);
+        }
+        let largest = self.shape.shift(self.shape.largest_size());
+        let of_shape = self.shape.at_shift(shift.min(largest));
+        self.size_at(shift, of_shape, self.layer.tangential, |w| [self.shift(w), self.tangential_compliance(w)])
+    }
+
+    /// That of the shape; approach and shift of the layer up to 2^498 m.
+    fn largest_size(&self) -> f64 {
+        let largest = self.shape.largest_size();
+        let compliance = self.layer.normal.max(self.layer.tangential);
+        if compliance <= 1.0 {
+            return largest;
+        }
+        largest.min(self.shape.at_load(2f64.powi(498) / compliance))
+    }
+
+    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
+        self.shape.pressure_between(from, to, x)
+    }
+
+    fn series(&self, w: f64, relation: Relation) -> Series {
+        if self.layer.is_none() {
+            return self.shape.series(w, relation);
+        }
+        match relation {
+            Relation::ApproachOfLoad | Relation::ShiftOfLoad => self.series_of_load(w, relation),
+            Relation::LoadOfApproach | Relation::LoadOfShift => {
+                let of_load =
+                    if relation == Relation::LoadOfShift { Relation::ShiftOfLoad } else { Relation::ApproachOfLoad };
+                let load = self.shape.load(w);
+                let mut identity = [0.0; ORDER];
+                (identity[0], identity[1]) = (load, load);
+                composed(&identity, &inverse_powers(&self.series_of_load(w, of_load)))
+            }
+            Relation::ShiftOfApproach => composed(
+                &self.series_of_load(w, Relation::ShiftOfLoad),
+                &inverse_powers(&self.series_of_load(w, Relation::ApproachOfLoad)),
+            ),
+        }
+    }
+}
+
+/// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.
+fn inverse_powers(y: &Series) -> [Series; ORDER] {
+    let mut powers = [[0.0; ORDER]; ORDER];
+    powers[0][0] = 1.0;
+    let (mut inverse, per_slope) = (Reversed::ZERO, 1.0 / y[1]);
+    for order in 1..ORDER {
+        // Orders of ν², ν³, ... need lower orders of ν only.
+        let mut sum = if order == 1 { y[0] } else { 0.0 };
+        for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
+            let product = powers.get(power - 1).map_or(0.0, |below| inverse.product_term(below, order));
+            if let Some(place) = powers.get_mut(power).and_then(|power| power.get_mut(order)) {
+                *place = product;
+            }
+            sum -= coefficient * product;
+        }
+        inverse.set(order, sum * per_slope);
+        if let Some(place) = powers[1].get_mut(order) {
+            *place = sum * per_slope;
+        }
+    }
+    powers
+}
+
+/// `y(ν(ρ))` from the powers of ν.
+fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
+    let mut series = [0.0; ORDER];
+    // From the highest power, the smallest terms, on.
+    for (coefficient, power) in y.iter().zip(powers).rev() {
+        series.iter_mut().zip(power).for_each(|(sum, term)| *sum += coefficient * term);
+    }
+    series
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{FLATS, TITANIUM, parameters};
+    use crate::parameters::EllipticParameters;
+    use crate::shape::{HertzEllipse, RoundedFlat};
+    use std::vec::Vec;
+
+    /// Compliances in units of those of the contact, and N_c in units of the normal force: linear, hardly and strongly stiffening, and in
+    /// one direction only.
+    pub(crate) const LAYERS: [[f64; 3]; 5] =
+        [[0.3, 0.3, 0.0], [3.0, 2.0, f64::INFINITY], [1.0, 1.0, 0.3], [0.0, 3.0, 1e-3], [100.0, 30.0, 0.01]];
+
+    /// A layer of the parameters with compliances in units of those of a shape under a load of 150 N.
+    fn layer_of(shape: &dyn Shape, [normal, tangential, ratio]: [f64; 3]) -> parameters::Layer {
+        let w = shape.at_load(150.0);
+        parameters::Layer {
+            normal_compliance: normal * shape.normal_compliance(w),
+            tangential_compliance: tangential * shape.tangential_compliance(w),
+            stiffening_load: ratio * 150.0,
+        }
+    }
+
+    fn with_layers<S: Shape + Copy + 'static>(shape: S) -> impl Iterator<Item = std::boxed::Box<dyn Shape>> {
+        LAYERS.into_iter().map(move |layer| {
+            let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap();
+            std::boxed::Box::new(Layered { shape, layer }) as std::boxed::Box<dyn Shape>
+        })
+    }
+
+    /// The shapes of all kinds, each with all layers.
+    fn shapes() -> Vec<std::boxed::Box<dyn Shape>> {
+        let ellipse = EllipticParameters {
+            semi_axis_x: 1e-4,
+            semi_axis_y: 2e-4,
+            normal_force: 150.0,
+            friction_coefficient: 0.4,
+            material: [TITANIUM; 2],
+            layer: parameters::Layer::NONE,
+        };
+        let flats = FLATS.into_iter().map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
+        flats.flat_map(with_layers).chain(with_layers(HertzEllipse::new(&ellipse).unwrap())).collect()
+    }
+
+    #[test]
+    fn quantities_are_integrals_of_the_compliances() {
+        for shape in shapes() {
+            for load in [1e-3, 0.1, 1.0, 150.0, 400.0] {
+                let (w, h) = (shape.at_load(load), 1e-4);
+                // Central differences in ln w, relative error h².
+                let (low, high) = (w * (1.0 - h), w * (1.0 + h));
+                let dload = shape.load(high) - shape.load(low);
+                let slope = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / dload;
+                let normal = slope(&|w| shape.approach(w)) / shape.normal_compliance(w);
+                let tangential = slope(&|w| shape.shift(w)) / shape.tangential_compliance(w);
+                let potential = slope(&|w| shape.potential(w)) / (shape.tangential_compliance(w) * shape.load(w));
+                for ratio in [normal, tangential, potential] {
+                    assert!((ratio - 1.0).abs() < 1e-7, "{load}: {ratio}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn inverses_return_the_size() {
+        for shape in shapes() {
+            for k in -40..8 {
+                let w = shape.at_load(150.0) * 10f64.powf(0.25 * f64::from(k));
+                for back in [shape.at_approach(shape.approach(w)), shape.at_shift(shape.shift(w))] {
+                    assert!((back / w - 1.0).abs() < 4e-15, "{k}: {}", back / w - 1.0);
+                }
+            }
+        }
+    }
+
+    /// A ninth of the argument beside the middle, as in the tables.
+    #[test]
+    fn series_are_the_functions() {
+        for shape in shapes() {
+            for load in [1e-3, 0.1, 1.0, 30.0, 150.0] {
+                let w = shape.at_load(load);
+                let quantities = |w: f64| [shape.load(w), shape.approach(w), shape.shift(w)];
+                let other = quantities(shape.at_load(1.05 * load));
+                for (relation, of, by) in [
+                    (Relation::LoadOfApproach, 0, 1),
+                    (Relation::LoadOfShift, 0, 2),
+                    (Relation::ShiftOfLoad, 2, 0),
+                    (Relation::ApproachOfLoad, 1, 0),
+                    (Relation::ShiftOfApproach, 2, 1),
+                ] {
+                    let rho = other[by] / quantities(w)[by] - 1.0;
+                    let sum = shape.series(w, relation).iter().rev().fold(0.0, |sum, term| sum * rho + term);
+                    // The argument has rounding errors, of which one enters with the power of a nearly flat contact.
+                    assert!((sum / other[of] - 1.0).abs() < 1e-14, "{load} {relation:?} {}", sum / other[of] - 1.0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn remainders_have_no_cancellation() {
+        for k in -30..=3 {
+            let x = 10f64.powi(k);
+            // ∫ t/(1 + t x) dt, t from 0 to 1, is the remainder.
+            let panels = |f: &dyn Fn(f64) -> f64| -> f64 {
+                (0..256).map(|i| crate::numerics::quadrature::gauss(1.0 / 256.0, |t| f(f64::from(i) / 256.0 + t))).sum()
+            };
+            let exact = panels(&|t| t / (1.0 + t * x));
+            assert!((logarithm_remainder(x) / exact - 1.0).abs() < 4e-15, "{x}");
+        }
+        for z in [0.0, 1e-9, 0.1, 0.3, 0.5_f64] {
+            let exact = if z > 0.05 { (z.atanh() - z) / (z * z * z) } else { 1.0 / 3.0 + z * z / 5.0 };
+            assert!((artanh_remainder(z) / exact - 1.0).abs() < 3e-14, "{z}");
+        }
+    }
+}
