@@ -21,7 +21,7 @@ pub(crate) mod stick_zone;
 pub(crate) mod tractions;
 
 pub use hertz_ellipse::HertzEllipse;
-pub(crate) use layer::{Layer, Layered};
+pub(crate) use layer::{Layer, Layered, LayeredZones};
 pub use rounded_flat::RoundedFlat;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
 

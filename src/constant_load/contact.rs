@@ -6,12 +6,12 @@ use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
-use crate::parameters::{EllipticParameters, Pair, Parameters, Sensitivity, check_moduli};
+use crate::parameters::{self, EllipticParameters, Pair, Parameters, Sensitivity, check_moduli};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
-use crate::shape::{HertzEllipse, RoundedFlat};
+use crate::shape::{HertzEllipse, Layer, LayeredZones, RoundedFlat};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
 
@@ -51,9 +51,9 @@ pub struct Contact {
     /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
-    rounded_flat: RoundedFlatZones,
     interpolant: ForceInterpolant,
     gross_slip_quadrature: GrossSlipQuadrature,
+    zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
@@ -62,11 +62,12 @@ pub struct Contact {
     pub(crate) checksum: u64,
 }
 
-/// Tag of an initialised contact: a magic number, the version of the layout, and the geometry.
+/// Tag of an initialised contact: a magic number, the version of the layout, the geometry, and whether there is a layer.
 const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
+const LAYERED: u64 = 2;
 
-const _: () = assert!(size_of::<Contact>() == 2032);
+const _: () = assert!(size_of::<Contact>() == 2248);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -95,10 +96,11 @@ impl Contact {
             flat_half_width,
             pressure_scale: normal_force / length / half_width,
             stiffness_scale: 0.5 * PI * composite_modulus * length,
-            rounded_flat: RoundedFlatZones::new(shape.punch(), shape.reference_compliance()),
+            zones: LayeredZones::of_flat(RoundedFlatZones::new(shape.punch(), shape.reference_compliance())),
             reference_slope: reference_slope(parameters, half_width),
             ..open
         };
+        let geometry = geometry.with_layer(&parameters.layer, normal_force)?;
         geometry.with_friction(normal_force, [half_width, edge_radius, length, composite_modulus])
     }
 
@@ -123,6 +125,7 @@ impl Contact {
             pressure_scale: normal_force / semi_axis_x / semi_axis_y,
             ..open
         };
+        let geometry = geometry.with_layer(&parameters.layer, normal_force)?;
         // The radius of the sphere with this semi-axis. Nothing depends on the other two lengths.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
@@ -133,6 +136,14 @@ impl Contact {
     fn with_slip_forces(self, normal_force: f64, friction_coefficient: f64) -> Contact {
         let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0];
         Contact { friction_coefficient, sensitivity_scales, ..self }
+    }
+
+    /// With the layer of parameters that were checked in series.
+    fn with_layer(mut self, layer: &parameters::Layer, normal_force: f64) -> Result<Contact, Error> {
+        let layer = Layer::new(layer, normal_force)?;
+        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale)?, self.is_elementary());
+        self.tag |= if self.zones.has_layer() { LAYERED } else { 0 };
+        Ok(self)
     }
 
     /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
@@ -160,7 +171,7 @@ impl Contact {
         // Calls accept no larger displacement, so that gross slip would never be reached.
         let slip_displacement = displacement_scale * zones.slip_shift();
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
-        let (inner, outer) = if self.is_elliptic() { (1.0, 1.0) } else { (INNER_FRACTION, 1.0 - INNER_FRACTION) };
+        let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (INNER_FRACTION, 1.0 - INNER_FRACTION) };
         Ok(Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
@@ -169,17 +180,25 @@ impl Contact {
             slip_displacement,
             inner_scale: 1.0 / (inner * slip_displacement),
             outer_scale: 1.0 / (outer * slip_displacement),
-            interpolant: if self.is_elliptic() {
-                ForceInterpolant::NONE
-            } else {
-                ForceInterpolant::of(&self.rounded_flat)
-            },
+            interpolant: self.made_interpolant(),
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
             gross_slip_quadrature: gross_slip_quadrature(zones),
             sensitivity_scales: [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus],
             ..self
         })
+    }
+
+    fn made_interpolant(&self) -> ForceInterpolant {
+        let (flat, zones) = (&self.zones.flat, self.stick_zones());
+        let (slip_shift, compliance) = (zones.slip_shift(), zones.small_load().compliance);
+        if self.is_layered() {
+            ForceInterpolant::of(slip_shift, compliance, self.zones.sequence())
+        } else if self.is_elementary() {
+            ForceInterpolant::NONE
+        } else {
+            ForceInterpolant::of(slip_shift, compliance, flat.sequence())
+        }
     }
 
     pub(crate) fn gross_slip_quadrature(&self) -> &GrossSlipQuadrature {
@@ -197,24 +216,35 @@ impl Contact {
 
     /// 1 over the displacement of gross slip; 0 without friction.
     pub(crate) fn per_slip_displacement(&self) -> f64 {
-        if self.is_elliptic() { self.outer_scale } else { INNER_FRACTION * self.inner_scale }
+        if self.is_elementary() { self.outer_scale } else { INNER_FRACTION * self.inner_scale }
     }
 
     /// K' over the initial stiffness and its derivative with respect to y, in the range of the first polynomial.
     #[inline(always)]
     pub(crate) fn polynomial_cycle(&self, y: f64) -> Option<(f64, f64)> {
-        if self.is_elliptic() { None } else { self.interpolant.cycle(y) }
+        if self.is_elementary() { None } else { self.interpolant.cycle(y) }
     }
 
     /// Whether this memory was initialised by a library of this version.
     #[inline(always)]
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag | 1 == TAG_ELLIPTIC
+        self.tag | (1 | LAYERED) == TAG_ELLIPTIC | LAYERED
     }
 
+    /// An elliptical contact without a layer: its curve is elementary.
     #[inline(always)]
-    pub(crate) fn is_elliptic(&self) -> bool {
+    pub(crate) fn is_elementary(&self) -> bool {
         self.tag == TAG_ELLIPTIC
+    }
+
+    pub(crate) fn is_ellipse(&self) -> bool {
+        self.tag & 1 != 0
+    }
+
+    /// Whether there is a layer that is compliant in the tangential direction.
+    #[inline(always)]
+    pub(crate) fn is_layered(&self) -> bool {
+        self.tag & LAYERED != 0
     }
 
     #[inline(always)]
@@ -222,12 +252,29 @@ impl Contact {
         &self.interpolant
     }
 
-    pub(crate) fn rounded_flat_zones(&self) -> &RoundedFlatZones {
-        &self.rounded_flat
+    /// Those of the contact and the layer.
+    pub(crate) fn layered_zones(&self) -> &LayeredZones {
+        &self.zones
     }
 
     pub(crate) fn stick_zones(&self) -> &dyn StickZones {
-        if self.is_elliptic() { &EllipseZones } else { &self.rounded_flat }
+        if self.is_elementary() {
+            &EllipseZones
+        } else if self.is_layered() {
+            &self.zones
+        } else {
+            &self.zones.flat
+        }
+    }
+
+    /// Dissipation and its derivative with respect to τ at a stick zone, τ >= 1/2, of a contact with an interpolant.
+    #[inline(always)]
+    pub(crate) fn cycle_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+        if self.is_layered() {
+            self.zones.cycle(remaining, compliance_increase)
+        } else {
+            self.zones.flat.cycle(remaining, compliance_increase)
+        }
     }
 
     /// No tangential force is possible: an open contact, or one without friction.
@@ -260,9 +307,9 @@ const EMPTY: Contact = Contact {
     slip_force_rounding: 0.0,
     inner_scale: 0.0,
     outer_scale: 0.0,
-    rounded_flat: RoundedFlatZones::EMPTY,
     interpolant: ForceInterpolant::NONE,
     gross_slip_quadrature: NO_QUADRATURE,
+    zones: LayeredZones::EMPTY,
     sensitivity_scales: [0.0; _],
     reference_slope: 0.0,
     checksum: 0,
@@ -470,7 +517,8 @@ pub(crate) mod tests {
     fn uninitialised_memory_is_recognised() {
         for contact in [contact(0.0), ellipse(1e-4, 2e-4)] {
             assert!(contact.is_initialised());
-            for bit in 1..64 {
+            // The first two bits are the geometry and the layer.
+            for bit in 2..64 {
                 assert!(!Contact { tag: contact.tag ^ (1 << bit), ..contact }.is_initialised());
             }
         }

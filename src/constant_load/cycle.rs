@@ -36,7 +36,7 @@ impl Contact {
             }
             let compliance_increase =
                 self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - zones.small_load().compliance;
-            let (dissipation, slope) = self.rounded_flat_zones().cycle(load.remaining, compliance_increase);
+            let (dissipation, slope) = self.cycle_beyond_half(load.remaining, compliance_increase);
             return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
         }
         let zone = self.stick_zone_at_displacement(amplitude);

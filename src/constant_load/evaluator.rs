@@ -1,6 +1,6 @@
 //! Evaluation of the monotonic curve at a displacement: force and tangent stiffness, from the interpolant if possible.
 //!
-//! For an ellipse the curve is elementary. If there is no interpolant, next to gross slip or for Λ near 0, the stick zone is found by
+//! For an ellipse without a layer the curve is elementary. If there is no interpolant, next to gross slip or for Λ near 0, the stick zone is found by
 //! iteration.
 
 use crate::constant_load::contact::Contact;
@@ -23,7 +23,7 @@ pub(crate) const BEYOND: usize = 6;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurveEvaluator<'a> {
     contact: &'a Contact,
-    elliptic: bool,
+    elementary: bool,
     interpolant: &'a ForceInterpolant,
     slip_force: f64,
     pub slip_displacement: f64,
@@ -51,7 +51,7 @@ impl Contact {
     pub(crate) fn evaluator(&self) -> CurveEvaluator<'_> {
         CurveEvaluator {
             contact: self,
-            elliptic: self.is_elliptic(),
+            elementary: self.is_elementary(),
             interpolant: self.interpolant(),
             slip_force: self.slip_force,
             slip_displacement: self.slip_displacement,
@@ -161,7 +161,7 @@ impl CurveEvaluator<'_> {
         if remaining < 0.0 {
             return Some(Response { force: self.slip_force, stiffness: 0.0 });
         }
-        if self.elliptic {
+        if self.elementary {
             return Some(self.elliptic_at(displacement, remaining));
         }
         let y = displacement * self.inner_scale;
@@ -189,7 +189,7 @@ impl CurveEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         let mut next = 0;
-        if self.elliptic {
+        if self.elementary {
             let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(count);
             for ((force, stiffness), &x) in values {
                 Response { force: *force, stiffness: *stiffness } = self.elliptic_at(x, self.slip_displacement - x);
@@ -274,7 +274,7 @@ impl CurveEvaluator<'_> {
     /// if there is no interpolant at this displacement.
     #[inline(always)]
     pub fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
-        if self.elliptic {
+        if self.elementary {
             return None;
         }
         let y = displacement * self.inner_scale;

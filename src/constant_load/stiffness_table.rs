@@ -31,7 +31,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
-use crate::shape::stick_zone::{Complement, StickZones};
+use crate::shape::stick_zone::Complement;
 use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 use core::array::from_fn;
@@ -58,8 +58,8 @@ const OVERLAP: f64 = 0.02;
 pub(crate) struct StiffnessTable {
     /// With count 0 if there are no polynomials.
     tag: f64,
-    /// The shape: Λ and the shift of gross slip.
-    shape: [f64; 2],
+    /// The shape: Λ, the shift of gross slip, and the layer.
+    shape: [f64; 4],
     /// (8/π) I and (8/π) G(0).
     moment: f64,
     slope_at_slip: f64,
@@ -159,7 +159,7 @@ type ValueAndSlope = (f64, f64);
 impl StiffnessTable {
     pub const EMPTY: StiffnessTable = StiffnessTable {
         tag: Kind::StiffnessTable.tag(0),
-        shape: [0.0; 2],
+        shape: [0.0; 4],
         moment: 0.0,
         slope_at_slip: 0.0,
         slip_energy: 0.0,
@@ -193,7 +193,7 @@ impl StiffnessTable {
     #[inline(always)]
     pub fn is_of(&self, contact: &Contact) -> bool {
         let [one, other] = [self.shape, shape_of(contact)];
-        (0..2).all(|i| (one[i] - other[i]).abs() <= 1e-13 * one[i].abs())
+        (0..4).all(|i| (one[i] - other[i]).abs() <= 1e-13 * one[i].abs())
     }
 
     #[inline(always)]
@@ -418,9 +418,9 @@ struct Curve {
     others: [Input<POINTS>; PIECES],
 }
 
-fn shape_of(contact: &Contact) -> [f64; 2] {
-    let zones = contact.stick_zones();
-    [zones.small_load().compliance, zones.slip_shift()]
+fn shape_of(contact: &Contact) -> [f64; 4] {
+    let (zones, [compliance, stiffening]) = (contact.stick_zones(), contact.layered_zones().shape());
+    [zones.small_load().compliance, zones.slip_shift(), compliance, stiffening]
 }
 
 impl Curve {
@@ -429,15 +429,18 @@ impl Curve {
     /// `false` without friction, and for small Λ.
     #[inline(never)]
     fn init(&mut self, contact: &Contact) -> bool {
-        let [compliance, slip_shift] = shape_of(contact);
+        let [compliance, slip_shift, ..] = shape_of(contact);
         if contact.is_frictionless() || compliance < SMALLEST_COMPLIANCE {
             return false;
         }
-        let zones = contact.rounded_flat_zones();
-        let (series, mut sequence) = (StickZones::small_load(zones), zones.sequence());
+        let series = contact.stick_zones().small_load();
+        let layered = contact.layered_zones();
+        let (mut with_layer, mut without) = (layered.sequence(), layered.flat.sequence());
+        let mut sequence =
+            |remaining: f64| if contact.is_layered() { with_layer(remaining) } else { without(remaining) };
         // 1 - k where x and ρ are given.
         let mut decrease_at = |consumed: f64, remaining: f64| {
-            if contact.is_elliptic() {
+            if contact.is_elementary() {
                 return consumed / (1.0 + remaining.sqrt());
             }
             let shift = Complement { consumed: slip_shift * consumed, remaining: slip_shift * remaining };

@@ -13,7 +13,12 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
+use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::parameters;
+use crate::shape::stick_zone::ellipse::EllipseZones;
+use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
+use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
+use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::{ORDER, Relation, Reversed, Series, Shape, TINY};
 
 /// The layer of a contact, in absolute terms.
@@ -90,6 +95,351 @@ impl Layer {
             }
         }
         series
+    }
+}
+
+/// The layer in the curve under a constant normal force N, in the units of stick zones: the stick zone with `s = 1 - τ` leaves
+///
+/// ```text
+/// x2 = (ζ/η) ln(1/(1-y)),   x_s - x2 = (ζ/η) ln(1 + η s/ε),   λ2 = ζ y/(1-y),     y = ητ,   η = N/(N + N_c),   ε = 1 - η,
+/// ```
+///
+/// with the compliance ζ of the layer in units of that for which Λ + λ is 1; ζτ, ζs and 0 if its stiffness is constant.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LayerCurve {
+    /// ζ.
+    compliance: f64,
+    /// η and ε.
+    stiffening: f64,
+    softest: f64,
+}
+
+impl LayerCurve {
+    const NONE: LayerCurve = LayerCurve { compliance: 0.0, stiffening: 0.0, softest: 1.0 };
+
+    /// y/τ and 1 - y.
+    fn rest(&self, load: Complement) -> f64 {
+        self.softest + self.stiffening * load.remaining
+    }
+
+    /// x2/ζ.
+    fn consumed(&self, load: Complement) -> f64 {
+        let y = self.stiffening * load.consumed;
+        if y < 1e-8 {
+            return load.consumed * (1.0 + 0.5 * y);
+        }
+        let logarithm = if y < 0.5 { -(-y).ln_1p() } else { -self.rest(load).ln() };
+        logarithm / self.stiffening.max(TINY)
+    }
+
+    /// (x_s - x2)/ζ.
+    fn remaining(&self, remaining: f64) -> f64 {
+        let x = self.stiffening / self.softest * remaining;
+        if x < 1e-8 { remaining / self.softest * (1.0 - 0.5 * x) } else { x.ln_1p() / self.stiffening.max(TINY) }
+    }
+
+    /// The load 1 - τ at which [`LayerCurve::remaining`] has a value.
+    fn load_remaining(&self, value: f64) -> f64 {
+        let x = self.stiffening * value;
+        if x < 1e-8 {
+            self.softest * value * (1.0 + 0.5 * x)
+        } else {
+            self.softest * x.min(345.0).exp_m1() / self.stiffening.max(TINY)
+        }
+    }
+
+    /// λ2.
+    pub fn increase(&self, load: Complement) -> f64 {
+        self.compliance * (self.stiffening * load.consumed / self.rest(load))
+    }
+
+    /// dλ2/dτ.
+    fn curvature(&self, load: Complement) -> f64 {
+        self.compliance * self.stiffening / self.rest(load) / self.rest(load)
+    }
+
+    /// `4 ∫ t (τ-t) dλ2`.
+    fn dissipation(&self, load: Complement) -> f64 {
+        let (tau, y) = (load.consumed, self.stiffening * load.consumed);
+        // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = 2 artanh(y/(2-y)).
+        let factor = if y > 0.6 {
+            -((2.0 - y) * self.rest(load).ln() + 2.0 * y) / (y * y * y)
+        } else {
+            2.0 * artanh_remainder(y / (2.0 - y)) / ((2.0 - y) * (2.0 - y))
+        };
+        4.0 * self.compliance * (self.stiffening * tau) * (tau * tau) * factor
+    }
+
+    /// `∫ t dλ2 = τ λ2 - (x2 - ζτ)`.
+    fn first_moment(&self, load: Complement) -> f64 {
+        let ratio = load.consumed / self.rest(load);
+        self.compliance * (self.stiffening * ratio) * ratio * logarithm_remainder(self.stiffening * ratio)
+    }
+
+    /// The compliance at a load.
+    pub fn compliance_at(&self, load: Complement) -> f64 {
+        self.compliance / self.rest(load)
+    }
+
+    /// Parts of derivatives of a force over μN at a fixed displacement, given the compliance of the contact at this force: those by N at
+    /// constant c_t, by μ, and by ζ.
+    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 3] {
+        let per_compliance = 1.0 / (of_contact + self.compliance_at(load));
+        // [λ2 - η x2], and [τ λ2 - (x2 - ζτ)].
+        let first = self.first_moment(load);
+        [self.stiffening * first * per_compliance, first * per_compliance, -self.consumed(load) * per_compliance]
+    }
+
+    /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
+    fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
+        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
+            let consumed = 0.25 * (1.0 + z);
+            let load = Complement { consumed, remaining: 1.0 - consumed };
+            let value = self.curvature(load);
+            Tangent { value, slope: 0.5 * value * self.stiffening / self.rest(load) }
+        });
+        let mut scale = 1.0;
+        Interpolant::<RETAINED_TERMS>::osculating(&tangents).powers_from_end().map(|power| {
+            let coefficient = scale * power;
+            scale *= 2.0;
+            coefficient
+        })
+    }
+}
+
+impl Layer {
+    /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`.
+    ///
+    /// # Errors
+    /// `OutOfRange` if derived quantities are not representable.
+    pub fn relative(&self, normal_force: f64, stiffness_scale: f64) -> Result<LayerCurve, Error> {
+        if self.tangential == 0.0 {
+            return Ok(LayerCurve::NONE);
+        }
+        in_range(&[self.tangential, stiffness_scale], &[])?;
+        let softest = self.softness(normal_force);
+        let stiffening = self.stiffening * normal_force * softest;
+        Ok(LayerCurve { compliance: self.tangential * softest * stiffness_scale, stiffening, softest })
+    }
+}
+
+/// The stick zones of a contact with a layer in series: those of the contact, at which the displacement and the compliance of the layer
+/// are added.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LayeredZones {
+    /// The stick zones of the contact if it is a flat with rounded edges, with or without a layer.
+    pub flat: RoundedFlatZones,
+    /// 1 if it is an ellipse.
+    elliptic: u64,
+    layer: LayerCurve,
+    slip_shift: f64,
+    small_load: SmallLoadSeries,
+}
+
+impl LayeredZones {
+    /// Those of an open contact, and of an ellipse without a layer.
+    pub const EMPTY: LayeredZones = LayeredZones::of_flat(RoundedFlatZones::EMPTY);
+
+    /// A flat with rounded edges without a layer.
+    pub const fn of_flat(flat: RoundedFlatZones) -> LayeredZones {
+        let small_load = SmallLoadSeries::new(0.0, [0.0; RETAINED_TERMS]);
+        LayeredZones { flat, elliptic: 0, layer: LayerCurve::NONE, slip_shift: 0.0, small_load }
+    }
+
+    /// Adds a layer, unless it has no compliance.
+    pub fn set_layer(&mut self, layer: &LayerCurve, elliptic: bool) {
+        if layer.compliance > 0.0 {
+            (self.elliptic, self.layer) = (u64::from(elliptic), *layer);
+            let contact = self.contact();
+            let slip_shift = contact.slip_shift() + layer.compliance * layer.remaining(1.0);
+            let small_load = contact.small_load().plus(layer.compliance, layer.curvature_series());
+            (self.slip_shift, self.small_load) = (slip_shift, small_load);
+        }
+    }
+
+    pub fn has_layer(&self) -> bool {
+        self.layer.compliance > 0.0
+    }
+
+    /// What distinguishes the curve from that of the contact alone.
+    pub fn shape(&self) -> [f64; 2] {
+        [self.layer.compliance, self.layer.stiffening]
+    }
+
+    pub fn layer(&self) -> &LayerCurve {
+        &self.layer
+    }
+
+    fn contact(&self) -> &dyn StickZones {
+        if self.elliptic == 0 { &self.flat } else { &EllipseZones }
+    }
+
+    /// The stick zone of the contact without the layer, but for its shift. A zone of known size needs λ for the energy of a flat only.
+    fn in_contact(&self, zone: &StickZone) -> StickZone {
+        let compliance_increase = match zone.size_parameter {
+            Some(size) if self.elliptic != 0 => (1.0 - size) / size.max(TINY),
+            Some(_) => zone.compliance_increase - self.layer.increase(zone.load),
+            None => {
+                let contact = self.contact();
+                contact.small_load().at_load(zone.load, contact.slip_shift()).compliance_increase
+            }
+        };
+        StickZone { compliance_increase, ..*zone }
+    }
+
+    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s: Newton's method
+    /// in the logarithm of the remaining shift of the contact, from its tangent at the point before.
+    pub fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+        let mut of_flat = self.flat.sequence();
+        let mut in_contact =
+            move |remaining: f64| if self.elliptic == 0 { of_flat(remaining) } else { EllipseZones.at(remaining) };
+        let contact = self.contact();
+        let (shift, full_stick) = (contact.slip_shift(), contact.small_load().compliance);
+        // Remaining shift of the contact, and of contact and layer; d(ln of the first)/d(ln of the second).
+        let mut last = [shift, self.slip_shift, 1.0];
+        move |remaining| {
+            let [of_contact, of_both, rate] = last;
+            let mut own = of_contact * ((remaining / of_both).ln() * rate).exp();
+            let mut converged = false;
+            loop {
+                let point = in_contact(own);
+                let load = Complement { consumed: 1.0 - point.remaining, remaining: point.remaining };
+                let sum = own + self.layer.compliance * self.layer.remaining(load.remaining);
+                let compliance = full_stick + point.compliance_increase;
+                let share = compliance / (compliance + self.layer.compliance_at(load));
+                let rate = sum / own * share;
+                let step = (remaining / sum).ln() * rate;
+                if converged || !(step.abs() < 1e6) {
+                    last = [own, sum, rate];
+                    return CurvePoint {
+                        remaining: point.remaining,
+                        compliance_increase: point.compliance_increase + self.layer.increase(load),
+                        curvature: point.curvature + self.layer.curvature(load),
+                    };
+                }
+                own *= step.exp();
+                // Quadratic convergence: the next point is exact.
+                converged = step.abs() < 1e-9;
+            }
+        }
+    }
+}
+
+impl StickZones for LayeredZones {
+    fn small_load(&self) -> &SmallLoadSeries {
+        &self.small_load
+    }
+
+    fn slip_shift(&self) -> f64 {
+        self.slip_shift
+    }
+
+    fn at_load_remaining(&self, remaining: f64) -> StickZone {
+        let zone = self.contact().at_load_remaining(remaining);
+        let Complement { consumed, remaining } = zone.shift;
+        let compliance = self.layer.compliance;
+        StickZone {
+            shift: Complement {
+                consumed: consumed + compliance * self.layer.consumed(zone.load),
+                remaining: remaining + compliance * self.layer.remaining(zone.load.remaining),
+            },
+            compliance_increase: zone.compliance_increase + self.layer.increase(zone.load),
+            ..zone
+        }
+    }
+
+    /// Newton's method in the logarithms of load and shift, from the smaller one of the loads at which contact and layer alone have the
+    /// shift.
+    fn at_shift_remaining(&self, remaining: f64) -> StickZone {
+        if remaining <= 0.0 {
+            return self.at_load_remaining(0.0);
+        }
+        let contact = self.contact();
+        let half = contact.slip_shift() - contact.small_load().half_shift;
+        let alone = if remaining < half { contact.at_shift_remaining(remaining).load.remaining } else { 0.5 };
+        let mut load = alone.min(self.layer.load_remaining(remaining / self.layer.compliance)).max(TINY);
+        for _ in 0..20 {
+            let zone = self.at_load_remaining(load);
+            let compliance = self.compliance(&zone);
+            let step = (remaining / zone.shift.remaining.max(TINY)).ln() * (zone.shift.remaining / (load * compliance));
+            if step.abs() < 1e-15 {
+                break;
+            }
+            load *= step.exp();
+            if step.abs() < 1e-8 {
+                break;
+            }
+        }
+        let zone = self.at_load_remaining(load);
+        StickZone { shift: Complement { consumed: self.slip_shift - remaining, remaining }, ..zone }
+    }
+
+    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
+        self.contact().dissipation_beyond_half(&self.in_contact(zone)) + self.layer.dissipation(zone.load)
+    }
+
+    fn d_dissipation(&self, zone: &StickZone) -> f64 {
+        let tau = zone.load.consumed;
+        if tau <= 0.5 {
+            self.small_load.d_dissipation(tau)
+        } else {
+            self.cycle(zone.load.remaining, zone.compliance_increase).1
+        }
+    }
+
+    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+        let load = Complement { consumed: 1.0 - remaining, remaining };
+        let increase = compliance_increase - self.layer.increase(load);
+        let (energy, slope) = self.contact().cycle(remaining, increase);
+        (energy + self.layer.dissipation(load), slope + 4.0 * self.layer.first_moment(load))
+    }
+
+    fn size(&self, zone: &StickZone) -> f64 {
+        self.contact().size(&self.in_contact(zone))
+    }
+
+    fn size_parameter(&self, zone: &StickZone) -> f64 {
+        self.contact().size_parameter(&self.in_contact(zone))
+    }
+
+    fn quadrature_point(&self, size_parameter: f64) -> QuadraturePoint {
+        let point = self.contact().quadrature_point(size_parameter);
+        let (load, compliance) = (point.load, self.layer.compliance);
+        QuadraturePoint {
+            load,
+            shift: Complement {
+                consumed: point.shift.consumed + compliance * self.layer.consumed(load),
+                remaining: point.shift.remaining + compliance * self.layer.remaining(load.remaining),
+            },
+            compliance: point.compliance + self.layer.compliance_at(load),
+            dload_dsigma: point.dload_dsigma,
+            dcompliance_dsigma: point.dcompliance_dsigma + self.layer.curvature(load) * point.dload_dsigma,
+        }
+    }
+
+    /// The nearer one of the branch point of the contact and that of the layer, where the load is -N_c.
+    fn log_branch_distance(&self) -> f64 {
+        let of_contact = self.contact().log_branch_distance();
+        if self.layer.softest >= 0.3 {
+            return of_contact;
+        }
+        let ratio = self.layer.softest / self.layer.stiffening;
+        let inverse = 1.0 / self.contact().size_parameter(&self.contact().at_load_remaining(ratio)).max(1e-5);
+        of_contact.max((inverse + (inverse * inverse + 1.0).sqrt()).ln())
+    }
+
+    fn pressure(&self, point: &SurfacePoint) -> f64 {
+        self.contact().pressure(point)
+    }
+
+    fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
+        self.contact().shear(point, &self.in_contact(zone))
+    }
+
+    fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
+        self.contact().slip(point, &self.in_contact(zone))
     }
 }
 

@@ -50,6 +50,7 @@ pub(crate) struct StickZone {
 /// Integrands at a stick zone of given size parameter σ.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct QuadraturePoint {
+    pub load: Complement,
     pub shift: Complement,
     /// Λ + λ.
     pub compliance: f64,
@@ -71,6 +72,17 @@ pub(crate) struct SurfacePoint {
     pub from_edge: f64,
 }
 
+/// A point of the monotonic curve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CurvePoint {
+    /// 1 - τ.
+    pub remaining: f64,
+    /// λ.
+    pub compliance_increase: f64,
+    /// dλ/dτ.
+    pub curvature: f64,
+}
+
 /// The stick zones of a contact under its load.
 pub(crate) trait StickZones {
     /// The expansion for τ <= 1/2.
@@ -87,6 +99,9 @@ pub(crate) trait StickZones {
 
     /// Energy dissipated per cycle between ±τ, τ >= 1/2, in units of force times shift (Eq. 13-16).
     fn dissipation_beyond_half(&self, zone: &StickZone) -> f64;
+
+    /// The same and its derivative with respect to τ at the stick zone with `1 - τ = remaining`, λ given to the rounding of Λ + λ.
+    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64);
 
     /// c/b.
     fn size(&self, zone: &StickZone) -> f64;

@@ -9,7 +9,7 @@
 
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::small_load::{SmallLoadSeries, TERMS, economized};
-use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
 use core::f64::consts::PI;
 
 /// The stick zones of every elliptical contact.
@@ -30,6 +30,19 @@ const CURVATURE: [f64; TERMS] = {
 static SMALL_LOAD: SmallLoadSeries = SmallLoadSeries::new(1.0, economized(CURVATURE));
 
 const SLIP_SHIFT: f64 = 1.5;
+
+impl EllipseZones {
+    /// The point of the curve at a remaining shift.
+    pub(crate) fn at(self, remaining: f64) -> CurvePoint {
+        let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
+        let per_size = 1.0 / size.max(TINY);
+        CurvePoint {
+            remaining: size * size * size,
+            compliance_increase: per_size - 1.0,
+            curvature: 1.0 / 3.0 * (per_size * per_size) * (per_size * per_size),
+        }
+    }
+}
 
 impl StickZones for EllipseZones {
     fn small_load(&self) -> &SmallLoadSeries {
@@ -72,6 +85,13 @@ impl StickZones for EllipseZones {
         (4.0 / 3.0) * (1.5 * (1.0 + s) * (1.0 - square) - 0.6 * (1.0 - s * square) + 3.0 * (s - square))
     }
 
+    /// With σ the derivative is `4 (τ λ - h) = 2 (1-σ)² (2+σ)/σ`.
+    fn cycle(&self, remaining: f64, _: f64) -> (f64, f64) {
+        let zone = self.at_load_remaining(remaining);
+        let (size, consumed) = (self.size(&zone), consumed_size(&zone));
+        (self.dissipation_beyond_half(&zone), 2.0 * consumed * consumed * (2.0 + size) / size.max(TINY))
+    }
+
     fn size(&self, zone: &StickZone) -> f64 {
         1.0 / (1.0 + zone.compliance_increase)
     }
@@ -83,7 +103,9 @@ impl StickZones for EllipseZones {
     fn quadrature_point(&self, size: f64) -> QuadraturePoint {
         let remaining = SLIP_SHIFT * size * size;
         let inverse = 1.0 / size.max(1e-100);
+        let load = size * size * size;
         QuadraturePoint {
+            load: Complement { consumed: 1.0 - load, remaining: load },
             shift: Complement { consumed: SLIP_SHIFT - remaining, remaining },
             compliance: inverse,
             dload_dsigma: 3.0 * size * size,
@@ -113,6 +135,12 @@ impl StickZones for EllipseZones {
     fn slip(&self, _point: &SurfacePoint, _zone: &StickZone) -> Option<f64> {
         None
     }
+}
+
+/// 1 - σ from the load, `τ = 1 - σ³`.
+pub(crate) fn consumed_at(load: Complement) -> f64 {
+    let size = load.remaining.cbrt();
+    load.consumed / (1.0 + size * (1.0 + size))
 }
 
 /// 1 - σ from λ = 1/σ - 1.

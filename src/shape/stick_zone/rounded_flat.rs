@@ -15,7 +15,7 @@
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
-use crate::shape::stick_zone::{Complement, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
 use core::f64::consts::PI;
 
@@ -32,17 +32,6 @@ pub(crate) struct RoundedFlatZones {
     gamma: f64,
     slip_shift: f64,
     small_load: SmallLoadSeries,
-}
-
-/// A point of the monotonic curve.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct CurvePoint {
-    /// 1 - τ.
-    pub remaining: f64,
-    /// λ.
-    pub compliance_increase: f64,
-    /// dλ/dτ.
-    pub curvature: f64,
 }
 
 /// Moments of the curvature h'' over the load t from 0 to τ, each free of cancellation.
@@ -214,14 +203,6 @@ impl RoundedFlatZones {
         [self.small_load.initial_curvature(), self.w / self.psi]
     }
 
-    /// Dissipation and its derivative with respect to τ at the stick zone with `1 - τ = remaining`, λ given to the rounding of Λ + λ.
-    /// With `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
-    pub(crate) fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
-        let (punch, load) = self.punch_near(remaining, compliance_increase);
-        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
-        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
-    }
-
     /// The stick zone with `1 - τ = remaining` and its load, λ given to the rounding of Λ + λ.
     #[inline(always)]
     fn punch_near(&self, remaining: f64, compliance_increase: f64) -> (RoundedPunch, f64) {
@@ -273,6 +254,13 @@ impl StickZones for RoundedFlatZones {
         self.dissipation_of(&punch, zone.load.remaining, punch.load(), zone.compliance_increase)
     }
 
+    /// With `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
+    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+        let (punch, load) = self.punch_near(remaining, compliance_increase);
+        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
+        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
+    }
+
     fn size(&self, zone: &StickZone) -> f64 {
         match zone.size_parameter {
             Some(sigma) => {
@@ -295,6 +283,7 @@ impl StickZones for RoundedFlatZones {
         let zone = self.zone(&punch);
         let c2 = punch.half_width * punch.half_width;
         QuadraturePoint {
+            load: zone.load,
             shift: zone.shift,
             compliance: self.compliance(&zone),
             dload_dsigma: self.w * 4.0 * w * punch.psi / self.load,

@@ -126,6 +126,12 @@ impl SmallLoadSeries {
         SmallLoadSeries { compliance, half_shift, curvature: rows(&curvature) }
     }
 
+    /// The series with another compliance and curvature added.
+    pub(crate) fn plus(&self, compliance: f64, mut curvature: [f64; RETAINED_TERMS]) -> SmallLoadSeries {
+        curvature.iter_mut().zip(self.curvature.as_flattened()).for_each(|(sum, term)| *sum += term);
+        SmallLoadSeries::new(self.compliance + compliance, curvature)
+    }
+
     /// h'' at τ = 0.
     pub fn initial_curvature(&self) -> f64 {
         let [[first, ..], ..] = self.curvature;

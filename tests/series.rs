@@ -1,0 +1,293 @@
+//! A contact with a layer in series against the contact without it and the layer, solved together by Newton's method.
+
+mod common;
+
+use common::{advance, unloaded};
+use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
+use std::f64::consts::PI;
+
+const NORMAL_FORCE: f64 = 150.0;
+const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+
+/// Cylinder, flat, nearly flat contact and ellipse, each with a layer.
+fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> [[Contact; 2]; 4] {
+    let flat = |flat_half_width| {
+        let parameters = |layer| Parameters {
+            flat_half_width,
+            edge_radius: 5e-3,
+            length: 10e-3,
+            normal_force: NORMAL_FORCE,
+            friction_coefficient,
+            material: [STEEL; 2],
+            layer,
+            ..Parameters::default()
+        };
+        let alone = Contact::rounded_flat(&parameters(Layer::NONE)).unwrap();
+        [alone, Contact::rounded_flat(&parameters(layer(&alone))).unwrap()]
+    };
+    let ellipse = |layer| EllipticParameters {
+        semi_axis_x: 1e-4,
+        semi_axis_y: 2e-4,
+        normal_force: NORMAL_FORCE,
+        friction_coefficient,
+        material: [STEEL; 2],
+        layer,
+    };
+    let alone = Contact::elliptic(&ellipse(Layer::NONE)).unwrap();
+    let sphere = [alone, Contact::elliptic(&ellipse(layer(&alone))).unwrap()];
+    [flat(0.0), flat(50e-6), flat(5e-3), sphere]
+}
+
+/// Compliances in units of that of the contact, and N_c in units of the normal force.
+const LAYERS: [(f64, f64); 9] = [
+    (0.3, 0.0),
+    (10.0, f64::INFINITY),
+    (1.0, 3.0),
+    (0.3, 0.3),
+    (3.0, 0.1),
+    (0.1, 0.01),
+    (0.3, 1e-3),
+    (3.0, 1e-3),
+    (10.0, 1e-3),
+];
+
+/// A contact without a layer and the layer, under one force.
+struct Pair {
+    contact: Contact,
+    slip_force: f64,
+    compliance: f64,
+    /// N_c/N; infinite for a constant stiffness.
+    stiffening: f64,
+    /// State of the contact, and reversals and present point of the layer: force and displacement.
+    state: Vec<f64>,
+    reversals: Vec<[f64; 2]>,
+    now: [f64; 2],
+}
+
+impl Pair {
+    fn new(contact: &Contact, layer: &Layer) -> Pair {
+        let stiffening = layer.stiffening_load / NORMAL_FORCE;
+        let stiffening = if stiffening > 0.0 { stiffening } else { f64::INFINITY };
+        let (slip_force, compliance) = (contact.slip_force, layer.tangential_compliance);
+        Pair {
+            contact: *contact,
+            slip_force,
+            compliance,
+            stiffening,
+            state: unloaded(64),
+            reversals: vec![],
+            now: [0.0; 2],
+        }
+    }
+
+    /// Displacement and compliance of the layer under a force that rises from 0.
+    fn layer(&self, force: f64) -> [f64; 2] {
+        let tau = force / self.slip_force;
+        if self.stiffening.is_infinite() {
+            return [self.compliance * force, self.compliance];
+        }
+        let sum = 1.0 + self.stiffening;
+        let logarithm = if tau < 0.9 { -(-tau / sum).ln_1p() } else { -((self.stiffening + (1.0 - tau)) / sum).ln() };
+        [self.compliance * self.slip_force * sum * logarithm, self.compliance * sum / (self.stiffening + (1.0 - tau))]
+    }
+
+    /// Displacement and compliance of both under a force that rises from 0.
+    fn curve(&self, force: f64) -> [f64; 2] {
+        let (point, [displacement, compliance]) = (self.contact.curve_at_force(force).unwrap(), self.layer(force));
+        [point.displacement() + displacement, point.compliance() + compliance]
+    }
+
+    /// The force at a displacement: Newton's method between bounds.
+    fn force(&self, displacement: f64) -> f64 {
+        if displacement >= self.curve(self.slip_force)[0] {
+            return self.slip_force;
+        }
+        let (mut low, mut high) = (0.0, self.slip_force);
+        let mut force = 0.5 * high;
+        for _ in 0..200 {
+            let [found, compliance] = self.curve(force);
+            *(if found < displacement { &mut low } else { &mut high }) = force;
+            let next = force + (displacement - found) / compliance;
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - force).abs() <= 1e-16 * next {
+                break;
+            }
+            force = next;
+        }
+        force
+    }
+
+    /// Displacement and compliance of the layer after its forces so far and another one, by Masing's rule, and the reversals then.
+    fn layer_after(&self, force: f64) -> ([f64; 2], Vec<[f64; 2]>) {
+        let mut reversals = self.reversals.clone();
+        let [now, displacement] = self.now;
+        let start = reversals.last().map_or(0.0, |[start, _]| *start);
+        if (force - now) * (now - start) < 0.0 {
+            reversals.push([now, displacement]);
+        }
+        loop {
+            let &[start, displacement] = match reversals.as_slice() {
+                [] => {
+                    let [displacement, compliance] = self.layer(force.abs());
+                    return ([displacement * force.signum(), compliance], reversals);
+                }
+                [.., last] => last,
+            };
+            let sign = if force >= start { 1.0 } else { -1.0 };
+            // A branch ends at the reversal before its own, the first one at the mirror point of its own.
+            let end = if let [.., before, _] = reversals.as_slice() { before[0] } else { -start };
+            if sign * (force - end) < 0.0 {
+                let [change, compliance] = self.layer(0.5 * (force - start).abs());
+                return ([displacement + sign * 2.0 * change, compliance], reversals);
+            }
+            reversals.truncate(reversals.len().saturating_sub(2));
+        }
+    }
+
+    /// A step to a displacement: force and stiffness.
+    fn step(&mut self, displacement: f64) -> [f64; 2] {
+        let reach = 4.0 * (self.curve(self.slip_force)[0] + displacement.abs());
+        let (mut low, mut high) = (-reach, reach);
+        let mut own = 0.0;
+        for _ in 0..400 {
+            let step = common::step(&self.contact, &self.state, own);
+            let ([of_layer, compliance], _) = self.layer_after(step.force());
+            let error = own + of_layer - displacement;
+            *(if error < 0.0 { &mut low } else { &mut high }) = own;
+            let next = own - error / (1.0 + compliance * step.stiffness());
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - own).abs() <= 1e-17 * reach {
+                break;
+            }
+            own = next;
+        }
+        let (force, stiffness, _) = advance(&self.contact, &mut self.state, own);
+        let ([of_layer, compliance], reversals) = self.layer_after(force);
+        (self.now, self.reversals) = ([force, of_layer], reversals);
+        [force, stiffness / (1.0 + compliance * stiffness)]
+    }
+}
+
+/// A layer with a compliance in units of that of the contact, and N_c in units of the normal force.
+fn layer_of((share, ratio): (f64, f64)) -> impl Fn(&Contact) -> Layer {
+    move |contact| Layer {
+        normal_compliance: 0.0,
+        tangential_compliance: share / contact.initial_stiffness,
+        stiffening_load: ratio * NORMAL_FORCE,
+    }
+}
+
+/// All contacts with all layers: the contact alone, with the layer, and the layer.
+fn all() -> impl Iterator<Item = (Contact, Contact, Layer)> {
+    LAYERS.into_iter().flat_map(|layer| {
+        let layer = layer_of(layer);
+        contacts(0.4, &layer).map(|[alone, contact]| (alone, contact, layer(&alone)))
+    })
+}
+
+#[test]
+fn the_curve_and_its_inverse_are_those_of_the_pair() {
+    for (alone, contact, layer) in all() {
+        let pair = Pair::new(&alone, &layer);
+        let slip = pair.curve(pair.slip_force)[0];
+        assert!((contact.slip_displacement / slip - 1.0).abs() < 1e-14);
+        assert!((contact.initial_stiffness * pair.curve(0.0)[1] - 1.0).abs() < 1e-14);
+        for part in [1e-9, 0.01, 0.1, 0.3, 0.39, 0.41, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999] {
+            let force = part * pair.slip_force;
+            let [displacement, compliance] = pair.curve(force);
+            let (point, of_contact) = (contact.curve_at_force(force).unwrap(), alone.curve_at_force(force).unwrap());
+            assert!((point.displacement() / displacement - 1.0).abs() < 1e-12, "{layer:?} {part}");
+            assert!((point.compliance() / compliance - 1.0).abs() < 1e-11, "{layer:?} {part}");
+            // Stick zone and tractions at a force are those of the contact alone.
+            assert!((point.stick_half_width() / of_contact.stick_half_width() - 1.0).abs() < 1e-12, "{layer:?} {part}");
+            for x in [0.0, 0.5, 0.9].map(|x| x * alone.half_width) {
+                assert!(
+                    (point.shear(x) - of_contact.shear(x)).abs() < 1e-11 * 0.4 * alone.pressure(0.0),
+                    "{layer:?} {part}"
+                );
+                assert_eq!(contact.pressure(x), alone.pressure(x));
+            }
+            let displacement = part * slip;
+            let (force, found) = (pair.force(displacement), contact.curve_at_displacement(displacement).unwrap());
+            assert!((found.force() - force).abs() < 1e-11 * force, "{layer:?} {part} {} {force}", found.force());
+            // Near gross slip a force that is rounded to 1e-16 of mu N gives the compliance to 1e-13/N_c only.
+            let stiffness = 1.0 / pair.curve(force)[1];
+            assert!((found.stiffness() / stiffness - 1.0).abs() < 1e-9, "{layer:?} {part}");
+        }
+    }
+}
+
+#[test]
+fn histories_are_those_of_the_pair() {
+    for (alone, contact, layer) in all() {
+        let (mut pair, mut state) = (Pair::new(&alone, &layer), unloaded(64));
+        let mut phase = 0.7_f64;
+        for step in 0..60 {
+            phase = (phase * 997.0).sin();
+            let displacement = phase * contact.slip_displacement * if step % 20 == 19 { 1.2 } else { 0.97 };
+            let ([force, stiffness], found) = (pair.step(displacement), advance(&contact, &mut state, displacement));
+            assert!((found.0 - force).abs() < 1e-11 * contact.slip_force, "{layer:?} {step} {} {force}", found.0);
+            assert!((found.1 - stiffness).abs() < 1e-9 * contact.initial_stiffness, "{layer:?} {step}");
+        }
+    }
+}
+
+/// Gauss-Legendre quadrature with 8 nodes on parts of (0, 1) that halve towards 1.
+fn graded(integrand: impl Fn(f64) -> f64) -> f64 {
+    const NODES: [[f64; 2]; 4] = [
+        [0.183_434_642_495_649_8, 0.362_683_783_378_362],
+        [0.525_532_409_916_329, 0.313_706_645_877_887_3],
+        [0.796_666_477_413_626_7, 0.222_381_034_453_374_48],
+        [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
+    ];
+    let mut sum = 0.0;
+    for half in 0..130 {
+        let (low, high) = (1.0 - 0.75_f64.powi(half), 1.0 - 0.75_f64.powi(half + 1));
+        let (middle, length) = (0.5 * (low + high), 0.5 * (high - low));
+        for [node, weight] in NODES {
+            sum += length * weight * (integrand(middle - node * length) + integrand(middle + node * length));
+        }
+    }
+    sum
+}
+
+#[test]
+fn energies_and_complex_stiffnesses_are_those_of_the_pair() {
+    for (alone, contact, layer) in all() {
+        let pair = Pair::new(&alone, &layer);
+        // At one force the energies add up. That of the layer is the area of a loop by Masing's rule, by parts, 8 ∫ (T - T0/2) dδ.
+        let energy = |force: f64| {
+            let of_layer = graded(|x| 8.0 * (x - 0.5) * pair.layer(force * x)[1]);
+            alone.dissipated_energy(force).unwrap() + force * force * of_layer
+        };
+        for part in [0.1, 0.45, 0.55, 0.9, 1.0] {
+            let force = part * pair.slip_force;
+            let expected = energy(force);
+            let found = contact.dissipated_energy(force).unwrap();
+            let scale = force * pair.curve(force)[0];
+            assert!((found - expected).abs() < 1e-11 * scale, "{layer:?} {part} {found} {expected}");
+        }
+        for part in [0.1, 0.3, 0.5, 0.75, 0.9, 0.98, 0.9995, 1.02, 1.3, 5.0] {
+            let amplitude = part * contact.slip_displacement;
+            let top = pair.force(amplitude);
+            // K' = 8/(π δ0²) ∫ sqrt(δ (δ0 - δ)) dT, with T = T0 sin² φ.
+            let real = 8.0 / PI / amplitude / amplitude
+                * graded(|x| {
+                    let (sine, cosine) = (0.5 * PI * x).sin_cos();
+                    let force = top * sine * sine;
+                    let displacement = pair.curve(force)[0];
+                    (displacement * (amplitude - displacement).max(0.0)).sqrt() * top * PI * sine * cosine
+                });
+            let slip = (amplitude - contact.slip_displacement).max(0.0);
+            let imaginary = (energy(top) + 4.0 * pair.slip_force * slip) / (PI * amplitude * amplitude);
+            let found = contact.complex_stiffness(amplitude).unwrap();
+            let scale = real.hypot(imaginary);
+            assert!((found.real() - real).abs() < 1e-11 * scale, "{layer:?} {part} {} {real}", found.real());
+            assert!(
+                (found.imaginary() - imaginary).abs() < 1e-11 * scale,
+                "{layer:?} {part} {} {imaginary}",
+                found.imaginary()
+            );
+        }
+    }
+}
