@@ -6,7 +6,8 @@ mod table;
 
 use crate::error::Error;
 use crate::limits::{check_displacement, in_range};
-use crate::numerics::fp_class::{in_0_to, le};
+use crate::numerics::fp_class::{in_0_to, is_finite, le};
+use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape};
 use crate::tag::LAYOUT;
@@ -408,6 +409,58 @@ impl Element {
         let w = shape.at_load(normal_force);
         let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
         NormalPoint { value: shape.approach(w), slope }
+    }
+
+    /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
+    /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
+    /// without a normal force.
+    ///
+    /// # Errors
+    /// `BadDirections` for a direction that the element does not have; those of [`Element::check_normal_force`]; `BadForce` if the force
+    /// is not finite, `ForceExceedsSlip` if it exceeds mu N by more than rounding.
+    pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> Result<NormalPoint, Error> {
+        if direction >= self.tangential_directions() as usize {
+            return Err(Error::BadDirections);
+        }
+        self.check_normal_force(normal_force)?;
+        if !is_finite(force) {
+            return Err(Error::BadForce);
+        }
+        let (size, mu) = (force.abs(), self.friction_coefficient);
+        let limit = mu * normal_force;
+        if size > limit * (1.0 + 8.0 * f64::EPSILON) {
+            return Err(Error::ForceExceedsSlip);
+        }
+        if limit <= 0.0 {
+            return Ok(NormalPoint { value: 0.0, slope: f64::INFINITY });
+        }
+        // The load of the stick zone, without the rounding of mu N.
+        let stuck = if size < limit { mu.mul_add(normal_force, -size).max(0.0) / mu } else { 0.0 };
+        let [end, start] = [normal_force, stuck].map(|load| self.tangential_shift(direction, load));
+        let shift = if stuck < 0.75 * normal_force {
+            end.value - start.value
+        } else {
+            // The difference would lose digits. The singularities of the compliance are at N = 0 and below.
+            let consumed = size / mu;
+            let nodes = gauss_nodes(2);
+            nodes
+                .map(|(x, part)| consumed * part * self.tangential_shift(direction, normal_force - x * consumed).slope)
+                .sum()
+        };
+        let vanishes = stuck <= 0.0 && self.shape().half_width(0.0) <= 0.0;
+        let slope = if vanishes { f64::INFINITY } else { start.slope };
+        Ok(NormalPoint { value: mu.copysign(force) * shift, slope })
+    }
+
+    /// S in a direction and its derivative by the normal force, from the shape.
+    fn tangential_shift(&self, direction: usize, load: f64) -> NormalPoint {
+        if direction == 0 {
+            let (value, slope) = self.shift_of_load(load);
+            return NormalPoint { value, slope };
+        }
+        let [per_approach, per_load] = self.lateral;
+        let NormalPoint { value, slope } = self.approach_outside(load);
+        NormalPoint { value: per_approach * value + per_load * load, slope: per_approach * slope + per_load }
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.

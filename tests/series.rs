@@ -3,7 +3,8 @@
 mod common;
 
 use common::{advance, unloaded};
-use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::f64::consts::PI;
 
 const NORMAL_FORCE: f64 = 150.0;
@@ -290,4 +291,72 @@ fn energies_and_complex_stiffnesses_are_those_of_the_pair() {
             );
         }
     }
+}
+
+/// At a constant normal force an element has the curve of the contact under that force, in both directions.
+#[test]
+fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
+    let ellipse = |[semi_axis_x, semi_axis_y]: [f64; 2], layer| EllipticParameters {
+        semi_axis_x,
+        semi_axis_y,
+        normal_force: NORMAL_FORCE,
+        friction_coefficient: 0.4,
+        material: [STEEL; 2],
+        layer,
+    };
+    let check = |element: &Element, direction: usize, contact: &Contact, normal_force: f64| {
+        for part in [1e-12, -1e-3, 0.1, 0.24, 0.26, -0.7, 0.99, 1.0, -1.0] {
+            let force = part * contact.slip_force;
+            let (found, point) = (
+                element.displacement_under(direction, force, normal_force).unwrap(),
+                contact.curve_at_force(force).unwrap(),
+            );
+            assert!(
+                (found.value / point.displacement() - 1.0).abs() < 4e-14,
+                "{part} {found:?} {}",
+                point.displacement()
+            );
+            let compliance = point.compliance();
+            assert!(
+                found.slope == compliance || (found.slope / compliance - 1.0).abs() < 1e-13,
+                "{part} {found:?} {compliance}"
+            );
+        }
+        let beyond = element.displacement_under(direction, 1.001 * contact.slip_force, normal_force);
+        assert_eq!(beyond.map(|_| ()), Err(Error::ForceExceedsSlip));
+    };
+    for layer in [Layer::NONE, Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0 }] {
+        for input in [NormalInput::Approach, NormalInput::Force] {
+            // The compliance of the layer is given under the normal force of the parameters.
+            let load = 0.4 * NORMAL_FORCE;
+            let ratio = (NORMAL_FORCE + layer.stiffening_load) / (load + layer.stiffening_load);
+            let of_less = Layer { tangential_compliance: ratio * layer.tangential_compliance, ..layer };
+            for flat_half_width in [0.0, 50e-6] {
+                let parameters = Parameters {
+                    flat_half_width,
+                    edge_radius: 5e-3,
+                    length: 10e-3,
+                    normal_force: NORMAL_FORCE,
+                    friction_coefficient: 0.4,
+                    material: [STEEL; 2],
+                    layer,
+                    ..Parameters::default()
+                };
+                let element = Element::rounded_flat(&parameters, Directions::One, input).unwrap();
+                check(&element, 0, &Contact::rounded_flat(&parameters).unwrap(), NORMAL_FORCE);
+                let less = Parameters { normal_force: load, layer: of_less, ..parameters };
+                check(&element, 0, &Contact::rounded_flat(&less).unwrap(), load);
+                let error = element.displacement_under(1, 1.0, NORMAL_FORCE).map(|_| ());
+                assert_eq!(error, Err(Error::BadDirections));
+            }
+            let axes = [1e-4, 2e-4];
+            let element = Element::elliptic(&ellipse(axes, layer), Directions::One, input).unwrap();
+            check(&element, 0, &Contact::elliptic(&ellipse(axes, layer)).unwrap(), NORMAL_FORCE);
+        }
+    }
+    let element = Element::elliptic(&ellipse([1e-4, 2e-4], Layer::NONE), Directions::Two, NormalInput::Force).unwrap();
+    let [across, along] =
+        [[1e-4, 2e-4], [2e-4, 1e-4]].map(|axes| Contact::elliptic(&ellipse(axes, Layer::NONE)).unwrap());
+    check(&element, 0, &across, NORMAL_FORCE);
+    check(&element, 1, &along, NORMAL_FORCE);
 }

@@ -34,7 +34,7 @@ use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
-use crate::numerics::sn_midpoint::{GAUSS, RULES, Rule};
+use crate::numerics::sn_midpoint::{FINE_RULE, GAUSS, RULES, Rule};
 use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
 use crate::simd::dispatch;
 use core::array::from_fn;
@@ -170,8 +170,7 @@ impl ComplexStiffness<'_> {
         let fraction = amplitude * contact.per_slip_displacement();
         // Otherwise the curve has a singularity close to zero displacement, too.
         if !contact.has_singularity_within(0.75) {
-            let mut rules = RULES.iter().skip(usize::from(contact.has_singularity_within(1.5)));
-            if let Some(rule) = rules.find(|rule| fraction <= rule.largest) {
+            if let Some(rule) = self.rule(fraction, usize::from(contact.has_singularity_within(1.5))) {
                 return self.real_by_rule(rule);
             }
             if fraction >= GROSS_SLIP_RULE_FROM {
@@ -191,11 +190,20 @@ impl ComplexStiffness<'_> {
         if contact.has_singularity_within(0.75) {
             return NODES_OF_TABLE;
         }
-        match RULES.iter().find(|rule| fraction <= rule.largest) {
+        match self.rule(fraction, 0) {
             Some(rule) => rule.nodes.len(),
             None if fraction < GROSS_SLIP_RULE_FROM => NODES_OF_TABLE,
             None => GAUSS.len() / 8,
         }
+    }
+
+    /// The rule for an amplitude over that of gross slip, one of those behind the first ones; `None` beyond all of them.
+    #[inline(always)]
+    fn rule(&self, fraction: f64, first: usize) -> Option<&'static Rule> {
+        if self.contact.has_knee() {
+            return (fraction <= FINE_RULE.largest).then_some(&FINE_RULE);
+        }
+        RULES.iter().skip(first).find(|rule| fraction <= rule.largest)
     }
 
     /// Both by a rule adapted to the singularity at gross slip.

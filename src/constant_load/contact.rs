@@ -51,13 +51,13 @@ pub struct Contact {
     /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
-    interpolant: ForceInterpolant,
     gross_slip_quadrature: GrossSlipQuadrature,
     zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
     pub(crate) reference_slope: f64,
+    interpolant: ForceInterpolant,
     /// Makes the sum of all words 0, in a contact that was written by the C interface.
     pub(crate) checksum: u64,
 }
@@ -67,7 +67,7 @@ const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 const LAYERED: u64 = 2;
 
-const _: () = assert!(size_of::<Contact>() == 2248);
+const _: () = assert!(size_of::<Contact>() == 4656);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -193,7 +193,8 @@ impl Contact {
         let (flat, zones) = (&self.zones.flat, self.stick_zones());
         let (slip_shift, compliance) = (zones.slip_shift(), zones.small_load().compliance);
         if self.is_layered() {
-            ForceInterpolant::of(slip_shift, compliance, self.zones.sequence())
+            let (sequence, divided) = (self.zones.sequence(), self.zones.has_knee());
+            ForceInterpolant::of_layered(slip_shift, compliance, sequence, divided)
         } else if self.is_elementary() {
             ForceInterpolant::NONE
         } else {
@@ -250,6 +251,12 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn interpolant(&self) -> &ForceInterpolant {
         &self.interpolant
+    }
+
+    /// Whether a layer bends the curve strongly near gross slip.
+    #[inline(always)]
+    pub(crate) fn has_knee(&self) -> bool {
+        self.is_layered() && self.zones.has_knee()
     }
 
     /// Those of the contact and the layer.
@@ -341,6 +348,25 @@ pub(crate) mod tests {
 
     pub(crate) fn contact(flat_half_width: f64) -> Contact {
         Contact::rounded_flat(&parameters(flat_half_width)).unwrap()
+    }
+
+    /// Contacts of all shapes with a layer of a compliance in units of that of the contact, and of N_c in units of the normal force.
+    pub(crate) fn layered(share: f64, ratio: f64) -> [Contact; 4] {
+        let layer = |alone: &Contact| Layer {
+            normal_compliance: 0.0,
+            tangential_compliance: share / alone.initial_stiffness,
+            stiffening_load: 150.0 * ratio,
+        };
+        let flat = |a| Contact::rounded_flat(&Parameters { layer: layer(&contact(a)), ..parameters(a) }).unwrap();
+        let ellipse = EllipticParameters {
+            semi_axis_x: 1e-4,
+            semi_axis_y: 2e-4,
+            normal_force: 150.0,
+            friction_coefficient: 0.4,
+            material: [TITANIUM; 2],
+            layer: layer(&ellipse(1e-4, 2e-4)),
+        };
+        [flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
     }
 
     /// A cylinder with a ratio 2L/b of `slenderness`.

@@ -218,13 +218,13 @@ impl CurveEvaluator<'_> {
             while next < count
                 && let Some(v) = block(roots, next)
             {
-                let interval = Interval::of(v[0]);
-                if !interval.is_covered() {
+                let interval = self.interpolant.interval(v[0]);
+                if !self.interpolant.covers(interval) {
                     break;
                 }
                 let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
-                next += leading(v, |v| Interval::of(v) == interval);
+                next += leading(v, |v| self.interpolant.interval(v) == interval);
             }
         }
         if next < count {

@@ -39,6 +39,23 @@ impl Contact {
         Ok(times(sign_of(displacement), self.sensitivity(displacement.abs())))
     }
 
+    /// Derivative of the force of the monotonic curve with respect to the tangential compliance of the layer, at a fixed displacement
+    /// \[m\]; 0 beyond `slip_displacement`, and without a layer.
+    ///
+    /// # Errors
+    /// `BadDisplacement` if the displacement is not finite, or beyond 1e150.
+    pub fn layer_sensitivity(&self, displacement: f64) -> Result<f64, Error> {
+        check_displacement(displacement)?;
+        if !self.is_layered() || self.is_frictionless() || displacement.abs() > self.slip_displacement {
+            return Ok(0.0);
+        }
+        let (load, increase) = self.load_and_increase(displacement.abs());
+        let layer = self.layered_zones().layer();
+        let of_contact = self.stick_zones().small_load().compliance + increase - layer.compliance_at(load);
+        let [.., by_compliance] = layer.shares(load, of_contact);
+        Ok(sign_of(displacement) * by_compliance * self.slip_force * self.stiffness_scale)
+    }
+
     /// Derivatives of mu N.
     pub(crate) fn slip_sensitivity(&self) -> Sensitivity {
         let [by_normal_force, by_friction, ..] = self.sensitivity_scales;
@@ -66,14 +83,7 @@ impl Contact {
     /// The derivatives over the scales. Those of a contact with a layer are, at the same force, those of the contact alone over the
     /// compliance of both, but for the displacement of the layer.
     fn shares_at(&self, displacement: f64) -> Sensitivity {
-        let full_stick = self.stick_zones().small_load().compliance;
-        let (load, increase) = match self.evaluator().load_at(displacement) {
-            Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
-            None => {
-                let zone = self.stick_zone_at_displacement(displacement);
-                (zone.load, zone.compliance_increase)
-            }
-        };
+        let (load, increase) = self.load_and_increase(displacement);
         if !self.is_layered() {
             return self.rounded_flat_shares(load, increase);
         }
@@ -92,6 +102,19 @@ impl Contact {
         shares[0] += by_normal_force;
         shares[1] += by_friction;
         shares
+    }
+
+    /// Load and λ at a displacement >= 0 up to that of gross slip.
+    #[inline(always)]
+    fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
+        let full_stick = self.stick_zones().small_load().compliance;
+        match self.evaluator().load_at(displacement) {
+            Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
+            None => {
+                let zone = self.stick_zone_at_displacement(displacement);
+                (zone.load, zone.compliance_increase)
+            }
+        }
     }
 
     fn rounded_flat_shares(&self, load: Complement, increase: f64) -> Sensitivity {
@@ -128,7 +151,7 @@ fn elliptic_shares(size: f64, consumed: f64) -> Sensitivity {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{FLATS, ellipse, parameters};
+    use crate::constant_load::contact::tests::{FLATS, ellipse, layered, parameters};
     use crate::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
     use std::vec::Vec;
 
@@ -183,7 +206,68 @@ pub(crate) mod tests {
             .unwrap()
         };
         cases.push((std::boxed::Box::new(sphere), [150.0, 0.4, 0.0, 5e-3, 10e-3, 1.0]));
+        cases.extend(layered_cases());
         cases
+    }
+
+    /// A flat and a sphere with layers, linear and stiffening, which do not change with the parameters.
+    fn layered_cases() -> impl Iterator<Item = Case> {
+        [(0.0, 6e-9), (15.0, 6e-9), (1.5, 2e-9)].into_iter().flat_map(|(stiffening_load, tangential_compliance)| {
+            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load };
+            let flat = move |[normal_force, friction_coefficient, flat_half_width, edge_radius, length, factor]: Sensitivity| {
+                let material = BODIES.map(|body| Material { young_modulus: factor * body.young_modulus, ..body });
+                Contact::rounded_flat(&Parameters {
+                    flat_half_width,
+                    edge_radius,
+                    length,
+                    normal_force,
+                    friction_coefficient,
+                    material,
+                    layer,
+                    ..Parameters::default()
+                })
+                .unwrap()
+            };
+            let modulus = ellipse(1e-4, 1e-4).composite_modulus;
+            let sphere = move |[normal_force, friction_coefficient, _, radius, _, factor]: Sensitivity| {
+                let young_modulus = factor * parameters(0.0).material[0].young_modulus;
+                let semi_axis = (0.75 * normal_force * radius / (factor * modulus)).cbrt();
+                Contact::elliptic(&EllipticParameters {
+                    semi_axis_x: semi_axis,
+                    semi_axis_y: semi_axis,
+                    normal_force,
+                    friction_coefficient,
+                    material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
+                    layer,
+                })
+                .unwrap()
+            };
+            let one: Case = (std::boxed::Box::new(flat), [150.0, 0.4, 50e-6, 5e-3, 10e-3, 1.0]);
+            let other: Case = (std::boxed::Box::new(sphere), [150.0, 0.4, 0.0, 5e-3, 10e-3, 1.0]);
+            [one, other]
+        })
+    }
+
+    #[test]
+    fn derivatives_by_the_layer_agree_with_differences() {
+        for (share, ratio) in [(0.3, 0.0), (3.0, 1.0), (1.0, 0.01)] {
+            let h = 1e-4;
+            let [low, middle, high] = [1.0 - h, 1.0, 1.0 + h].map(|factor| layered(factor * share, ratio));
+            for ((low, middle), high) in low.iter().zip(&middle).zip(&high) {
+                // The stiffness of the contact without the layer is (1 + share) times that with it.
+                let compliance = share / ((1.0 + share) * middle.initial_stiffness);
+                for part in [1e-6, 0.1, -0.5, 0.9, 0.999, 1.1] {
+                    let displacement = part * middle.slip_displacement;
+                    let exact = compliance * middle.layer_sensitivity(displacement).unwrap();
+                    let force = |contact: &Contact| contact.curve_at_displacement(displacement).unwrap().force();
+                    let found = (force(high) - force(low)) / (2.0 * h);
+                    // Central differences, with an error of h² over the distance from gross slip squared.
+                    let scale = middle.slip_force * f64::abs(part).min(1.0);
+                    let bound = if f64::abs(part) > 0.99 { 2e-4 } else { 1e-6 };
+                    assert!((found - exact).abs() < bound * scale, "{share} {ratio} {part} {found} {exact}");
+                }
+            }
+        }
     }
 
     /// Differences of a function of the contact, one column per parameter, and the scale of each column: mu N over the parameter. The

@@ -426,11 +426,11 @@ fn shape_of(contact: &Contact) -> [f64; 4] {
 impl Curve {
     const EMPTY: Curve = Curve { secant: [0.0; TERMS], first: Input::EMPTY, others: [Input::EMPTY; PIECES] };
 
-    /// `false` without friction, and for small Λ.
+    /// `false` without friction, for small Λ, and with a layer whose N_c is small.
     #[inline(never)]
     fn init(&mut self, contact: &Contact) -> bool {
         let [compliance, slip_shift, ..] = shape_of(contact);
-        if contact.is_frictionless() || compliance < SMALLEST_COMPLIANCE {
+        if contact.is_frictionless() || compliance < SMALLEST_COMPLIANCE || contact.has_knee() {
             return false;
         }
         let series = contact.stick_zones().small_load();
@@ -695,6 +695,35 @@ mod tests {
                 assert!(d_slope.abs() < 2e-13 * unit, "{fraction} {}", d_slope / unit);
             }
         }
+    }
+
+    /// Also against quadrature; with a small N_c there are no polynomials.
+    #[test]
+    fn tables_with_layers_agree_with_quadrature() {
+        use crate::constant_load::contact::tests::layered;
+        for (share, ratio) in [(0.3, 0.0), (10.0, 0.0), (0.1, 0.26), (1.0, 0.3), (3.0, 1.0)] {
+            for contact in layered(share, ratio) {
+                let table = table_of(&contact);
+                assert!(table.has_polynomials() && !table.is_of(&layered(1.01 * share, ratio)[0]));
+                for fraction in (0..40).map(|k| 0.0625 * f64::from(k) + 1e-3).chain([0.9999, 1.001, 20.0]) {
+                    let amplitude = fraction * contact.slip_displacement;
+                    let [[(real, d_real), (imaginary, d_imaginary)]] =
+                        table.at::<true, true, 1>(&contact, &[amplitude]);
+                    let exact = contact.complex_stiffness(amplitude).unwrap();
+                    let (exact_real, exact_d_real) = exact.real_with_derivative();
+                    let (exact_imaginary, exact_d_imaginary) = exact.imaginary_with_derivative();
+                    let unit = exact_real.hypot(exact_imaginary);
+                    assert!((real - exact_real).abs() < 4e-14 * unit, "{share} {ratio} {fraction}");
+                    assert!((imaginary - exact_imaginary).abs() < 1e-14 * unit, "{share} {ratio} {fraction}");
+                    let slopes = [d_real - exact_d_real, d_imaginary - exact_d_imaginary];
+                    assert!(
+                        slopes.iter().all(|slope| (amplitude * slope).abs() < 2e-12 * unit),
+                        "{share} {ratio} {fraction}"
+                    );
+                }
+            }
+        }
+        assert!(layered(1.0, 0.2).iter().all(|contact| !table_of(contact).has_polynomials()));
     }
 
     #[test]

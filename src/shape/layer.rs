@@ -263,6 +263,12 @@ impl LayeredZones {
         self.layer.compliance > 0.0
     }
 
+    /// Whether the layer bends the curve strongly near gross slip: N_c is less than a quarter of N. The curve is then singular, as a
+    /// function of the displacement, at complex displacements near gross slip.
+    pub fn has_knee(&self) -> bool {
+        self.layer.stiffening > 4.0 * self.layer.softest
+    }
+
     /// What distinguishes the curve from that of the contact alone.
     pub fn shape(&self) -> [f64; 2] {
         [self.layer.compliance, self.layer.stiffening]
