@@ -326,7 +326,7 @@ mod tests {
                     let displacement = fraction * contact.slip_displacement;
                     let (response, zone) =
                         (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
-                    // The curve of small N_c amplifies the rounding of the displacement; the stiffness of its first polynomial has an error of 4e-12, the
+                    // The curve of small N_c amplifies the rounding of the displacement; its first polynomial has not quite converged.
                     let (of_force, of_stiffness) = if ratio < 0.01 { (2e-13, 4e-12) } else { (1e-14, 5e-14) };
                     let error = (response.force - contact.force_of(&zone)).abs() / contact.slip_force;
                     assert!(error < of_force, "{ratio} {fraction} {error:e}");
