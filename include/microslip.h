@@ -254,7 +254,7 @@ typedef struct mslip_contact {
     // Energy dissipated per cycle at incipient gross slip [J].
     double slip_energy;
     // Internal tables.
-    double reserved[576];
+    double reserved[675];
 } mslip_contact;
 
 // A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;

@@ -2,7 +2,7 @@
 //! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
-use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
+use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, Parts};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
@@ -51,13 +51,14 @@ pub struct Contact {
     /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
+    interpolant: ForceInterpolant,
     gross_slip_quadrature: GrossSlipQuadrature,
     zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
     pub(crate) reference_slope: f64,
-    interpolant: ForceInterpolant,
+    parts: Parts,
     /// Makes the sum of all words 0, in a contact that was written by the C interface.
     pub(crate) checksum: u64,
 }
@@ -67,7 +68,7 @@ const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 const LAYERED: u64 = 2;
 
-const _: () = assert!(size_of::<Contact>() == 4656);
+const _: () = assert!(size_of::<Contact>() == 5448);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -180,26 +181,29 @@ impl Contact {
             slip_displacement,
             inner_scale: 1.0 / (inner * slip_displacement),
             outer_scale: 1.0 / (outer * slip_displacement),
-            interpolant: self.made_interpolant(),
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
             gross_slip_quadrature: gross_slip_quadrature(zones),
             sensitivity_scales: [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus],
-            ..self
+            ..self.with_interpolant()
         })
     }
 
-    fn made_interpolant(&self) -> ForceInterpolant {
+    fn with_interpolant(mut self) -> Contact {
         let (flat, zones) = (&self.zones.flat, self.stick_zones());
         let (slip_shift, compliance) = (zones.slip_shift(), zones.small_load().compliance);
         if self.is_layered() {
-            let (sequence, divided) = (self.zones.sequence(), self.zones.has_knee());
-            ForceInterpolant::of_layered(slip_shift, compliance, sequence, divided)
-        } else if self.is_elementary() {
-            ForceInterpolant::NONE
-        } else {
-            ForceInterpolant::of(slip_shift, compliance, flat.sequence())
+            let parts = self.has_knee().then_some(&mut self.parts);
+            self.interpolant = ForceInterpolant::of_layered(slip_shift, compliance, self.zones.sequence(), parts);
+        } else if !self.is_elementary() {
+            self.interpolant = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
         }
+        self
+    }
+
+    /// The polynomials on parts of intervals.
+    pub(crate) fn parts(&self) -> &Parts {
+        &self.parts
     }
 
     pub(crate) fn gross_slip_quadrature(&self) -> &GrossSlipQuadrature {
@@ -210,8 +214,10 @@ impl Contact {
     /// displacement of gross slip: to first order at `-Λ²/(2 h'')`.
     #[inline(always)]
     pub(crate) fn has_singularity_within(&self, fraction: f64) -> bool {
-        let series = self.stick_zones().small_load();
-        let distance = 2.0 * fraction * series.initial_curvature() * self.stick_zones().slip_shift();
+        // A layer moves it away.
+        let zones = if self.is_layered() { self.zones.contact() } else { self.stick_zones() };
+        let series = zones.small_load();
+        let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
         series.compliance * series.compliance < distance
     }
 
@@ -265,12 +271,12 @@ impl Contact {
     }
 
     pub(crate) fn stick_zones(&self) -> &dyn StickZones {
-        if self.is_elementary() {
-            &EllipseZones
-        } else if self.is_layered() {
-            &self.zones
-        } else {
+        if self.tag == TAG_ROUNDED_FLAT {
             &self.zones.flat
+        } else if self.is_elementary() {
+            &EllipseZones
+        } else {
+            &self.zones
         }
     }
 
@@ -317,6 +323,7 @@ const EMPTY: Contact = Contact {
     interpolant: ForceInterpolant::NONE,
     gross_slip_quadrature: NO_QUADRATURE,
     zones: LayeredZones::EMPTY,
+    parts: Parts::NONE,
     sensitivity_scales: [0.0; _],
     reference_slope: 0.0,
     checksum: 0,

@@ -170,10 +170,16 @@ impl CurveEvaluator<'_> {
             let initial = self.initial_stiffness;
             Some(Response { force: initial * displacement * secant, stiffness: initial * tangent })
         } else {
-            let (complement, slope) = self.interpolant.complement_and_slope(remaining * self.outer_scale)?;
+            let (complement, slope) = self.complement_and_slope(remaining * self.outer_scale)?;
             let force = self.slip_force - self.slip_force * complement;
             Some(Response { force, stiffness: self.outer_stiffness * slope })
         }
+    }
+
+    #[inline(always)]
+    fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
+        let found = self.interpolant.complement_and_slope(rho);
+        if found.is_some() { found } else { self.interpolant.complement_and_slope_in_parts(self.contact.parts(), rho) }
     }
 
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
@@ -218,13 +224,13 @@ impl CurveEvaluator<'_> {
             while next < count
                 && let Some(v) = block(roots, next)
             {
-                let interval = self.interpolant.interval(v[0]);
-                if !self.interpolant.covers(interval) {
+                let interval = Interval::of(v[0]);
+                if !interval.is_covered() || !self.interpolant.has_dyadic_intervals() {
                     break;
                 }
                 let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
-                next += leading(v, |v| self.interpolant.interval(v) == interval);
+                next += leading(v, |v| Interval::of(v) == interval);
             }
         }
         if next < count {
@@ -284,7 +290,7 @@ impl CurveEvaluator<'_> {
             Some((Complement { consumed, remaining: 1.0 - consumed }, self.initial_stiffness * tangent))
         } else {
             let distance = self.slip_displacement - displacement;
-            let (remaining, slope) = self.interpolant.complement_and_slope(distance * self.outer_scale)?;
+            let (remaining, slope) = self.complement_and_slope(distance * self.outer_scale)?;
             Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
         }
     }

@@ -27,6 +27,9 @@ const OCTAVES: usize = 5;
 /// Leading bits of the mantissa of v that choose a part of a dyadic interval, if there are several.
 const BITS: u32 = 2;
 
+/// Mark of an interpolant with divided intervals.
+const IN_PARTS: u64 = 2;
+
 /// Number of all parts.
 const PIECES: usize = OCTAVES << BITS;
 
@@ -49,43 +52,38 @@ pub(crate) static CYCLE_WEIGHTS: Polynomial = {
 pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s): the secant stiffness over the initial one.
     inner: Polynomial,
-    /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1, and likewise on parts of the dyadic intervals.
-    pieces: [Polynomial; PIECES],
-    /// 0, or [`BITS`] if dyadic intervals are divided.
-    bits: u64,
-    /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0.
+    /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
+    pieces: [Polynomial; OCTAVES],
+    /// 1, or [`IN_PARTS`] if dyadic intervals are divided, if all polynomials are accurate; 0 if the curvature is too strong, for Λ near 0.
     converged: u64,
 }
 
 impl ForceInterpolant {
     pub const NONE: ForceInterpolant =
-        ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], bits: 0, converged: 0 };
+        ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; OCTAVES], converged: 0 };
 
     /// The interpolant of the curve of a contact: the shift of gross slip, the compliance Λ, and points at decreasing remaining shifts.
     pub fn of(slip_shift: f64, compliance: f64, at_remaining: impl FnMut(f64) -> CurvePoint) -> ForceInterpolant {
-        ForceInterpolant::with::<16, 8, false>(slip_shift, compliance, at_remaining)
+        ForceInterpolant::with::<16, 8>(slip_shift, compliance, at_remaining, None)
     }
 
-    /// That of the curve of a contact with a layer, which may need parts of dyadic intervals.
+    /// That of the curve of a contact with a layer: with parts of the dyadic intervals, if they are given.
     pub fn of_layered(
         slip_shift: f64,
         compliance: f64,
         at_remaining: impl FnMut(f64) -> CurvePoint,
-        divided: bool,
+        parts: Option<&mut Parts>,
     ) -> ForceInterpolant {
-        if divided {
-            ForceInterpolant::with::<TERMS, { TERMS / 2 }, true>(slip_shift, compliance, at_remaining)
-        } else {
-            ForceInterpolant::with::<TERMS, { TERMS / 2 }, false>(slip_shift, compliance, at_remaining)
-        }
+        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(slip_shift, compliance, at_remaining, parts)
     }
 
     /// With N terms on the later intervals.
     #[inline(always)]
-    fn with<const N: usize, const M: usize, const DIVIDED: bool>(
+    fn with<const N: usize, const M: usize>(
         slip_shift: f64,
         compliance: f64,
         mut at_remaining: impl FnMut(f64) -> CurvePoint,
+        mut parts: Option<&mut Parts>,
     ) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
@@ -101,37 +99,50 @@ impl ForceInterpolant {
         // With a layer the curve is singular closer to the intervals, for small N_c at two thirds of the displacement of gross slip from
         // the first one, of which only the stiffness has an error of this size.
         let accuracy = if N < TERMS { 1e-15 } else { 1e-13 };
-        let mut converged = decrease.is_converged(if DIVIDED { 4e-12 } else { accuracy });
+        let mut converged = decrease.is_converged(if parts.is_some() { 4e-12 } else { accuracy });
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
             *first = 1.0;
         }
-        let mut pieces = [[[0.0; 4]; _]; PIECES];
+        let mut pieces = [[[0.0; 4]; _]; OCTAVES];
         let mut scale = 0.25;
-        let bits = if DIVIDED { BITS } else { 0 };
-        for (j, parts) in pieces.chunks_exact_mut(1 << bits).take(OCTAVES).enumerate() {
-            for (part, piece) in parts.iter_mut().enumerate() {
-                // v = scale (middle + z), with the scale of the part.
-                let middle = f64::from(2 * ((2 << bits) - 1 - part as u32) + 1);
-                let part_scale = if DIVIDED { scale / f64::from(1 << BITS) } else { scale };
-                let at = |z: f64| {
-                    let v = part_scale * (middle + z);
-                    at_remaining(remaining * v * v)
-                };
-                let unit = 2.0 * remaining * part_scale * part_scale;
-                // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
-                let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
-                let (polynomial, piece_converged) = if j < 2 {
-                    interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, middle, at, tolerance)
-                } else {
-                    interpolate::<N, M>(compliance, unit, middle, at, tolerance)
-                };
-                *piece = polynomial;
-                converged &= piece_converged;
+        if let Some(Parts(parts)) = parts.as_deref_mut() {
+            for dyadic in parts.as_chunks_mut::<{ 1 << BITS }>().0 {
+                let scale_of_part = scale * const { 1.0 / (1 << BITS) as f64 };
+                for (piece, part) in dyadic.iter_mut().zip((1u32 << BITS..2 << BITS).rev()) {
+                    let middle = f64::from(2 * part + 1);
+                    let at = |z: f64| {
+                        let v = scale_of_part * (middle + z);
+                        at_remaining(remaining * v * v)
+                    };
+                    let unit = 2.0 * remaining * scale_of_part * scale_of_part;
+                    let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
+                    let (polynomial, piece_converged) = interpolate::<N, M>(compliance, unit, middle, at, tolerance);
+                    *piece = polynomial;
+                    converged &= piece_converged;
+                }
+                scale *= 0.5;
             }
+            return ForceInterpolant { inner, pieces, converged: IN_PARTS * u64::from(converged) };
+        }
+        for (j, piece) in pieces.iter_mut().enumerate() {
+            let at = |z: f64| {
+                let v = scale * (3.0 + z);
+                at_remaining(remaining * v * v)
+            };
+            let unit = 2.0 * remaining * scale * scale;
+            // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
+            let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
+            let (polynomial, piece_converged) = if j < 2 {
+                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, 3.0, at, tolerance)
+            } else {
+                interpolate::<N, M>(compliance, unit, 3.0, at, tolerance)
+            };
+            *piece = polynomial;
+            converged &= piece_converged;
             scale *= 0.5;
         }
-        ForceInterpolant { inner, pieces, bits: bits.into(), converged: converged as u64 }
+        ForceInterpolant { inner, pieces, converged: converged as u64 }
     }
 
     #[inline(always)]
@@ -156,40 +167,37 @@ impl ForceInterpolant {
         self.is_converged().then_some(value_and_slope(&powers, y))
     }
 
-    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, or if not converged.
+    /// Whether there is one polynomial for each dyadic interval.
+    #[inline(always)]
+    pub fn has_dyadic_intervals(&self) -> bool {
+        self.converged == 1
+    }
+
+    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, if dyadic intervals are divided, or if not
+    /// converged.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
-        let interval = self.interval(v);
-        if !self.covers(interval) {
+        let Interval(exponent) = Interval::of(v);
+        let piece = self.pieces.get((1022 - exponent) as usize)?;
+        let scale = power_of(exponent);
+        let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - 3.0);
+        self.has_dyadic_intervals().then_some((remaining, 2.0 * scale * slope / v))
+    }
+
+    /// The same from a part of a dyadic interval.
+    #[inline(never)]
+    pub fn complement_and_slope_in_parts(&self, Parts(parts): &Parts, rho: f64) -> Option<(f64, f64)> {
+        if self.converged != IN_PARTS {
             return None;
         }
-        let (piece, scale, middle) = self.piece(interval)?;
-        let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - middle);
-        self.is_converged().then_some((remaining, 2.0 * scale * slope / v))
-    }
-
-    /// The interval of v; v = 1 belongs to the first one.
-    #[inline(always)]
-    pub fn interval(&self, v: f64) -> Interval {
-        Interval((v.to_bits() >> (52 - self.bits)).min((1023 << self.bits) - 1))
-    }
-
-    /// Whether an interval has a polynomial.
-    #[inline(always)]
-    pub fn covers(&self, Interval(number): Interval) -> bool {
-        (1023 << self.bits) - 1 - number < (OCTAVES as u64) << self.bits
-    }
-
-    /// The polynomial of an interval, a quarter of the inverse of the scale of v, and the middle.
-    #[inline(always)]
-    fn piece(&self, Interval(number): Interval) -> Option<(&Polynomial, f64, f64)> {
-        let piece = self.pieces.get(((1023 << self.bits) - 1 - number) as usize)?;
-        if self.bits == 0 {
-            return Some((piece, power_of(number), 3.0));
-        }
-        let leading = number & ((1 << BITS) - 1) | (1 << BITS);
-        Some((piece, power_of(number >> BITS) * const { (1 << BITS) as f64 }, (2 * leading + 1) as f64))
+        let v = root_of(rho);
+        let number = (v.to_bits() >> (52 - BITS)).min((1023 << BITS) - 1);
+        let piece = parts.get(((1023 << BITS) - 1 - number) as usize)?;
+        let part = number & ((1 << BITS) - 1) | (1 << BITS);
+        let scale = power_of(number >> BITS) * const { (1 << BITS) as f64 };
+        let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - (2 * part + 1) as f64);
+        Some((remaining, 2.0 * scale * slope / v))
     }
 
     /// [`ForceInterpolant::secant_and_tangent`] at four places, if converged.
@@ -202,18 +210,19 @@ impl ForceInterpolant {
         (secants, tangents)
     }
 
-    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if converged; any value at other v and intervals.
+    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if it is not divided; any value at other v and intervals.
     #[inline(always)]
     pub fn four_complements_and_slopes<const SLOPES: bool>(
         &self,
-        interval: Interval,
+        Interval(exponent): Interval,
         v: &[f64; 4],
     ) -> ([f64; 4], [f64; 4]) {
-        let (piece, scale, middle) = self.piece(interval).unwrap_or((&self.inner, 1.0, 3.0));
+        let scale = power_of(exponent);
         let mut z = [0.0; 4];
         for k in 0..4 {
-            z[k] = 4.0 * (scale * v[k]) - middle;
+            z[k] = 4.0 * (scale * v[k]) - 3.0;
         }
+        let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
         let (remaining, mut slopes) = four_values_and_slopes::<_, SLOPES>(piece, &z);
         for k in 0..4 {
             slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
@@ -222,15 +231,38 @@ impl ForceInterpolant {
     }
 }
 
+/// 1 - τ on parts of the dyadic intervals, those of the first interval first, for a contact with a layer of a small N_c.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Parts([Polynomial; PIECES]);
+
+impl Parts {
+    pub const NONE: Parts = Parts([[[0.0; 4]; _]; PIECES]);
+}
+
 /// The root v of ρ, at least a positive one.
 #[inline(always)]
 pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
 
-/// An interval of v, by its exponent and, if dyadic intervals are divided, leading bits of the mantissa.
+/// A dyadic interval of v, by its exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Interval(u64);
+
+impl Interval {
+    /// 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first interval.
+    #[inline(always)]
+    pub fn of(v: f64) -> Interval {
+        Interval((v.to_bits() >> 52).min(1022))
+    }
+
+    /// Whether it has a polynomial.
+    #[inline(always)]
+    pub fn is_covered(self) -> bool {
+        1022 - self.0 < OCTAVES as u64
+    }
+}
 
 /// 2ʲ for the exponent of an interval.
 #[inline(always)]
@@ -320,7 +352,11 @@ mod tests {
         use crate::constant_load::contact::tests::layered;
         for ratio in [0.0, 10.0, 1.0, 0.3, 0.26, 0.2, 0.1, 0.03, 0.01, 3e-3, 1e-3] {
             for contact in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter().flat_map(|share| layered(share, ratio)) {
-                assert_eq!(contact.interpolant().converged, 1, "{ratio}");
+                assert_eq!(
+                    contact.interpolant().converged,
+                    if contact.has_knee() { super::IN_PARTS } else { 1 },
+                    "{ratio}"
+                );
                 let fractions = (1..200).map(|k| f64::from(k) / 200.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
                 for fraction in fractions.filter(|fraction| *fraction < 1.0) {
                     let displacement = fraction * contact.slip_displacement;

@@ -278,7 +278,8 @@ impl LayeredZones {
         &self.layer
     }
 
-    fn contact(&self) -> &dyn StickZones {
+    /// The stick zones of the contact alone.
+    pub fn contact(&self) -> &dyn StickZones {
         if self.elliptic == 0 { &self.flat } else { &EllipseZones }
     }
 
@@ -300,7 +301,7 @@ impl LayeredZones {
     pub fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
         let mut of_flat = self.flat.sequence();
         let mut in_contact =
-            move |remaining: f64| if self.elliptic == 0 { of_flat(remaining) } else { EllipseZones.at(remaining) };
+            move |remaining: f64| if self.elliptic == 0 { of_flat(remaining) } else { EllipseZones::at(remaining) };
         let contact = self.contact();
         let (shift, full_stick) = (contact.slip_shift(), contact.small_load().compliance);
         // Remaining shift of the contact, and of contact and layer; d(ln of the first)/d(ln of the second).
@@ -309,26 +310,28 @@ impl LayeredZones {
             let [of_contact, of_both, rate] = last;
             let mut own = of_contact * ((remaining / of_both).ln() * rate).exp();
             let mut converged = false;
-            loop {
+            let mut found = CurvePoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
+            for _ in 0..30 {
                 let point = in_contact(own);
                 let load = Complement { consumed: 1.0 - point.remaining, remaining: point.remaining };
                 let sum = own + self.layer.compliance * self.layer.remaining(load.remaining);
                 let compliance = full_stick + point.compliance_increase;
-                let share = compliance / (compliance + self.layer.compliance_at(load));
-                let rate = sum / own * share;
-                let step = (remaining / sum).ln() * rate;
-                if converged || !(step.abs() < 1e6) {
-                    last = [own, sum, rate];
-                    return CurvePoint {
-                        remaining: point.remaining,
-                        compliance_increase: point.compliance_increase + self.layer.increase(load),
-                        curvature: point.curvature + self.layer.curvature(load),
-                    };
+                let rate = sum / own * (compliance / (compliance + self.layer.compliance_at(load)));
+                last = [own, sum, rate];
+                found = CurvePoint {
+                    remaining: point.remaining,
+                    compliance_increase: point.compliance_increase + self.layer.increase(load),
+                    curvature: point.curvature + self.layer.curvature(load),
+                };
+                if converged {
+                    break;
                 }
+                let step = (remaining / sum).ln() * rate;
                 own *= step.exp();
                 // Quadratic convergence: the next point is exact.
                 converged = step.abs() < 1e-9;
             }
+            found
         }
     }
 }

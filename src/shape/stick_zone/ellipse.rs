@@ -33,7 +33,7 @@ const SLIP_SHIFT: f64 = 1.5;
 
 impl EllipseZones {
     /// The point of the curve at a remaining shift.
-    pub(crate) fn at(self, remaining: f64) -> CurvePoint {
+    pub(crate) fn at(remaining: f64) -> CurvePoint {
         let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
         let per_size = 1.0 / size.max(TINY);
         CurvePoint {
