@@ -66,14 +66,14 @@ pub struct Element {
     pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.
     smallest_input: f64,
-    /// S = `shift_per_approach` U + `shift_per_load` N, exactly, without a layer.
+    /// S = `shift_per_approach` U + `shift_per_load` N, exactly, unless there is a table of the third quantity.
     shift_per_approach: f64,
     shift_per_load: f64,
     flat: Layered<RoundedFlat>,
     ellipse: Layered<HertzEllipse>,
     /// N(U) or S(N): the quantity that the input does not give.
     of_input: Table,
-    /// S(U) or U(N), the third quantity, with a layer.
+    /// S(U) or U(N), the third quantity, with most layers.
     third: Table,
     /// N(S).
     load_of_shift: Table,
@@ -177,7 +177,6 @@ impl Element {
         let plane = Plane { shape: &layered, ..flat.plane() };
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
-        (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
         (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
         Ok(())
     }
@@ -210,7 +209,6 @@ impl Element {
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
-        (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (EMPTY.flat, layered);
         Ok(())
     }
@@ -257,7 +255,10 @@ impl Element {
         self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
-        self.tag |= if layer.is_none() { 0 } else { LAYERED };
+        let compliances = [shape.normal_compliance(w), shape.tangential_compliance(w)];
+        let per_load = layer.shift_per_load(plane.per_approach[0], plane.per_load[0], compliances);
+        (self.shift_per_approach, self.shift_per_load) = (plane.per_approach[0], per_load.unwrap_or(0.0));
+        self.tag |= if per_load.is_some() { 0 } else { LAYERED };
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
         (self.shift, self.size) = (shift, w);
@@ -488,7 +489,7 @@ impl Element {
         self.tag & FORCE_INPUT == 0
     }
 
-    /// Whether a layer is in series with the contact.
+    /// Whether a layer is in series with the contact of which S is no sum of U and N with constant factors.
     #[inline(always)]
     fn is_layered(&self) -> bool {
         self.tag & LAYERED != 0
@@ -555,13 +556,17 @@ impl Element {
     /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
-        let (value, slope) = match self.of_input.position(input) {
+        let position = self.of_input.position(input);
+        let (value, slope) = match position {
             Some(at) => self.of_input.value_and_slope(input, at),
             None => self.outside(input),
         };
         if self.by_approach() {
             let (shift, shift_slope) = if self.is_layered() {
-                self.shift_of_approach(input)
+                match position {
+                    Some(at) => self.third.value_and_slope(input, at),
+                    None => self.shift_of_approach_outside(input),
+                }
             } else {
                 let per_load = self.shift_per_load;
                 (self.shift_per_approach * input + per_load * value, self.shift_per_approach + per_load * slope)
@@ -625,15 +630,7 @@ impl Element {
         (value, slope)
     }
 
-    /// S(U) and its slope with a layer.
-    #[inline(always)]
-    fn shift_of_approach(&self, approach: f64) -> (f64, f64) {
-        match self.third.position(approach) {
-            Some(at) => self.third.value_and_slope(approach, at),
-            None => self.shift_of_approach_outside(approach),
-        }
-    }
-
+    /// S(U) and its slope, from the shape.
     #[inline(never)]
     fn shift_of_approach_outside(&self, approach: f64) -> (f64, f64) {
         let (load, load_slope) = self.load_of_approach_outside(approach);
@@ -645,7 +642,10 @@ impl Element {
     fn four_shifts_outside(&self, approach: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
         let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
         for ((shift, slope), &approach) in shift.iter_mut().zip(&mut shift_slope).zip(approach) {
-            (*shift, *slope) = self.shift_of_approach(approach);
+            (*shift, *slope) = match self.third.position(approach) {
+                Some(at) => self.third.value_and_slope(approach, at),
+                None => self.shift_of_approach_outside(approach),
+            };
         }
         (shift, shift_slope)
     }

@@ -168,9 +168,13 @@ impl ComplexStiffness<'_> {
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
         let fraction = amplitude * contact.per_slip_displacement();
+        if contact.is_layered() {
+            return self.real_with_layer(fraction);
+        }
         // Otherwise the curve has a singularity close to zero displacement, too.
         if !contact.has_singularity_within(0.75) {
-            if let Some(rule) = self.rule(fraction, usize::from(contact.has_singularity_within(1.5))) {
+            let mut rules = RULES.iter().skip(usize::from(contact.has_singularity_within(1.5)));
+            if let Some(rule) = rules.find(|rule| fraction <= rule.largest) {
                 return self.real_by_rule(rule);
             }
             if fraction >= GROSS_SLIP_RULE_FROM {
@@ -197,8 +201,23 @@ impl ComplexStiffness<'_> {
         }
     }
 
+    /// Both beyond the first polynomial, for a contact with a layer, which moves the singularity of the contact alone away.
+    #[inline(never)]
+    fn real_with_layer(&self, fraction: f64) -> (f64, f64) {
+        let alone = self.contact.layered_zones().contact();
+        if !Contact::has_singularity_of(alone, 0.75) {
+            let first = usize::from(Contact::has_singularity_of(alone, 1.5));
+            if let Some(rule) = self.rule(fraction, first) {
+                return self.real_by_rule(rule);
+            }
+            if fraction >= GROSS_SLIP_RULE_FROM {
+                return self.real_in_gross_slip();
+            }
+        }
+        self.real_by_tanh_sinh()
+    }
+
     /// The rule for an amplitude over that of gross slip, one of those behind the first ones; `None` beyond all of them.
-    #[inline(always)]
     fn rule(&self, fraction: f64, first: usize) -> Option<&'static Rule> {
         if self.contact.has_knee() {
             return (fraction <= FINE_RULE.largest).then_some(&FINE_RULE);

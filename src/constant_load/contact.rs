@@ -214,8 +214,12 @@ impl Contact {
     /// displacement of gross slip: to first order at `-Λ²/(2 h'')`.
     #[inline(always)]
     pub(crate) fn has_singularity_within(&self, fraction: f64) -> bool {
-        // A layer moves it away.
-        let zones = if self.is_layered() { self.zones.contact() } else { self.stick_zones() };
+        Contact::has_singularity_of(self.stick_zones(), fraction)
+    }
+
+    /// The same of the curve of given stick zones.
+    #[inline(always)]
+    pub(crate) fn has_singularity_of(zones: &dyn StickZones, fraction: f64) -> bool {
         let series = zones.small_load();
         let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
         series.compliance * series.compliance < distance

@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::StickZone;
+use crate::shape::stick_zone::{Complement, StickZone};
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -29,7 +29,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
         let zones = self.stick_zones();
-        if let Some((load, stiffness)) = self.evaluator().load_at(amplitude) {
+        if let Some((load, stiffness)) = self.load_at(amplitude) {
             if load.consumed <= 0.5 {
                 let (dissipation, slope) = zones.small_load().dissipation_with_derivative(load.consumed);
                 return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
@@ -42,6 +42,15 @@ impl Contact {
         let zone = self.stick_zone_at_displacement(amplitude);
         let slope = self.slip_force * zones.d_dissipation(&zone) / zones.compliance(&zone);
         (self.energy_of(&zone), slope)
+    }
+
+    /// The load at a displacement up to that of gross slip and the stiffness, if there is an interpolant.
+    #[inline(always)]
+    pub(crate) fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
+        match self.evaluator().load_at(displacement) {
+            None if self.has_knee() => self.load_in_parts(displacement),
+            load => load,
+        }
     }
 
     /// Energy \[J\] dissipated per cycle with this stick zone at its reversals.

@@ -109,8 +109,20 @@ impl Contact {
         if self.is_frictionless() {
             return Response { force: 0.0, stiffness: 0.0 };
         }
+        if let Some((load, stiffness)) = self.load_in_parts(displacement) {
+            return Response { force: self.slip_force - self.slip_force * load.remaining, stiffness };
+        }
         let zone = self.stick_zone_at_displacement(displacement);
         Response { force: self.force_of(&zone), stiffness: self.stiffness_of(&zone) }
+    }
+}
+
+impl Contact {
+    /// The load at a displacement beyond the first polynomial, and the stiffness, from parts of dyadic intervals, if there are such.
+    pub(crate) fn load_in_parts(&self, displacement: f64) -> Option<(Complement, f64)> {
+        let distance = self.slip_displacement - displacement;
+        let (remaining, slope) = self.interpolant().in_parts(self.parts(), distance * self.outer_scale)?;
+        Some((Complement { consumed: 1.0 - remaining, remaining }, self.slip_force * self.outer_scale * slope))
     }
 }
 
@@ -170,16 +182,10 @@ impl CurveEvaluator<'_> {
             let initial = self.initial_stiffness;
             Some(Response { force: initial * displacement * secant, stiffness: initial * tangent })
         } else {
-            let (complement, slope) = self.complement_and_slope(remaining * self.outer_scale)?;
+            let (complement, slope) = self.interpolant.complement_and_slope(remaining * self.outer_scale)?;
             let force = self.slip_force - self.slip_force * complement;
             Some(Response { force, stiffness: self.outer_stiffness * slope })
         }
-    }
-
-    #[inline(always)]
-    fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let found = self.interpolant.complement_and_slope(rho);
-        if found.is_some() { found } else { self.interpolant.complement_and_slope_in_parts(self.contact.parts(), rho) }
     }
 
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
@@ -290,7 +296,7 @@ impl CurveEvaluator<'_> {
             Some((Complement { consumed, remaining: 1.0 - consumed }, self.initial_stiffness * tangent))
         } else {
             let distance = self.slip_displacement - displacement;
-            let (remaining, slope) = self.complement_and_slope(distance * self.outer_scale)?;
+            let (remaining, slope) = self.interpolant.complement_and_slope(distance * self.outer_scale)?;
             Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
         }
     }

@@ -83,7 +83,7 @@ impl ForceInterpolant {
         slip_shift: f64,
         compliance: f64,
         mut at_remaining: impl FnMut(f64) -> CurvePoint,
-        mut parts: Option<&mut Parts>,
+        parts: Option<&mut Parts>,
     ) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
@@ -98,31 +98,32 @@ impl ForceInterpolant {
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
         // With a layer the curve is singular closer to the intervals, for small N_c at two thirds of the displacement of gross slip from
         // the first one, of which only the stiffness has an error of this size.
+        let divided = parts.is_some();
         let accuracy = if N < TERMS { 1e-15 } else { 1e-13 };
-        let mut converged = decrease.is_converged(if parts.is_some() { 4e-12 } else { accuracy });
+        let mut converged = decrease.is_converged(if divided { 4e-12 } else { accuracy });
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
             *first = 1.0;
         }
         let mut pieces = [[[0.0; 4]; _]; OCTAVES];
         let mut scale = 0.25;
-        if let Some(Parts(parts)) = parts.as_deref_mut() {
-            for dyadic in parts.as_chunks_mut::<{ 1 << BITS }>().0 {
-                let scale_of_part = scale * const { 1.0 / (1 << BITS) as f64 };
-                for (piece, part) in dyadic.iter_mut().zip((1u32 << BITS..2 << BITS).rev()) {
-                    let middle = f64::from(2 * part + 1);
-                    let at = |z: f64| {
-                        let v = scale_of_part * (middle + z);
-                        at_remaining(remaining * v * v)
-                    };
-                    let unit = 2.0 * remaining * scale_of_part * scale_of_part;
-                    let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
-                    let (polynomial, piece_converged) = interpolate::<N, M>(compliance, unit, middle, at, tolerance);
-                    *piece = polynomial;
-                    converged &= piece_converged;
-                }
-                scale *= 0.5;
+        for dyadic in parts.into_iter().flat_map(|Parts(parts)| parts.as_chunks_mut::<{ 1 << BITS }>().0) {
+            let scale_of_part = scale * const { 1.0 / (1 << BITS) as f64 };
+            for (piece, part) in dyadic.iter_mut().zip((1u32 << BITS..2 << BITS).rev()) {
+                let middle = f64::from(2 * part + 1);
+                let at = |z: f64| {
+                    let v = scale_of_part * (middle + z);
+                    at_remaining(remaining * v * v)
+                };
+                let unit = 2.0 * remaining * scale_of_part * scale_of_part;
+                let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
+                let (polynomial, piece_converged) = interpolate::<N, M>(compliance, unit, middle, at, tolerance);
+                *piece = polynomial;
+                converged &= piece_converged;
             }
+            scale *= 0.5;
+        }
+        if divided {
             return ForceInterpolant { inner, pieces, converged: IN_PARTS * u64::from(converged) };
         }
         for (j, piece) in pieces.iter_mut().enumerate() {
@@ -186,8 +187,7 @@ impl ForceInterpolant {
     }
 
     /// The same from a part of a dyadic interval.
-    #[inline(never)]
-    pub fn complement_and_slope_in_parts(&self, Parts(parts): &Parts, rho: f64) -> Option<(f64, f64)> {
+    pub fn in_parts(&self, Parts(parts): &Parts, rho: f64) -> Option<(f64, f64)> {
         if self.converged != IN_PARTS {
             return None;
         }

@@ -108,7 +108,7 @@ impl Contact {
     #[inline(always)]
     fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
         let full_stick = self.stick_zones().small_load().compliance;
-        match self.evaluator().load_at(displacement) {
+        match self.load_at(displacement) {
             Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
             None => {
                 let zone = self.stick_zone_at_displacement(displacement);

@@ -59,6 +59,14 @@ impl Layer {
         self.normal == 0.0 && self.tangential == 0.0
     }
 
+    /// S less the U of layer and contact `per_approach` times, over N, from that of the contact alone, if it does not depend on N and is no
+    /// difference of larger terms.
+    pub fn shift_per_load(&self, per_approach: f64, per_load: f64, compliances: [f64; 2]) -> Option<f64> {
+        let [normal, tangential] = compliances;
+        let is_small = per_approach * self.normal <= 4.0 * tangential && self.tangential <= 4.0 * per_approach * normal;
+        (self.stiffening == 0.0 && is_small).then_some(per_load + (self.tangential - per_approach * self.normal))
+    }
+
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
     fn extent(&self, load: f64) -> f64 {
         let x = self.stiffening * load;
