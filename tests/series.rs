@@ -2,10 +2,12 @@
 
 mod common;
 
-use common::{advance, unloaded};
+use common::{advance, harmonic, unloaded};
+use microslip::constant_load::equivalents::{iwan, jenkins};
+use microslip::constant_load::harmonic_force::Rule;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 const NORMAL_FORCE: f64 = 150.0;
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
@@ -289,6 +291,86 @@ fn energies_and_complex_stiffnesses_are_those_of_the_pair() {
                 "{layer:?} {part} {} {imaginary}",
                 found.imaginary()
             );
+        }
+    }
+}
+
+/// The harmonic force by uniform sampling is the transform of the forces of the pair, and its Jacobian their derivative; event-driven, that
+/// of a harmonic motion is the complex stiffness.
+#[test]
+fn harmonic_forces_are_those_of_the_pair() {
+    const SAMPLES: usize = 64;
+    for (alone, contact, layer) in all() {
+        let shape = [0.1, 0.6, -0.1, 0.0, 0.2];
+        let coefficients = |scale: f64| shape.map(|part| scale * part * contact.slip_displacement);
+        for scale in [0.9, 2.0] {
+            let displacement = coefficients(scale);
+            let mut pair = Pair::new(&alone, &layer);
+            let mut expected = [0.0; 5];
+            for sample in 0..2 * SAMPLES {
+                let t = TAU * sample as f64 / SAMPLES as f64;
+                let row = [1.0, t.cos(), t.sin(), (2.0 * t).cos(), (2.0 * t).sin()];
+                let u: f64 = row.iter().zip(displacement).map(|(phi, u)| phi * u).sum();
+                let [force, _] = pair.step(u);
+                if sample >= SAMPLES {
+                    expected.iter_mut().zip(row).enumerate().for_each(|(i, (sum, phi))| {
+                        *sum += force * phi * if i == 0 { 1.0 } else { 2.0 } / SAMPLES as f64;
+                    });
+                }
+            }
+            let (force, jacobian, _) = harmonic(&contact, Rule::UniformSampling, SAMPLES, &displacement);
+            for (found, expected) in force.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-11 * contact.slip_force, "{layer:?} {scale} {found} {expected}");
+            }
+            let h = 1e-6 * contact.slip_displacement;
+            for column in 0..5 {
+                let at = |step: f64| {
+                    let mut displacement = displacement;
+                    displacement[column] += step;
+                    harmonic(&contact, Rule::UniformSampling, SAMPLES, &displacement).0
+                };
+                // One-sided, with an error of h times the second derivative, unless a sample is next to gross slip.
+                for ((one, other), derivative) in at(h).iter().zip(at(-h)).zip(&jacobian[5 * column..]) {
+                    let error = ((one - other) / (2.0 * h) - derivative).abs();
+                    assert!(error < 1e-3 * contact.initial_stiffness, "{layer:?} {scale} {column} {error:e}");
+                }
+            }
+        }
+        for part in [0.3, 0.9, 1.5] {
+            let amplitude = part * contact.slip_displacement;
+            let (force, _, dissipated) = harmonic(&contact, Rule::EventDriven, 512, &[0.0, amplitude, 0.0]);
+            let complex = contact.complex_stiffness(amplitude).unwrap();
+            let found = [force[1], -force[2], dissipated / (PI * amplitude)].map(|force| force / amplitude);
+            // The rule converges with the nodes between two events.
+            for (found, expected) in found.iter().zip([complex.real(), complex.imaginary(), complex.imaginary()]) {
+                assert!((found - expected).abs() < 1e-9 * complex.real(), "{layer:?} {part} {found} {expected}");
+            }
+        }
+    }
+}
+
+/// Spring-sliders replace the curve of the pair.
+#[test]
+fn spring_sliders_are_those_of_the_pair() {
+    for (alone, contact, layer) in all() {
+        let pair = Pair::new(&alone, &layer);
+        let mut sliders = Vec::new();
+        let error = iwan(&contact, 8, |slider| sliders.push(slider)).unwrap();
+        let largest = (1..400).map(|k| {
+            let displacement = contact.slip_displacement * f64::from(k) / 400.0;
+            let force: f64 = sliders.iter().map(|one| (one.stiffness * displacement).min(one.slip_force)).sum();
+            (force - pair.force(displacement)).abs() / pair.slip_force
+        });
+        let largest = largest.fold(0.0, f64::max);
+        assert!(largest < error * (1.0 + 1e-9) && largest > 0.9 * error, "{layer:?} {largest} {error}");
+        let amplitude = 0.8 * contact.slip_displacement;
+        let (one, complex) = (jenkins(&contact, amplitude).unwrap(), contact.complex_stiffness(amplitude).unwrap());
+        let cosine = 1.0 - 2.0 * one.slip_force / (one.stiffness * amplitude);
+        let (angle, sine) = (cosine.acos(), (1.0 - cosine * cosine).sqrt());
+        // The angle has the rounding error of the cosine, near -1 its root.
+        let found = [angle - sine * cosine, sine * sine].map(|part| one.stiffness / PI * part);
+        for (found, expected) in found.iter().zip([complex.real(), complex.imaginary()]) {
+            assert!((found - expected).abs() < 1e-11 * complex.real(), "{layer:?} {found} {expected}");
         }
     }
 }

@@ -168,13 +168,8 @@ impl ComplexStiffness<'_> {
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
         let fraction = amplitude * contact.per_slip_displacement();
-        if contact.is_layered() {
-            return self.real_with_layer(fraction);
-        }
-        // Otherwise the curve has a singularity close to zero displacement, too.
-        if !contact.has_singularity_within(0.75) {
-            let mut rules = RULES.iter().skip(usize::from(contact.has_singularity_within(1.5)));
-            if let Some(rule) = rules.find(|rule| fraction <= rule.largest) {
+        if let Some(rules) = self.rules() {
+            if let Some(rule) = rules.iter().find(|rule| fraction <= rule.largest) {
                 return self.real_by_rule(rule);
             }
             if fraction >= GROSS_SLIP_RULE_FROM {
@@ -191,38 +186,40 @@ impl ComplexStiffness<'_> {
             return 0;
         }
         let fraction = self.amplitude * contact.per_slip_displacement();
-        if contact.has_singularity_within(0.75) {
-            return NODES_OF_TABLE;
-        }
-        match self.rule(fraction, 0) {
+        let rules = match self.rules() {
+            None => return NODES_OF_TABLE,
+            Some(rules) if contact.has_knee() => rules,
+            Some(_) => &RULES,
+        };
+        match rules.iter().find(|rule| fraction <= rule.largest) {
             Some(rule) => rule.nodes.len(),
             None if fraction < GROSS_SLIP_RULE_FROM => NODES_OF_TABLE,
             None => GAUSS.len() / 8,
         }
     }
 
-    /// Both beyond the first polynomial, for a contact with a layer, which moves the singularity of the contact alone away.
-    #[inline(never)]
-    fn real_with_layer(&self, fraction: f64) -> (f64, f64) {
-        let alone = self.contact.layered_zones().contact();
-        if !Contact::has_singularity_of(alone, 0.75) {
-            let first = usize::from(Contact::has_singularity_of(alone, 1.5));
-            if let Some(rule) = self.rule(fraction, first) {
-                return self.real_by_rule(rule);
-            }
-            if fraction >= GROSS_SLIP_RULE_FROM {
-                return self.real_in_gross_slip();
-            }
+    /// The rules that are accurate below gross slip; `None` if the curve has a singularity close to zero displacement, too.
+    #[inline(always)]
+    fn rules(&self) -> Option<&'static [Rule]> {
+        let contact = self.contact;
+        if contact.is_layered() {
+            return self.rules_with_layer();
         }
-        self.real_by_tanh_sinh()
+        let rules = || RULES.get(usize::from(contact.has_singularity_within(1.5))..);
+        if contact.has_singularity_within(0.75) { None } else { rules() }
     }
 
-    /// The rule for an amplitude over that of gross slip, one of those behind the first ones; `None` beyond all of them.
-    fn rule(&self, fraction: f64, first: usize) -> Option<&'static Rule> {
-        if self.contact.has_knee() {
-            return (fraction <= FINE_RULE.largest).then_some(&FINE_RULE);
+    /// A layer moves the singularity of the contact alone away.
+    #[cold]
+    #[inline(never)]
+    fn rules_with_layer(&self) -> Option<&'static [Rule]> {
+        let alone = self.contact.layered_zones().contact();
+        let first = usize::from(Contact::has_singularity_of(alone, 1.5));
+        match Contact::has_singularity_of(alone, 0.75) {
+            true => None,
+            false if self.contact.has_knee() => Some(core::slice::from_ref(&FINE_RULE)),
+            false => RULES.get(first..),
         }
-        RULES.iter().skip(first).find(|rule| fraction <= rule.largest)
     }
 
     /// Both by a rule adapted to the singularity at gross slip.
