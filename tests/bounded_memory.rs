@@ -18,7 +18,7 @@ const DECAYS: [f64; 3] = [1e-3, 1.0, 1e3];
 /// Rounding of the force over mu N that the reported error need not cover.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-fn contacts() -> [(&'static str, Contact); 4] {
+fn contacts() -> Vec<(&'static str, Contact)> {
     let material = [Material { young_modulus: 2.1e11, poisson_ratio: 0.3 }; 2];
     let flat = |flat_half_width: f64, length: f64| {
         let parameters = Parameters {
@@ -44,7 +44,7 @@ fn contacts() -> [(&'static str, Contact); 4] {
         layer: Layer::NONE,
     };
     let sphere = Contact::elliptic(&sphere).unwrap();
-    [("cylinder", cylinder), ("flat", flat(2e-4, 0.02)), ("slim cylinder", slim), ("sphere", sphere)]
+    vec![("cylinder", cylinder), ("flat", flat(2e-4, 0.02)), ("slim cylinder", slim), ("sphere", sphere)]
 }
 
 /// A state of few reversals, and the largest values over mu N seen in it.

@@ -13,7 +13,7 @@ const NORMAL_FORCE: f64 = 150.0;
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
 /// Cylinder, flat, nearly flat contact and ellipse, each with a layer.
-fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> [[Contact; 2]; 4] {
+fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> Vec<[Contact; 2]> {
     let flat = |flat_half_width| {
         let parameters = |layer| Parameters {
             flat_half_width,
@@ -38,7 +38,7 @@ fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> [[C
     };
     let alone = Contact::elliptic(&ellipse(Layer::NONE)).unwrap();
     let sphere = [alone, Contact::elliptic(&ellipse(layer(&alone))).unwrap()];
-    [flat(0.0), flat(50e-6), flat(5e-3), sphere]
+    vec![flat(0.0), flat(50e-6), flat(5e-3), sphere]
 }
 
 /// Compliances in units of that of the contact, and N_c in units of the normal force.
@@ -184,7 +184,7 @@ fn layer_of((share, ratio): (f64, f64)) -> impl Fn(&Contact) -> Layer {
 fn all() -> impl Iterator<Item = (Contact, Contact, Layer)> {
     LAYERS.into_iter().flat_map(|layer| {
         let layer = layer_of(layer);
-        contacts(0.4, &layer).map(|[alone, contact]| (alone, contact, layer(&alone)))
+        contacts(0.4, &layer).into_iter().map(move |[alone, contact]| (alone, contact, layer(&alone)))
     })
 }
 

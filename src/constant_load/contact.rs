@@ -362,7 +362,7 @@ pub(crate) mod tests {
     }
 
     /// Contacts of all shapes with a layer of a compliance in units of that of the contact, and of N_c in units of the normal force.
-    pub(crate) fn layered(share: f64, ratio: f64) -> [Contact; 4] {
+    pub(crate) fn layered(share: f64, ratio: f64) -> std::vec::Vec<Contact> {
         let layer = |alone: &Contact| Layer {
             normal_compliance: 0.0,
             tangential_compliance: share / alone.initial_stiffness,
@@ -377,7 +377,7 @@ pub(crate) mod tests {
             material: [TITANIUM; 2],
             layer: layer(&ellipse(1e-4, 2e-4)),
         };
-        [flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
+        std::vec![flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
     }
 
     /// A cylinder with a ratio 2L/b of `slenderness`.
