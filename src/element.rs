@@ -91,7 +91,8 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
-const LAYERED: u64 = 8;
+/// Two bits: a tag with one wrong bit is not that of an element with a layer.
+const LAYERED: u64 = 24;
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
@@ -332,7 +333,8 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS | LAYERED) == TAG
+        let tag = self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS);
+        tag == TAG || tag == TAG | LAYERED
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
@@ -341,8 +343,8 @@ impl Element {
     /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
-        match self.tag & !(ELLIPTIC | FORCE_INPUT | LAYERED) {
-            tag if tag == TAG | tag_of(directions) => Ok(()),
+        match self.tag & !(ELLIPTIC | FORCE_INPUT) {
+            tag if tag == TAG | tag_of(directions) || tag == TAG | LAYERED | tag_of(directions) => Ok(()),
             _ if self.is_initialised() => Err(Error::BadDirections),
             _ => Err(Error::BadElement),
         }
