@@ -430,7 +430,7 @@ fn sticking_steps_divide_and_separation_erases() {
             parts.to([0.5995 * unit, 0.1995 * unit, full]);
             let (one, two) =
                 (whole.to([0.599 * unit, 0.199 * unit, full]), parts.to([0.599 * unit, 0.199 * unit, full]));
-            // Only the first of both terms of the difference is a rounding error; in the energy there is none.
+            // Only the first of both terms of the difference is a rounding error; the energy has no such term.
             assert!(apart(&one, &two) < 1e-14 * slip_force(element) && one.dissipated == 0.0, "{one:?} {two:?}");
             // Open, by exactly 0, and closed again at the same place: the force is that of a new contact.
             let (mut old, mut new) = (prepared(), Contact::new(element));
