@@ -1,8 +1,10 @@
 //! The law for two tangential directions: judged paths, motion on a line, symmetries, energy, restart, tangents.
 
+mod common;
 #[path = "golden/table.rs"]
 mod table;
 
+use common::Random;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
@@ -73,15 +75,6 @@ impl Contact<'_> {
 
     fn trial(&self, displacement: [f64; 3]) -> Step {
         advance(self.element, &mut self.state.clone(), displacement).unwrap()
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 

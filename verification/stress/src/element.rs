@@ -191,7 +191,9 @@ pub fn checked_history(element: &Element, kind: &str, steps: u64, rng: &mut Smal
         // Odd symmetry, to the bit.
         let opposite = mirrored.step(element, [-to[0], to[1]]).map_err(context)?;
         ensure!(
-            opposite.force == [-force, load] && opposite.dissipated == dissipated && opposite.tangent[0] == tangent[0],
+            opposite.force == [-force, load]
+                && opposite.dissipated == dissipated
+                && [opposite.tangent[0], -opposite.tangent[2]] == [tangent[0], tangent[2]],
             "{}",
             context(format!("mirrored {opposite:?}, not {step:?}; {:?}", mirrored.knots()))
         );
