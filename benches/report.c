@@ -282,7 +282,7 @@ static void write_step_tables(FILE *file)
     static const char *const methods[] = { "mslip_batch_complex_stiffness", "mslip_batch_harmonic_force",
         "mslip_batch_masing_update", "logarithm", "mslip_batch_element_update", "spring-slider, one step" };
     enum { CONTACT_STEP = 2, LOGARITHM, ELEMENT_STEP, METHODS = 6 };
-    double least[METHODS], largest[METHODS] = { 0.0 };
+    double least[METHODS] = { 0.0 }, largest[METHODS] = { 0.0 };
     fputs("\nOne item of a batch, a/b = 0.3, at 0.7 of gross slip: contacts of 64 different loads, and elements of one kind (harmonic "
           "force and Jacobian\nof one harmonic with 64 samples; a step of 16 in a period, with its stiffness):\n\n"
           "| items | complex stiffness | harmonic force | step | step over one logarithm | step of an element | step of one "
@@ -294,7 +294,7 @@ static void write_step_tables(FILE *file)
         }
         for (int k = 0; k < METHODS; ++k) {
             const double logarithms = t[k] / t[LOGARITHM];
-            least[k] = n == 100.0 || (t[k] >= 0.0 && logarithms < least[k]) ? logarithms : least[k];
+            least[k] = n == 100.0 ? logarithms : t[k] >= 0.0 ? fmin(least[k], logarithms) : least[k];
             largest[k] = t[k] >= 0.0 ? fmax(largest[k], logarithms) : largest[k];
         }
         if (t[0] >= 0.0) {
