@@ -76,16 +76,6 @@ static double run_normal_force(void *context)
     return j->path[STEPS] + j->stiffness[0];
 }
 
-static double run_logarithm(void *context)
-{
-    job *j = context;
-    double sum = 0.0;
-    for (int i = 0; i < STEPS; ++i) {
-        sum += log(j->path[i]);
-    }
-    return sum;
-}
-
 static job *add(const char *task, const char *method, work *work, const job *prototype, int harmonics, int samples, int motion)
 {
     job *kept = allocate(sizeof *kept);
@@ -163,7 +153,7 @@ void task_element(const test_case *c, const extent *x)
     }
     add("element initialisation", "microslip", run_init, &once, 0, 0, 0);
     add("normal force", "microslip", run_normal_force, &once, 0, 0, 0);
-    add("normal force", "logarithm", run_logarithm, &once, 0, 0, 0);
+    entry_add_logarithm("normal force")->parameter = 0;
     measure(begin, c->shape, 0.0, bottom);
     for (int motion = 0; motion < MOTIONS; ++motion) {
         const size_t first = entry_count, mark = memory_mark();

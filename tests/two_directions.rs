@@ -1,14 +1,14 @@
-//! The law for two tangential directions: judged paths, motion on a line, symmetries, energy, restart, tangents.
+//! The law for two tangential directions: motion on a line, symmetries, energy, restart, tangents. `verification/validation` compares
+//! it with boundary elements.
 
-#[path = "golden/table.rs"]
-mod table;
+mod common;
 
+use common::Random;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
 use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use table::{Row, geometry, table};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
@@ -73,15 +73,6 @@ impl Contact<'_> {
 
     fn trial(&self, displacement: [f64; 3]) -> Step {
         advance(self.element, &mut self.state.clone(), displacement).unwrap()
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 
@@ -183,39 +174,6 @@ fn history(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]
 /// The largest difference of tangential forces \[N\].
 fn apart(one: &Step, two: &Step) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
-}
-
-#[test]
-fn judged_paths_are_reproduced() {
-    let rows = table("two_directions");
-    let same = |one: &Row, two: &Row| one.text("path") == two.text("path") && one["a"] == two["a"];
-    for path in rows.chunk_by(same) {
-        let first = &path[0];
-        let largest = path.iter().map(|row| row["N"]).fold(0.0, f64::max);
-        let parameters = Parameters {
-            normal_force: largest,
-            friction_coefficient: first["mu"],
-            material: [Material { young_modulus: first["E"], poisson_ratio: first["nu"] }; 2],
-            ..geometry(first)
-        };
-        let element = Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap();
-        let mut contact = Contact::new(&element);
-        contact.to([first["u"], first["v"], 0.0]);
-        let (mut worst, mut loss, mut expected) = (0.0f64, 0.0, 0.0);
-        for row in path {
-            let step = contact.to([row["u"], row["v"], row["N"]]);
-            worst = worst.max((step.force[0] - row["Tx"]).hypot(step.force[1] - row["Ty"]) / slip_force(&element));
-            (loss, expected) = (loss + step.dissipated, expected + row["dissipated"]);
-        }
-        println!(
-            "a {} {}: force {worst:.4}, loss {:+.1} %",
-            first["a"],
-            first.text("path"),
-            100.0 * (loss / expected - 1.0)
-        );
-        // The error of the law with its few points of slip, most of it in steps of 15 degrees at full sliding; that of the judge is 0.1 %.
-        assert!(worst <= 0.012 && (loss / expected - 1.0).abs() <= 0.06);
-    }
 }
 
 /// Error of the bank of fine springs over mu N, up to the normal force of the parameters and beyond, with longer secants: 1.4e-4 and 2.8e-4
@@ -430,7 +388,7 @@ fn sticking_steps_divide_and_separation_erases() {
             parts.to([0.5995 * unit, 0.1995 * unit, full]);
             let (one, two) =
                 (whole.to([0.599 * unit, 0.199 * unit, full]), parts.to([0.599 * unit, 0.199 * unit, full]));
-            // Only the first of both terms of the difference is a rounding error; in the energy there is none.
+            // Only the first of both terms of the difference is a rounding error; the energy has no such term.
             assert!(apart(&one, &two) < 1e-14 * slip_force(element) && one.dissipated == 0.0, "{one:?} {two:?}");
             // Open, by exactly 0, and closed again at the same place: the force is that of a new contact.
             let (mut old, mut new) = (prepared(), Contact::new(element));

@@ -99,18 +99,22 @@ class MicroslipForce(HystereticForce):
         return self.T @ force, np.einsum("xia,iab,iby->xy", T, slope, Q)
 
 
+# fortran_examples/cases/two_dof.nml.
+CONTACT = {
+    "flat_half_width": 0.2e-3,
+    "edge_radius": 5e-3,
+    "length": 10e-3,
+    "normal_force": 150.0,
+    "friction_coefficient": 0.4,
+    "young_modulus": 114e9,
+    "poisson_ratio": 0.32,
+}
+
+
 def main():
     from spring_slider import harmonic_force, microseconds
 
-    law = microslip.Contact(
-        flat_half_width=0.2e-3,
-        edge_radius=5e-3,
-        length=10e-3,
-        normal_force=150.0,
-        friction_coefficient=0.4,
-        young_modulus=114e9,
-        poisson_ratio=0.32,
-    )
+    law = microslip.Contact(**CONTACT)
     force = MicroslipForce(np.eye(1), np.eye(1), law)
     U, h = law.slip_displacement * np.random.default_rng(1).standard_normal(11), np.arange(6)
     slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 3)

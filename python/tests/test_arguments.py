@@ -14,18 +14,9 @@ import microslip
 import numpy as np
 import pytest
 from microslip import _contact, _core, _element, _law, _memory
-from tables import REPOSITORY
+from tables import FLAT, REPOSITORY
 
 HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
-FLAT = {
-    "flat_half_width": 0.5e-3,
-    "edge_radius": 3e-3,
-    "length": 20e-3,
-    "normal_force": 800.0,
-    "friction_coefficient": 0.5,
-    "young_modulus": (2e11, 1.1e11),
-    "poisson_ratio": 0.3,
-}
 MATERIAL = {name: FLAT[name] for name in ("normal_force", "friction_coefficient", "young_modulus", "poisson_ratio")}
 ELLIPSE = {"semi_axis_x": 1e-3, "semi_axis_y": 2e-3, **MATERIAL}
 

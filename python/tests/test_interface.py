@@ -12,17 +12,8 @@ import numpy as np
 import pytest
 from microslip import _core
 from numpy.testing import assert_allclose
-from tables import REPOSITORY
+from tables import FLAT, REPOSITORY
 
-FLAT = {
-    "flat_half_width": 0.5e-3,
-    "edge_radius": 3e-3,
-    "length": 20e-3,
-    "normal_force": 800.0,
-    "friction_coefficient": 0.5,
-    "young_modulus": (2e11, 1.1e11),
-    "poisson_ratio": 0.3,
-}
 ELLIPSE = {
     "semi_axis_x": 1e-3,
     "semi_axis_y": 2e-3,

@@ -195,7 +195,7 @@ fn circle(element: &Element, load: f64, amplitude: f64, steps: u32) -> Vec<Point
 const INSTANTS: usize = 12;
 const AMPLITUDES: [f64; 4] = [0.3, 0.6, 0.9, 1.3];
 const STEPS: [u32; 4] = [12, 24, 48, 96];
-/// The error of so many steps is a hundredth of that of the most in the table.
+/// Number of steps with a hundredth of the error of the finest row of the table.
 const CONVERGED: u32 = 960;
 /// Loads over that of the parameters.
 const LOADS: [f64; 8] = [0.01, 0.1, 0.3, 0.7, 1.05, 1.5, 3.0, 6.0];
