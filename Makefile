@@ -108,7 +108,7 @@ audit:
 accuracy:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --locked --package accuracy -- \
-		--points $(or $(POINTS),1e7) --regions target/accuracy.csv --document docs/accuracy.md
+		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
 
 ## instructions: count the instructions of each call and check the relations between the counts
 instructions:
