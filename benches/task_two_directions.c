@@ -256,7 +256,7 @@ void task_two_directions(const test_case *c, const extent *x)
     static mslip_element element;
     mslip_parameters p = c->parameters;
     p.normal_force *= 1.6; /* the largest load of the swing */
-    require(mslip_element_init(&p, 2, MSLIP_APPROACH, &element));
+    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &element));
     const double slip = c->contact.slip_displacement;
     double approach;
     require(mslip_normal_approach(&element, 1, &c->parameters.normal_force, &approach, NULL, NULL));

@@ -41,7 +41,7 @@ static const struct {
     { MSLIP_NOT_AVAILABLE, 40, "not available for this kind of contact" },
     { MSLIP_BAD_INDEX, 41, "an index must refer to one of the n_contacts contacts or n_elements elements" },
     { MSLIP_BAD_DIRECTIONS, 42, "directions must be 1 or 2" },
-    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE" },
+    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE" },
     { MSLIP_BAD_ARRAY_SIZE, 90, "too long to be addressed" },
     { MSLIP_BAD_ALIGNMENT, 91, "misaligned pointer" },
 };
@@ -157,7 +157,7 @@ static int is_possible_element(const mslip_element *e)
 {
     const double values[] = { e->composite_modulus, e->normal_force, e->half_width, e->approach, e->normal_stiffness,
                               e->tangential_stiffness };
-    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE, m = e->directions + 1;
+    const int by_force = e->normal_input == MSLIP_INPUT_NORMAL_FORCE, m = e->directions + 1;
     double state[STATE], force[COMPONENTS], tangent[TANGENT], dissipated;
     int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && (m == 2 || m == 3);
     for (size_t i = 0; i < LENGTH(values); ++i) {
@@ -820,7 +820,7 @@ static void test_normal_motions(const function *f)
 {
     static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
     const size_t items = items_of(f);
-    const int by_force = normal_input_of(f->rule) == MSLIP_NORMAL_FORCE;
+    const int by_force = normal_input_of(f->rule) == MSLIP_INPUT_NORMAL_FORCE;
     for (size_t k = 0; k < LENGTH(sizes); ++k) {
         for (int shape = 0; shape < 4; ++shape) {
             set_up(f);
@@ -998,8 +998,8 @@ int main(int argc, char **argv)
         }
     }
     test_lengths();
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_APPROACH));
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_APPROACH));
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_INPUT_APPROACH));
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_INPUT_APPROACH));
     test_two_directions();
     test_table();
     test_other_contacts();

@@ -163,8 +163,8 @@ static void test_other_buffers(const function *f)
 static void test_element_check(void)
 {
     static mslip_element element;
-    for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
-        const int by_approach = input == MSLIP_APPROACH;
+    for (int input = MSLIP_INPUT_APPROACH; input <= MSLIP_INPUT_NORMAL_FORCE; ++input) {
+        const int by_approach = input == MSLIP_INPUT_APPROACH;
         const mslip_element *valid = by_approach ? element_of(FLAT, input) : element_of(ELLIPSE, TWO_DIRECTIONS + input);
         const mslip_element *other = element_of(CYLINDER, input);
         int found = 0;
@@ -282,14 +282,14 @@ static void test_element_state_check(void)
         const int32_t input = normal_input_of(variant), directions = directions_of(variant);
         for (int kind = 0; kind < KINDS; ++kind) {
             const mslip_element *element = element_of(kind, variant);
-            const double largest = input == MSLIP_APPROACH ? element->approach : element->normal_force;
+            const double largest = input == MSLIP_INPUT_APPROACH ? element->approach : element->normal_force;
             set_up(f);
             CHECK(mslip_element_state_init(directions, STATE, STATES) == MSLIP_OK);
             CHECK(mslip_element_state_check(directions, STATE, STATES) == MSLIP_OK);
             for (int i = 0; i < 3000; ++i) {
                 const double u = (double)(random_bits() % 1000) / 500 - 1.0, w = (double)(random_bits() % 1000) / 800 - 0.1;
                 const double part = i % 100 < 30 ? 0.03 : 1.0; /* many pieces, or gross slip */
-                const double normal = largest * (input == MSLIP_NORMAL_FORCE ? fmax(w, 0.0) : w);
+                const double normal = largest * (input == MSLIP_INPUT_NORMAL_FORCE ? fmax(w, 0.0) : w);
                 const double tangential = part * u * element->approach, across = part * element->approach * (w - 0.5);
                 const double step[] = { tangential, directions == 1 ? normal : across, normal };
                 CHECK(mslip_element_update(element, STATE, STATES, step, STATES, NULL, NULL, NULL) == MSLIP_OK);

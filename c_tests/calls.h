@@ -392,7 +392,7 @@ static inline int kind_of_input(const function *f, size_t i)
     const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
     const size_t m = components_of(f);
     const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % m == m - 1;
-    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_APPROACH ? normal : normal + 1;
+    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
 }
 
 /* Lengths of the shortest state, and of one for the reversals or pieces in use. */
@@ -436,7 +436,7 @@ static inline double decaying(int reversals)
 /* A rising load with displacements to and fro, all sticking: each step adds a piece. */
 static inline void fill_element_state(const mslip_element *element, double *state)
 {
-    const int by_force = element->normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = element->normal_input == MSLIP_INPUT_NORMAL_FORCE;
     CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
     for (int k = 0; k < USED_PIECES; ++k) {
         const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);

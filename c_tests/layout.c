@@ -90,13 +90,13 @@ int main(int argc, char **argv)
     CHECK_RELATIVE(memory.contact.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.contact.slip_force, 50.0, 1e-15);
 
-    CHECK(mslip_element_init(&memory.parameters, 1, MSLIP_NORMAL_FORCE, &memory.element) == MSLIP_OK);
+    CHECK(mslip_element_init(&memory.parameters, 1, MSLIP_INPUT_NORMAL_FORCE, &memory.element) == MSLIP_OK);
     CHECK_RELATIVE(memory.element.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.element.half_width, memory.contact.half_width, 1e-13);
     CHECK_RELATIVE(memory.element.tangential_stiffness, memory.contact.initial_stiffness, 1e-13);
     CHECK(memory.element.friction_coefficient == 0.5 && memory.element.normal_force == 100.0);
     CHECK(memory.element.approach > 0.0 && memory.element.normal_stiffness > memory.element.tangential_stiffness);
-    CHECK(memory.element.directions == 1 && memory.element.normal_input == MSLIP_NORMAL_FORCE);
+    CHECK(memory.element.directions == 1 && memory.element.normal_input == MSLIP_INPUT_NORMAL_FORCE);
 
     CHECK(memcmp(memory.before, guard, sizeof guard) == 0 && memcmp(memory.between, guard, sizeof guard) == 0);
     CHECK(memcmp(memory.gap_before_element, guard, sizeof guard) == 0);

@@ -17,8 +17,6 @@ module microslip
   !! is not computed. Sections with strides are allowed. But of an associate name, `associate (row => table(1, :))`,
   !! gfortran 12 may lose the stride: pass `table(1, :)` itself.
   !!
-  !! **Names** are those of C, except `mslip_normal_force_at`: Fortran ignores case, and `MSLIP_NORMAL_FORCE` is a constant.
-  !!
   !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states, workspaces
   !! and tables are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or
   !! an element are results; do not set them. Memory that comes from outside the process is validated in full by the
@@ -84,7 +82,7 @@ module microslip
   public :: mslip_element_init
   public :: mslip_element_init_elliptic
   public :: mslip_element_check
-  public :: mslip_normal_force_at
+  public :: mslip_normal_force
   public :: mslip_normal_approach
   public :: mslip_element_state_length
   public :: mslip_element_state_init
@@ -160,7 +158,8 @@ module microslip
     !! an index must refer to one of the n_contacts contacts or n_elements elements
   integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42
     !! directions must be 1 or 2, equal for all elements, states and workspaces of a call
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43  !! normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43
+    !! normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
     !! array sizes do not agree (in Fortran), or an array is too long to be addressed
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
@@ -175,9 +174,9 @@ module microslip
     !! Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
   integer(mslip_int), parameter, public :: MSLIP_EVENT_DRIVEN = 1
     !! Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
-  integer(mslip_int), parameter, public :: MSLIP_APPROACH = 0
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_APPROACH = 0
     !! The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
-  integer(mslip_int), parameter, public :: MSLIP_NORMAL_FORCE = 1
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_NORMAL_FORCE = 1
     !! The normal component of a displacement is the normal force [N] itself.
   integer(mslip_int), parameter, public :: MSLIP_BY_NORMAL_FORCE = 1
     !! Row of a sensitivity: derivative with respect to the normal force N.
@@ -256,7 +255,7 @@ module microslip
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
-    integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     real(mslip_real) :: reserved(5533) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
@@ -298,11 +297,11 @@ module microslip
     module procedure complex_stiffness_tabulated_array, complex_stiffness_tabulated_scalar
   end interface mslip_complex_stiffness_tabulated
 
-  interface mslip_normal_force_at
+  interface mslip_normal_force
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
-    module procedure normal_force_at_array, normal_force_at_scalar
-  end interface mslip_normal_force_at
+    module procedure normal_force_array, normal_force_scalar
+  end interface mslip_normal_force
 
   interface mslip_normal_approach
     !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
@@ -1699,8 +1698,8 @@ contains
     !! Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is
     !! the largest force for which the element is tabulated; larger ones are exact, but slower, and with two directions
     !! less accurate. directions is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w],
-    !! a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the normal approach [m], or
-    !! MSLIP_NORMAL_FORCE, w is the normal force [N].
+    !! a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_INPUT_APPROACH, w is the normal approach [m], or
+    !! MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
     !!
     !! In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80.
     !! With two directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a
@@ -1708,7 +1707,7 @@ contains
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
-      !! The normal component of a displacement: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+      !! The normal component of a displacement: `MSLIP_INPUT_APPROACH` or `MSLIP_INPUT_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
@@ -1725,7 +1724,7 @@ contains
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
-      !! The normal component of a displacement: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+      !! The normal component of a displacement: `MSLIP_INPUT_APPROACH` or `MSLIP_INPUT_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
@@ -1743,7 +1742,7 @@ contains
     status = c_element_check(element)
   end subroutine mslip_element_check
 
-  subroutine normal_force_at_array(element, approach, status, normal_force, stiffness, half_width)
+  subroutine normal_force_array(element, approach, status, normal_force, stiffness, half_width)
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
     type(mslip_element), intent(in) :: element  !! An initialised element.
@@ -1765,9 +1764,9 @@ contains
     if (present(stiffness)) call check_array(stiffness, n, ptr(2), status)
     if (present(half_width)) call check_array(half_width, n, ptr(3), status)
     if (status == MSLIP_OK) status = c_normal_force(element, n, approach, ptr(1), ptr(2), ptr(3))
-  end subroutine normal_force_at_array
+  end subroutine normal_force_array
 
-  subroutine normal_force_at_scalar(element, approach, status, normal_force, stiffness, half_width)
+  subroutine normal_force_scalar(element, approach, status, normal_force, stiffness, half_width)
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
     type(mslip_element), intent(in) :: element  !! An initialised element.
@@ -1781,7 +1780,7 @@ contains
 
     status = c_normal_force(element, 1_mslip_size, [approach], address_of(normal_force), address_of(stiffness), &
       address_of(half_width))
-  end subroutine normal_force_at_scalar
+  end subroutine normal_force_scalar
 
   subroutine normal_approach_array(element, normal_force, status, approach, compliance, half_width)
     !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the

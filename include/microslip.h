@@ -133,7 +133,7 @@
 // directions must be 1 or 2, equal for all elements, states and workspaces of a call
 #define MSLIP_BAD_DIRECTIONS 42
 
-// normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
+// normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
 #define MSLIP_BAD_NORMAL_INPUT 43
 
 // array sizes do not agree (in Fortran), or an array is too long to be addressed
@@ -158,10 +158,10 @@
 #define MSLIP_EVENT_DRIVEN 1
 
 // The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
-#define MSLIP_APPROACH 0
+#define MSLIP_INPUT_APPROACH 0
 
 // The normal component of a displacement is the normal force [N] itself.
-#define MSLIP_NORMAL_FORCE 1
+#define MSLIP_INPUT_NORMAL_FORCE 1
 
 // Row of a sensitivity: derivative with respect to the normal force N.
 #define MSLIP_BY_NORMAL_FORCE 0
@@ -267,7 +267,7 @@ typedef struct mslip_element {
     double tangential_stiffness;
     // Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     int32_t directions;
-    // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
     double reserved[5533];
@@ -695,7 +695,7 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
 // force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
 // is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
-// normal_input is MSLIP_APPROACH, w is the normal approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
+// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach [m], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
 //
 // In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 // directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -732,7 +732,7 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
 int32_t mslip_element_check(const struct mslip_element *element);
 
 // The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An
-// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+// approach <= 0 gives 0, 0, 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 // contact would be too wide for its length.

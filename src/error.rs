@@ -91,7 +91,7 @@ status_codes! {
         "not available for this kind of contact; elements have uniform sampling only, and no tractions for two directions";
     BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2, equal for all elements, states and workspaces of a call";
-    BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE";
+    BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
         "array sizes do not agree (in Fortran), or an array is too long to be addressed";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";

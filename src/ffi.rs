@@ -43,9 +43,9 @@ pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
 pub const MSLIP_EVENT_DRIVEN: i32 = 1;
 
 /// The normal component of a displacement is the normal approach \[m\]; if it is not positive, the contact is open.
-pub const MSLIP_APPROACH: i32 = 0;
+pub const MSLIP_INPUT_APPROACH: i32 = 0;
 /// The normal component of a displacement is the normal force \[N\] itself.
-pub const MSLIP_NORMAL_FORCE: i32 = 1;
+pub const MSLIP_INPUT_NORMAL_FORCE: i32 = 1;
 
 /// Row of a sensitivity: derivative with respect to the normal force N.
 pub const MSLIP_BY_NORMAL_FORCE: i32 = 0;
@@ -105,7 +105,7 @@ pub struct mslip_element {
     pub tangential_stiffness: f64,
     /// Number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
     pub directions: i32,
-    /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
     pub reserved: [f64; 5533],

@@ -228,7 +228,7 @@ fn choices() {
 
 /// The invalid values of a quantity, and their status.
 fn invalid(call: &Call, law: &Law, argument: &Argument, i: usize) -> Vec<(f64, i32)> {
-    let by_force = law.normal_input == MSLIP_NORMAL_FORCE && !argument.extents.contains('k');
+    let by_force = law.normal_input == MSLIP_INPUT_NORMAL_FORCE && !argument.extents.contains('k');
     let is_normal_force = law.is_normal(call, argument, i) && by_force;
     let status = if is_normal_force { MSLIP_BAD_NORMAL_FORCE } else { argument.status };
     let mut values: Vec<(f64, i32)> = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|value| (value, status)).into();
@@ -512,7 +512,7 @@ fn paths() {
 #[test]
 fn slip_in_two_directions() {
     let law = calls::element(true, |element| unsafe {
-        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_APPROACH, element)
+        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_INPUT_APPROACH, element)
     });
     let path = call("mslip_element_path");
     let [u, w] = [law.displacement, law.normal];
@@ -551,7 +551,7 @@ fn harmonic_motions() {
                         values.extend([motion[3] * law.normal, motion[4] * law.normal, 0.0]);
                     }
                     arguments.set(2, Memory::of(&values));
-                    let by_force = call.has(Element) && law.normal_input == MSLIP_NORMAL_FORCE;
+                    let by_force = call.has(Element) && law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
                     let is_negative = by_force && motion[4] > motion[3];
                     let expected = if is_negative { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_OK };
                     assert_eq!((call.function)(&arguments.slots), expected, "{}: {motion:?}", call.name);

@@ -237,7 +237,7 @@ fn element() -> &'static mslip_element {
     let mut element = Box::new(MaybeUninit::uninit());
     // SAFETY: valid pointers; the element is initialised if the status is MSLIP_OK.
     unsafe {
-        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_APPROACH, element.as_mut_ptr()), MSLIP_OK);
+        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
         Box::leak(element.assume_init())
     }
 }

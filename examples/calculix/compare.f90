@@ -69,7 +69,7 @@ contains
     close (unit)
     p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
       material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
-    call mslip_element_init(p, directions, MSLIP_APPROACH, element, status)
+    call mslip_element_init(p, directions, MSLIP_INPUT_APPROACH, element, status)
     call require(status)
     m = directions + 1
   end subroutine initialise_element

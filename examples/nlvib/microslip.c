@@ -10,7 +10,7 @@
  *
  * p is a struct with the fields of mslip_parameters or mslip_elliptic_parameters; in place of material it has young_modulus and
  * poisson_ratio, one value or one for each body. A contact and an element are uint8 arrays, which may be saved. directions, 1, and
- * normal_input, MSLIP_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING.
+ * normal_input, MSLIP_INPUT_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING.
  *
  * displacement has a column for each component, with 2H+1 rows [c0; cos1; sin1; cos2; ...], and so has the force; jacobian is
  * d force(:) / d displacement(:). What the library rejects is an error with its message and the identifier microslip:status. */
@@ -131,7 +131,7 @@ static const void *object(const mxArray *array, size_t size)
 static void init(int elliptic, int is_element, mxArray **result, int n, const mxArray *const *arguments)
 {
     int32_t directions = n > 1 ? constant(arguments[1], "directions is a number") : 1;
-    int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_APPROACH;
+    int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_INPUT_APPROACH;
     void *memory = bytes(result, is_element ? sizeof(mslip_element) : sizeof(mslip_contact));
     if (elliptic) {
         mslip_elliptic_parameters p = elliptic_parameters(arguments[0]);

@@ -7,8 +7,7 @@
 !>     balance         mslip_batch_harmonic_force                      mslip_batch_element_harmonic_force in harmonic_force
 !>     time step       mslip_state_init, mslip_batch_masing_update     mslip_element_state_init,
 !>                                                                     mslip_batch_element_update         in start_history, try_step
-!>     results         mslip_monotonic_force, mslip_state_error        mslip_normal_force_at,
-!>                                                                     mslip_element_state_error
+!>     results         mslip_monotonic_force, mslip_state_error        mslip_normal_force, mslip_element_state_error
 !>
 !> A contact has one component, the tangential displacement; or two, that and the normal approach; or three, the displacements in
 !> two tangential directions and the normal approach. The components of all contacts are numbered one after the other. An element
@@ -184,7 +183,7 @@ contains
         end if
         normal_force = parameters%normal_force
         parameters%normal_force = load_range * normal_force
-        call mslip_element_init(parameters, directions, MSLIP_APPROACH, element, status)
+        call mslip_element_init(parameters, directions, MSLIP_INPUT_APPROACH, element, status)
         call require(status, self%name(i))
         call mslip_normal_approach(element, normal_force, status, compliance=compliance)
         call require(status, self%name(i))
@@ -234,7 +233,7 @@ contains
     integer(mslip_int) :: status
 
     tangent = 0.0_wp
-    call mslip_element_init(parameters, directions, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init(parameters, directions, MSLIP_INPUT_NORMAL_FORCE, element, status)
     if (status == MSLIP_OK) call mslip_element_state_init(directions, state, status)
     if (status == MSLIP_OK) call mslip_element_advance(element, state, [0.0_wp, 0.0_wp, normal_force], status, tangent=tangent)
     call require(status, name)
@@ -508,7 +507,7 @@ contains
     open_fraction = 0.0_wp
     call self%find_element(i, b, e)
     if (e > 0) then
-      call mslip_normal_force_at(self%batches(b)%elements(e), approach, status, normal_force=normal_force)
+      call mslip_normal_force(self%batches(b)%elements(e), approach, status, normal_force=normal_force)
       call require(status, self%name(i))
       normal_force = self%count(i) * normal_force
       open_fraction = count(approach <= 0.0_wp) / real(size(approach), wp)

@@ -56,9 +56,9 @@ class Element(_Law):
     """A friction contact element: the law of a flat with rounded edges, or of a cylinder, under a varying normal force.
 
     With `directions` = 1 a displacement is [u, w] and a force [T, N]; with 2 they are [u, v, w] and [Tx, Ty, N]. The normal
-    component w is the approach [m], open if w <= 0, with `normal_input` = `APPROACH`, or the normal force [N] with
-    `NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. The other parameters are those
-    of `Contact`. The element of an elliptical contact is made by `Element.elliptic`.
+    component w is the approach [m], open if w <= 0, with `normal_input` = `INPUT_APPROACH`, or the normal force [N] with
+    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. The other parameters
+    are those of `Contact`. The element of an elliptical contact is made by `Element.elliptic`.
     """
 
     _type = "mslip_element"
@@ -73,7 +73,7 @@ class Element(_Law):
     normal_stiffness = Field[float]("dN/d(approach) under that force [N/m].")
     tangential_stiffness = Field[float]("dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].")
     directions = Field[int]("Number of tangential directions, 1 or 2.")
-    normal_input = Field[int]("APPROACH or NORMAL_FORCE.")
+    normal_input = Field[int]("INPUT_APPROACH or INPUT_NORMAL_FORCE.")
 
     def __init__(
         self,

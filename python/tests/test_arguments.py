@@ -219,7 +219,7 @@ def test_constants_are_given_by_number_or_word():
         for make in (microslip.Contact, microslip.Element):
             assert make(**FLAT, displacement_reference=wanted) == make(**FLAT, displacement_reference=word)
     assert microslip.Workspace(1, 8, "event_driven").rule == microslip.EVENT_DRIVEN
-    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.NORMAL_FORCE
+    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.INPUT_NORMAL_FORCE
 
 
 def test_numbers_of_numpy_are_numbers():

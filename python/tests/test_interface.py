@@ -61,7 +61,8 @@ def test_status_codes_and_constants_are_those_of_the_header():
     version = ".".join(str(defined.pop(f"VERSION_{part}")) for part in ("MAJOR", "MINOR", "PATCH"))
     assert microslip.__version__ == version
     assert defined.pop("OK") == 0
-    for name in ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "APPROACH", "NORMAL_FORCE"]:
+    names = ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "INPUT_APPROACH", "INPUT_NORMAL_FORCE"]
+    for name in names:
         assert getattr(microslip, name) == defined.pop(name)
     assert len(microslip.Parameter) == defined.pop("PARAMETER_COUNT")
     for parameter in microslip.Parameter:
@@ -273,7 +274,7 @@ def test_values_of_a_contact_can_only_be_read():
     with pytest.raises(AttributeError, match="can only be read"):
         contact.slip_force = 1.0
     assert microslip.Contact.slip_force.__doc__ == "mu N [N]."
-    assert (both.directions, both.normal_input) == (2, microslip.APPROACH)
+    assert (both.directions, both.normal_input) == (2, microslip.INPUT_APPROACH)
 
 
 def test_equivalents():

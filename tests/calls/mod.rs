@@ -301,12 +301,12 @@ pub fn elements() -> &'static [Law; 3] {
         // The springs of both directions take too long under Miri: without friction there are none.
         let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
         [
-            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_APPROACH, element) }),
+            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_INPUT_APPROACH, element) }),
             element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_NORMAL_FORCE, element)
+                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_INPUT_NORMAL_FORCE, element)
             }),
             element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element)
+                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_INPUT_APPROACH, element)
             }),
         ]
     })
@@ -315,7 +315,7 @@ pub fn elements() -> &'static [Law; 3] {
 pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> Law {
     let (memory, bytes) = initialised(init);
     let e: &mslip_element = &memory.values()[0];
-    let by_force = e.normal_input == MSLIP_NORMAL_FORCE;
+    let by_force = e.normal_input == MSLIP_INPUT_NORMAL_FORCE;
     Law {
         bytes,
         is_elliptic,

@@ -52,8 +52,8 @@ program bad_input
     procedure_info('batch_masing_update', none, MSLIP_BAD_DISPLACEMENT, 'vvv B', 's', batch=.true.), &
     procedure_info('batch_masing_advance', none, MSLIP_BAD_DISPLACEMENT, 'vvv', 's', batch=.true.), &
     procedure_info('batch_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'fkv', 'w', batch=.true.), &
-    procedure_info('normal_force_at', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' ', element=.true.), &
-    procedure_info('normal_force_at, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' ', element=.true.), &
+    procedure_info('normal_force', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' ', element=.true.), &
+    procedure_info('normal_force, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' ', element=.true.), &
     procedure_info('normal_approach', none, MSLIP_BAD_NORMAL_FORCE, 'vvv', ' ', element=.true.), &
     procedure_info('normal_approach, one', MSLIP_BAD_NORMAL_FORCE, none, 'sss', ' ', element=.true.), &
     procedure_info('element_update', none, MSLIP_BAD_DISPLACEMENT, 'pts N', 's', element=.true.), &
@@ -141,7 +141,7 @@ contains
     contacts = contacts(1)
     if (allocated(elements)) deallocate (elements)
     allocate (elements(items))
-    call mslip_element_init(flat_parameters(), directions, MSLIP_APPROACH, elements(1), ok)
+    call mslip_element_init(flat_parameters(), directions, MSLIP_INPUT_APPROACH, elements(1), ok)
     elements = elements(1)
     vector = [spread(1.0e-7_wp, 1, int(directions)), 2.0e-7_wp]
     vectors = spread(vector, 2, n)
@@ -235,8 +235,8 @@ contains
       out(3)%v)
     case (27); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
       out(3)%v)
-    case (28); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (29); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (28); call mslip_normal_force(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (29); call mslip_normal_force(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (30); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (31); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (32); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
@@ -421,15 +421,15 @@ contains
       vector(components) = value
       vectors(components, n) = value
       u(me - m + 1, size(u, 2)) = value
-      if (input == MSLIP_APPROACH .or. procedures(p)%memory == 'w') then
+      if (input == MSLIP_INPUT_APPROACH .or. procedures(p)%memory == 'w') then
         call rejected('a normal component', MSLIP_BAD_DISPLACEMENT)
       else
         call rejected('a normal component', MSLIP_BAD_NORMAL_FORCE)
       end if
-      vector(components) = merge(1.0_wp, -1.0_wp, input == MSLIP_APPROACH)
+      vector(components) = merge(1.0_wp, -1.0_wp, input == MSLIP_INPUT_APPROACH)
       vectors(components, n) = vector(components)
       u(me - m + 1, size(u, 2)) = vector(components)
-      call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_APPROACH))
+      call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_INPUT_APPROACH))
     end do
   end subroutine test_normal_value
 
@@ -634,9 +634,9 @@ contains
 
     element%half_width = untouched
     do i = 1, size(invalid)
-      call mslip_element_init(flat_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call mslip_element_init(flat_parameters(), invalid(i), MSLIP_INPUT_APPROACH, element, status)
       call check_status('directions of an element', status, MSLIP_BAD_DIRECTIONS)
-      call mslip_element_init_elliptic(ellipse_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call mslip_element_init_elliptic(ellipse_parameters(), invalid(i), MSLIP_INPUT_APPROACH, element, status)
       call check_status('directions of an elliptical element', status, MSLIP_BAD_DIRECTIONS)
       call check('no state for these directions', mslip_element_state_length(invalid(i), pieces) == 0)
     end do
@@ -644,30 +644,30 @@ contains
     call check_status('normal input of an element', status, MSLIP_BAD_NORMAL_INPUT)
     call mslip_element_init_elliptic(ellipse_parameters(), one, -1_mslip_int, element, status)
     call check_status('normal input of an elliptical element', status, MSLIP_BAD_NORMAL_INPUT)
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of unset parameters', status, MSLIP_BAD_FLAT_HALF_WIDTH)
-    call mslip_element_init_elliptic(unset, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init_elliptic(unset, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an elliptical element of unset parameters', status, MSLIP_BAD_SEMI_AXIS_X)
     parameters = flat_parameters()
     parameters%normal_force = 0
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
     ellipse = ellipse_parameters()
     ellipse%normal_force = 0
-    call mslip_element_init_elliptic(ellipse, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init_elliptic(ellipse, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an elliptical element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
     parameters = flat_parameters()
     parameters%length = 1.0e-4_wp
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of a short length', status, MSLIP_LENGTH_TOO_SHORT)
     parameters%edge_radius = 1.0e300_wp
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of a large radius', status, MSLIP_OUT_OF_RANGE)
     call check('a rejected element is not modified', is_untouched([element%half_width]))
 
     call mslip_element_check(element, status)
     call check_status('check of an uninitialised element', status, MSLIP_BAD_ELEMENT)
-    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, element, status)
     call mslip_element_check(element, status)
     call check_status('check of an element', status, MSLIP_OK)
     words = transfer(element, words)
@@ -693,7 +693,7 @@ contains
     real(wp) :: error
     integer :: i
 
-    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, other, status)
+    call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, other, status)
     state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 100_mslip_size)))
     call mslip_element_state_init(one, state_of_one, status)
     workspace_of_one = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))

@@ -827,11 +827,11 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     call mslip_element_check(element, status)
     call check_status('check of an element', status, MSLIP_OK)
     call check('size of an element: no padding', storage_size(element) == 64*(8 + size(element%reserved)))
-    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_APPROACH)
+    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_INPUT_APPROACH)
     call check_close('element: friction coefficient', element%friction_coefficient, 0.35_wp, tight)
     call check_close('element: normal force', element%normal_force, 17.0_wp, tight)
     old = element_state(16_mslip_size)
@@ -858,12 +858,12 @@ contains
     type(mslip_element) :: element
     real(wp) :: found(3), values(2), slopes(2), widths(2), back(2)
     integer(mslip_int) :: status
-    integer(mslip_int), parameter :: inputs(2) = [MSLIP_APPROACH, MSLIP_NORMAL_FORCE]
+    integer(mslip_int), parameter :: inputs(2) = [MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE]
     integer :: i
 
     do i = 1, 2
       element = element_of(inputs(i))
-      call mslip_normal_force_at(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
+      call mslip_normal_force(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
       call check_status('normal force', status, MSLIP_OK)
       call check_close('normal force', found(1), 13.07442920778120653977642_wp, tight)
       call check_close('normal stiffness', found(2), 242218902.8986542490946348_wp, tight)
@@ -871,7 +871,7 @@ contains
       call check_close('approach', values(1), 5.4339586390886424e-8_wp, tight)
       call check_close('normal compliance', slopes(1)*found(2), 1.0_wp, tight)
       call check_close('half-width', widths(1), found(3), tight)
-      call mslip_normal_force_at(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
+      call mslip_normal_force(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
       call check_status('normal forces', status, MSLIP_OK)
       call check_close('normal force of the parameters', values(1), element%normal_force, tight)
       call check_close('half-width of the parameters', widths(1), element%half_width, tight)
@@ -899,7 +899,7 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_NORMAL_FORCE)
+    element = element_of(MSLIP_INPUT_NORMAL_FORCE)
     displacement(1, :) = [(1.0e-8_wp*sin(1.7_wp*i), i = 1, steps)]
     displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
     start = element_state(16_mslip_size)
@@ -945,7 +945,7 @@ contains
     call check('element: a bound on the error of merged pieces', error > 0 .and. error < 0.35_wp*17)
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_APPROACH, sphere, status)
+    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_INPUT_APPROACH, sphere, status)
     call check_status('element of a sphere', status, MSLIP_OK)
     ! Hertz: N = 4/3 E* a^3/R, w = a^2/R.
     call check_close('sphere: approach', sphere%approach, 0.75_wp*50.0_wp/(sphere%composite_modulus*1.0e-4_wp), tight)
@@ -977,7 +977,7 @@ contains
     call mslip_harmonic_workspace_init(harmonics, samples, of_contact, status)
     p = flat_parameters()
     call mslip_contact_init(p, contact, status)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_NORMAL_FORCE, element, status)
     displacement = 0
     displacement(1:m) = [0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]
     displacement(m + 1) = 800
@@ -990,7 +990,7 @@ contains
     call check('element: Jacobian at constant load', &
       all(abs(jacobian(1:m, 1:m) - square) <= 1.0e-9_wp*contact%initial_stiffness))
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     displacement = 0
     displacement(2) = 1.2e-8_wp
     displacement(5) = 3.0e-9_wp
@@ -1028,8 +1028,8 @@ contains
 
     p = flat_parameters()
     allocate (elements(2), each(n))
-    elements(1) = element_of(MSLIP_APPROACH)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, elements(2), status)
+    elements(1) = element_of(MSLIP_INPUT_APPROACH)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_APPROACH, elements(2), status)
     each = elements(index)
     start = spread(element_state(4_mslip_size), 2, n)
     expected = start
@@ -1090,7 +1090,7 @@ contains
     integer :: i
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, two, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init_elliptic(p, two, MSLIP_INPUT_NORMAL_FORCE, element, status)
     call check_status('two directions: element', status, MSLIP_OK)
     call check('two directions: element', element%directions == 2)
     call mslip_element_state_init(two, start, status)

@@ -96,7 +96,7 @@ static double value(const struct sequence *s, const function *f, int kind, size_
     const mslip_contact *c = s->contact;
     const mslip_element *e = s->element;
     const int of_element = (f->takes & IS_ELEMENT) != 0;
-    const int by_force = of_element && e->normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = of_element && e->normal_input == MSLIP_INPUT_NORMAL_FORCE;
     const double sign = i % 2 == 0 ? 1.0 : -1.0, normal = !of_element ? 0.0 : by_force ? e->normal_force : e->approach;
     switch (kind) {
         case POSITION: return multiple(i, of_element ? e->half_width : c->half_width, 1.1);
@@ -140,7 +140,8 @@ static double *states(struct sequence *s, int of_element, size_t items)
     for (size_t i = 0; i < items; ++i) {
         double *state = memory + i * n;
         if (of_element) {
-            const double normal = s->element->normal_input == MSLIP_NORMAL_FORCE ? s->element->normal_force : s->element->approach;
+            const int by_force = s->element->normal_input == MSLIP_INPUT_NORMAL_FORCE;
+            const double normal = by_force ? s->element->normal_force : s->element->approach;
             const double step[2][2] = { { 0.0, 0.8 * normal }, { 0.1 * s->element->approach, 0.6 * normal } };
             accept(mslip_element_state_init(1, n, state));
             accept(mslip_element_path(s->element, n, state, 2, step[0], state, NULL, NULL, NULL));
@@ -316,7 +317,7 @@ void initialise(int which, mslip_contact *contact, mslip_element *element)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, OPEN, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
-    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_APPROACH : MSLIP_NORMAL_FORCE;
+    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_INPUT_APPROACH : MSLIP_INPUT_NORMAL_FORCE;
     mslip_parameters p = flat_parameters();
     mslip_elliptic_parameters e = elliptic_parameters();
     if (kind == ELLIPSE || kind == SPHERE) {

@@ -301,7 +301,7 @@ impl Memory {
         let c = components(valid, e.directions);
         let positive = |value: f64| if value > 0.0 && value < 1e150 { value } else { 1e-6 };
         let shift = positive(e.approach * e.friction_coefficient.min(1e3));
-        let normal = positive(if e.normal_input == MSLIP_NORMAL_FORCE { e.normal_force } else { e.approach });
+        let normal = positive(if e.normal_input == MSLIP_INPUT_NORMAL_FORCE { e.normal_force } else { e.approach });
         let scales = match call.function {
             Function::NormalForce => [e.approach; 2],
             Function::NormalApproach => [e.normal_force; 2],
