@@ -125,7 +125,7 @@ static void add_harmonic(const mslip_element *element, const varying_slider *sli
         const size_t h = (size_t)harmonics, s = (size_t)samples,
                      length = mslip_element_workspace_length(1, h, s, MSLIP_UNIFORM_SAMPLING);
         j.workspace = allocate(length * sizeof *j.workspace);
-        require(mslip_element_workspace_init(1, h, s, MSLIP_UNIFORM_SAMPLING, length, j.workspace));
+        require(mslip_element_workspace_init(1, h, s, MSLIP_UNIFORM_SAMPLING, 0, length, j.workspace));
         motion_in(element, shift, motion, harmonics, j.displacement);
         add("element", "microslip", run, &j, harmonics, samples, motion);
         j.method = varying_slider_by_runs;

@@ -218,7 +218,7 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
     const int c = 2 * harmonics + 1;
     const size_t h = (size_t)harmonics, length = mslip_element_workspace_length(2, h, STEPS, MSLIP_UNIFORM_SAMPLING);
     j.workspace = allocate(length * sizeof *j.workspace);
-    require(mslip_element_workspace_init(2, h, STEPS, MSLIP_UNIFORM_SAMPLING, length, j.workspace));
+    require(mslip_element_workspace_init(2, h, STEPS, MSLIP_UNIFORM_SAMPLING, 0, length, j.workspace));
     j.rows = allocate(STEPS * sizeof *j.rows);
     j.bank = allocate(SPRINGS * sizeof *j.bank);
     j.jacobian = allocate(COLUMNS * COLUMNS * sizeof *j.jacobian);

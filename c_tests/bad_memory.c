@@ -97,12 +97,14 @@ static void test_tags(const function *f)
         set_word(state, 0, tag);
     }
     if (f->takes & TAKES_WORKSPACE) {
-        static const uint64_t sizes[][2] = { { 0, 16 }, { 2, 0 }, { 2, 4 }, { 2, (1 << 24) + 1 }, { (1 << 24) + 1, (1 << 24) } };
-        const uint64_t tags[2] = { get_word(call.workspace, 0), get_word(call.workspace, 1) };
+        static const uint64_t sizes[][3] = { { 0, 16, 1 }, { 2, 0, 1 }, { 2, 4, 1 }, { 2, (1 << 24) + 1, 1 },
+                                             { (1 << 24) + 1, (1 << 24), 1 }, { 2, 16, 0 }, { 2, 16, (1 << 16) + 1 } };
+        const uint64_t tags[3] = { get_word(call.workspace, 0), get_word(call.workspace, 1), get_word(call.workspace, 2) };
         tag_bits_are_rejected(f, &call.workspace[0], kind_and_layout, MSLIP_BAD_WORKSPACE, "the first tag");
         tag_bits_are_rejected(f, &call.workspace[1], kind_and_layout, MSLIP_BAD_WORKSPACE, "the second tag");
+        tag_bits_are_rejected(f, &call.workspace[2], kind_and_layout, MSLIP_BAD_WORKSPACE, "the third tag");
         for (size_t k = 0; k < LENGTH(sizes); ++k) {
-            for (size_t i = 0; i < 2; ++i) {
+            for (size_t i = 0; i < 3; ++i) {
                 set_word(call.workspace, i, (tags[i] & kind_and_layout) | sizes[k][i]);
             }
             rejected(f, MSLIP_BAD_WORKSPACE, "a size that is not allowed");
@@ -371,7 +373,7 @@ static void test_copies(const function *f)
                 ++scratch;
             }
         }
-        CHECK(scratch > 0 && same_bits(workspace, call.workspace, 2));
+        CHECK(scratch > 0 && same_bits(workspace, call.workspace, 3));
         CHECK(f->call() == MSLIP_OK && raised() == 0 && same_outputs_from(0));
         /* A longer workspace may be used for fewer harmonics. */
         const size_t one = f->takes & IS_ELEMENT ? 3 * components_of(f) : 3;

@@ -227,7 +227,8 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
     return check_rejected_but(NULL, status, expected, function, what);
 }
 
-enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
+enum { COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
 /* The largest numbers of components of a displacement, and of coefficients. */
 enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
@@ -322,7 +323,8 @@ static inline size_t workspace_length_of(const function *f, size_t harmonics, si
 static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
 {
     CHECK((f->takes & IS_ELEMENT
-               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, PERIODS, length,
+                                              workspace)
                : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
 }
 

@@ -40,6 +40,7 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
     if (isnan(v[A])) {
         mslip_elliptic_parameters p;
         const double scale = normal_force > 0.0 ? cbrt(normal_force / v[N_REF]) : 1.0;
+        mslip_elliptic_parameters_default(&p);
         p.semi_axis_x = scale * v[SEMI_X];
         p.semi_axis_y = scale * v[SEMI_Y];
         p.normal_force = normal_force > 0.0 ? normal_force : v[N_REF];
@@ -289,7 +290,7 @@ static void init_kind_of(int kind, double friction_coefficient, int32_t directio
 {
     static const double flats[] = { 0.0, 6e-5, 5e-4 };
     if (kind == SPHERE) {
-        const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } } };
+        const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } }, 0, 0 };
         CHECK(mslip_element_init_elliptic(&p, directions, normal_input, element) == MSLIP_OK);
     } else {
         mslip_parameters p;

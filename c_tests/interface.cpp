@@ -89,7 +89,7 @@ std::vector<double> results_of(const mslip_contact &contact, double *workspace)
 std::vector<double> element_workspace(std::int32_t directions)
 {
     std::vector<double> values(mslip_element_workspace_length(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
-    accept(mslip_element_workspace_init(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING, values.size(), values.data()));
+    accept(mslip_element_workspace_init(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING, 0, values.size(), values.data()));
     return values;
 }
 
@@ -119,7 +119,7 @@ std::vector<double> results_of(const mslip_element &element, ElementWorkspaces &
     accept(mslip_element_path(&element, state.size(), state.data(), steps, path.data(), state.data(), results.data(), tangent,
                               energy));
     accept(mslip_element_harmonic_force(&element, workspaces.values[m - 2].data(), displacement.data(), force, jacobian,
-                                        jacobian + all * all));
+                                        jacobian + all * all, nullptr));
     results.insert(results.end(), state.begin(), state.end());
     return results;
 }

@@ -198,6 +198,9 @@ fn lengths() {
                 Kind::Size if argument.name == "harmonics" => {
                     rejected_at(argument.status, &[0, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
+                Kind::Size if argument.name == "periods" => {
+                    rejected_at(argument.status, &[(1 << 16) + 1, usize::MAX]);
+                }
                 Kind::Size => {
                     rejected_at(argument.status, &[0, 2 * HARMONICS, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
@@ -293,8 +296,8 @@ fn memory() {
                     }
                 }
                 Workspace => {
-                    let header = law.workspace(call).values::<f64>()[..2].to_vec();
-                    for (word, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0)] {
+                    let header = law.workspace(call).values::<f64>()[..3].to_vec();
+                    for (word, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0), (2, 0.0)] {
                         let mut header = header.clone();
                         header[word] = value;
                         words(&header);
@@ -540,7 +543,7 @@ fn harmonic_motions() {
                     let (n, workspace) = (2 * HARMONICS + 1, arguments.memory(1));
                     let (length, start) = (workspace.bytes / 8, workspace.start.cast());
                     let status = if call.has(Element) {
-                        unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, length, start) }
+                        unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, 0, length, start) }
                     } else {
                         unsafe { mslip_harmonic_workspace_init(1, samples, law.rule, length, start) }
                     };

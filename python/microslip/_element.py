@@ -57,8 +57,9 @@ class Element(_Law):
 
     With `directions` = 1 a displacement is [u, w] and a force [T, N]; with 2 they are [u, v, w] and [Tx, Ty, N]. The normal
     component w is the approach [m], open if w <= 0, with `normal_input` = `INPUT_APPROACH`, or the normal force [N] with
-    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. The other parameters
-    are those of `Contact`. The element of an elliptical contact is made by `Element.elliptic`.
+    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. `springs` of
+    two directions are 8, 12 or 16, more accurate and slower; 0 is the default. The other parameters are those of `Contact`. The
+    element of an elliptical contact is made by `Element.elliptic`.
     """
 
     _type = "mslip_element"
@@ -86,6 +87,7 @@ class Element(_Law):
         young_modulus: Pair,
         poisson_ratio: Pair,
         displacement_reference: Constant = 0,
+        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 0,
     ) -> None:
@@ -106,6 +108,7 @@ class Element(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 0,
     ) -> Element:
@@ -143,7 +146,9 @@ class Element(_Law):
 
         Displacement and force have the shape (m, 2H+1), a row [c0, cos1, sin1, ...] for each component. jacobian[i, j] is
         d force.ravel()[i] / d displacement.ravel()[j], (m(2H+1), m(2H+1)), None if not requested. The element is pressed by the
-        largest normal force of the period without a tangential displacement, then displaced.
+        largest normal force of the period without a tangential displacement, then displaced, and walks the periods of the workspace
+        and one more, which counts. With two directions a mean tangential force beside a vibration across it is shaken out over many
+        periods: `drift` says what the last one changed.
         """
         return self._harmonic_force(workspace, displacement, jacobian)
 

@@ -41,7 +41,7 @@ SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 REFERENCE = {"displacement_reference": 1}
-DIRECTIONS = {"directions": 1, "normal_input": 0}
+DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 
@@ -88,7 +88,7 @@ def valid():
         "ElementState": {"directions": 1, "pieces": 8},
         "ElementState.from_bytes": {"data": bytes(element_state), "directions": 1},
         "ElementState.copy": {},
-        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0},
+        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0, "periods": 3},
         "ElementArray": {"elements": [element]},
         "ElementArray.states": {"n": 2, "pieces": 8},
         "ElementArray.update": {

@@ -218,7 +218,7 @@ pub static FLAT: Parameters = Parameters {
     friction_coefficient: 0.5,
     material: [STEEL; 2],
     displacement_reference: MSLIP_CENTRE_POINT,
-    reserved: 0,
+    springs: 0,
 };
 
 pub static SPHERE: EllipticParameters = EllipticParameters {
@@ -227,6 +227,8 @@ pub static SPHERE: EllipticParameters = EllipticParameters {
     normal_force: 100.0,
     friction_coefficient: 0.3,
     material: [STEEL; 2],
+    springs: 0,
+    reserved: 0,
 };
 
 pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
@@ -234,6 +236,7 @@ pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
 pub const N: usize = 3;
 pub const HARMONICS: usize = 1;
 pub const SAMPLES: usize = 9;
+pub const PERIODS: usize = 2;
 
 /// A contact or an element, with its units, and the rule of a workspace.
 #[derive(Clone)]
@@ -424,7 +427,7 @@ impl Law {
         let memory = Memory::new::<f64>(self.memory_length(call, "workspace"));
         let (n, start) = (memory.bytes / 8, memory.start.cast());
         let status = if call.is_of_element() {
-            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, n, start) }
+            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, PERIODS, n, start) }
         } else {
             unsafe { mslip_harmonic_workspace_init(HARMONICS, SAMPLES, self.rule, n, start) }
         };
@@ -486,7 +489,11 @@ impl Arguments {
                 Count => Ok(Slot::Size(N)),
                 Laws => Ok(Slot::Size(items)),
                 Length => Ok(Slot::Size(memory_length(argument.name))),
-                Size => Ok(Slot::Size(if argument.name == "harmonics" { HARMONICS } else { SAMPLES })),
+                Size => Ok(Slot::Size(match argument.name {
+                    "harmonics" => HARMONICS,
+                    "periods" => PERIODS,
+                    _ => SAMPLES,
+                })),
                 Choice => Ok(Slot::Choice(match argument.name {
                     "directions" => law.directions,
                     "normal_input" => law.normal_input,

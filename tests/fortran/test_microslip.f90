@@ -965,14 +965,14 @@ contains
     real(wp) :: of_contact(mslip_harmonic_workspace_length(harmonics, samples)), expected(m), square(m, m)
     real(wp), dimension(2*m) :: displacement, force, other, changed
     real(wp) :: jacobian(2*m, 2*m)
-    integer(mslip_size) :: found(2)
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: j
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     call check_status('element: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('element: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('element: size of a workspace', all(found == [harmonics, samples, 1_mslip_size]) .and. &
       all(kinds == [1_mslip_int, MSLIP_UNIFORM_SAMPLING]))
     call mslip_harmonic_workspace_init(harmonics, samples, of_contact, status)
     p = flat_parameters()
@@ -995,9 +995,9 @@ contains
     displacement(2) = 1.2e-8_wp
     displacement(5) = 3.0e-9_wp
     displacement(m + 1:m + 3) = [2.0e-8_wp, 1.0e-8_wp, 2.4e-8_wp]
-    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1))
+    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1), drift=energy(2))
     call check_status('element: harmonic force with separation', status, MSLIP_OK)
-    call check('element: positive energy', energy(1) > 0)
+    call check('element: positive energy, no drift', energy(1) > 0 .and. .not. abs(energy(2)) > 0)
     step = 1.0e-14_wp
     do j = 1, 2*m
       changed = displacement
@@ -1053,7 +1053,7 @@ contains
     call mslip_batch_element_advance(elements(1:0), states(:, 1:0), displacement(:, 1:0), status)
     call check_status('element: no items', status, MSLIP_OK)
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     coefficients = 0
     coefficients(2, :) = displacement(1, :)
     coefficients(4, :) = displacement(2, :)
@@ -1085,7 +1085,8 @@ contains
     real(wp) :: displacement(3, n), force(3, n), tangent(3, 3, n), dissipated(n)
     real(wp) :: all_force(3, n), all_tangent(3, 3, n), all_dissipated(n), scattered(3, 3, n)
     real(wp) :: coefficients(m, 2), harmonic(m, 2), jacobian(m, m, 2), energy(2), one(m), square(m, m), single, error
-    integer(mslip_size) :: found(2)
+    real(wp) :: drift(2), own_drift
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: i
 
@@ -1140,20 +1141,22 @@ contains
     call check_status('two directions: batch in place', status, MSLIP_OK)
     call check_same('two directions: batch in place', [all_force], [force])
 
-    call mslip_element_workspace_init(two, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(two, harmonics, samples, 3_mslip_size, workspace, status)
     call check_status('two directions: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('two directions: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('two directions: size of a workspace', all(found == [harmonics, samples, 3_mslip_size]) .and. &
       all(kinds == [two, MSLIP_UNIFORM_SAMPLING]))
     coefficients(:, 1) = [0.0_wp, 1.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 5.0e-8_wp, 30.0_wp, 0.0_wp, 0.0_wp]
     coefficients(:, 2) = [0.0_wp, 2.0e-7_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 10.0_wp, 5.0_wp]
     call mslip_batch_element_harmonic_force(spread(element, 1, 2), workspace, coefficients, status, force=harmonic, &
-      jacobian=jacobian, dissipated=energy)
+      jacobian=jacobian, dissipated=energy, drift=drift)
     call check_status('two directions: batch of harmonic forces', status, MSLIP_OK)
+    call check('two directions: drift', all(drift > 0 .and. drift < 0.1_wp))
     do i = 1, 2
-      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single)
+      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single, own_drift)
       call check_status('two directions: harmonic force', status, MSLIP_OK)
-      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i)], [one, [square], single])
+      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i), drift(i)], &
+        [one, [square], single, own_drift])
       call check('two directions: normal force', all(abs(one(7:9) - coefficients(7:9, i)) <= 1.0e-12_wp*30))
     end do
   end subroutine test_two_directions

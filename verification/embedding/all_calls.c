@@ -162,7 +162,7 @@ static double *workspace(int of_element, int32_t rule)
     if (memory == NULL) {
         abort();
     }
-    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, n, memory)
+    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, 0, n, memory)
                       : mslip_harmonic_workspace_init(HARMONICS, SAMPLES, rule, n, memory));
     return memory;
 }
@@ -268,10 +268,11 @@ static void make_other(struct sequence *s, size_t other)
             call.new_element = (mslip_element *)(void *)array(s, sizeof(mslip_element) / sizeof(double));
         }
         call.out[1] = strstr(fields, "call.out[1],") ? array(s, 1) : NULL;
-        size_t sizes[2] = { 0, 0 };
+        size_t sizes[3] = { 0, 0, 0 };
         int32_t kinds[2] = { 0, 0 };
         call.found_harmonics = &sizes[0];
         call.found_samples = &sizes[1];
+        call.found_periods = &sizes[2];
         call.found_directions = &kinds[0];
         call.found_rule = &kinds[1];
         accept(others[other].call(call));

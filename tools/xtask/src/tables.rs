@@ -159,13 +159,13 @@ typedef struct {
     mslip_contact *new_contact;
     mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
+    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples, periods;
     int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
     double *workspace, *table, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
-    size_t *found_harmonics, *found_samples;
+    size_t *found_harmonics, *found_samples, *found_periods;
 } arguments;
 
 #endif

@@ -97,6 +97,7 @@ impl Case {
             normal_force,
             friction_coefficient: FRICTION,
             material: [STEEL; 2],
+            ..EllipticParameters::default()
         };
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;
