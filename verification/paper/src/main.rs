@@ -7,6 +7,7 @@ mod cases;
 mod claims;
 mod drawings;
 mod equations;
+mod periods;
 mod samples;
 mod swing;
 mod table;
