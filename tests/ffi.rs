@@ -567,6 +567,36 @@ fn harmonic_motions() {
     }
 }
 
+/// Any allowed number of periods, with one direction the same bits; the size call returns it.
+#[test]
+fn periods() {
+    let call = call("mslip_element_harmonic_force");
+    for law in Law::all(call) {
+        let mut expected = None;
+        for periods in [0, 1, 3, 1 << 16] {
+            if periods > 3 && law.directions == 2 {
+                continue;
+            }
+            let arguments = Arguments::new(call, &law, Before::Uninitialised);
+            let (workspace, drift) = (arguments.memory(1), arguments.memory(call.arguments.len() - 1));
+            let (length, start) = (workspace.bytes / 8, workspace.start.cast());
+            let (h, s, rule, mut found) = (HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0);
+            unsafe {
+                assert_eq!(mslip_element_workspace_init(law.directions, h, s, rule, periods, length, start), MSLIP_OK);
+                let (none, no_size) = (null_mut(), null_mut());
+                assert_eq!(mslip_element_workspace_size(start, none, no_size, no_size, none, &raw mut found), MSLIP_OK);
+            }
+            assert_eq!(found, periods.max(1));
+            assert_eq!((call.function)(&arguments.slots), MSLIP_OK);
+            let results = results(call, &arguments);
+            if law.directions == 1 {
+                assert_eq!(drift.values::<f64>(), [0.0]);
+                assert_eq!(expected.get_or_insert_with(|| results.clone()), &results);
+            }
+        }
+    }
+}
+
 /// The table of another shape.
 #[test]
 fn tables_of_other_contacts() {

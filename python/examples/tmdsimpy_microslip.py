@@ -4,8 +4,8 @@
     vibration_system.add_nl_force(MicroslipForce(Q, T, microslip.Contact(...)))
 
 `Q` (local, N) gives the local displacements of the N degrees of freedom, `T` (N, local) the forces of the local ones. A
-`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `INPUT_APPROACH` has one or
-two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
+`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `INPUT_APPROACH` has one
+or two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
 undeformed structure.
 
 Conventions. tmdsimpy orders harmonic coefficients by the harmonic, then by the degree of freedom: all c0, all cos1, all sin1, ...;

@@ -148,9 +148,7 @@ class _Workspace(Value):
     rule = Field[int]("UNIFORM_SAMPLING or EVENT_DRIVEN.")
 
     def __init__(self, **given: Any) -> None:
-        arguments = {
-            name: choice(value, name, RULES) if name == "rule" else integer(value, name) for name, value in given.items()
-        }
+        arguments = {name: choice(value, name, RULES) if name == "rule" else integer(value, name) for name, value in given.items()}
         length = getattr(lib, f"{self._calls}_length")(*(arguments[name] for name in arguments if name != "periods"))
         self._memory = ffi.new("double[]", length)
         check(getattr(lib, f"{self._calls}_init")(*arguments.values(), length, self._memory))

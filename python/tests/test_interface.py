@@ -61,8 +61,8 @@ def test_status_codes_and_constants_are_those_of_the_header():
     version = ".".join(str(defined.pop(f"VERSION_{part}")) for part in ("MAJOR", "MINOR", "PATCH"))
     assert microslip.__version__ == version
     assert defined.pop("OK") == 0
-    names = ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "INPUT_APPROACH", "INPUT_NORMAL_FORCE"]
-    for name in names:
+    references, rules = ["CENTRE_POINT", "RIGID_STRIP"], ["UNIFORM_SAMPLING", "EVENT_DRIVEN"]
+    for name in ["ABI_VERSION", *references, *rules, "INPUT_APPROACH", "INPUT_NORMAL_FORCE"]:
         assert getattr(microslip, name) == defined.pop(name)
     assert len(microslip.Parameter) == defined.pop("PARAMETER_COUNT")
     for parameter in microslip.Parameter:
