@@ -79,7 +79,7 @@ static job *job_of(const test_case *c, size_t n)
     j->states = doubles(n * j->state_length);
     j->element_states = doubles(j->elements * j->element_state_length);
     require(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, j->workspace));
-    require(mslip_element_init(&c->parameters, 1, MSLIP_APPROACH, &j->element));
+    require(mslip_element_init(&c->parameters, 1, MSLIP_INPUT_APPROACH, &j->element));
     for (int i = 0; i < KINDS; ++i) {
         mslip_parameters p = c->parameters;
         p.normal_force *= 0.5 + (double)i / KINDS;

@@ -20,6 +20,7 @@ static const struct {
     { MSLIP_BAD_SEMI_AXIS_Y, 11, "semi_axis_y must be finite and > 0" },
     { MSLIP_LENGTH_TOO_SHORT, 12, "requires 2*length > b" },
     { MSLIP_OUT_OF_RANGE, 13, "1e-150 .. 1e150" },
+    { MSLIP_BAD_SPRINGS, 14, "springs must be 0, 8, 12 or 16" },
     { MSLIP_BAD_CONTACT, 20, "invalid contact" },
     { MSLIP_BAD_STATE, 21, "invalid state" },
     { MSLIP_BAD_WORKSPACE, 22, "invalid workspace" },
@@ -41,7 +42,8 @@ static const struct {
     { MSLIP_NOT_AVAILABLE, 40, "not available for this kind of contact" },
     { MSLIP_BAD_INDEX, 41, "an index must refer to one of the n_contacts contacts or n_elements elements" },
     { MSLIP_BAD_DIRECTIONS, 42, "directions must be 1 or 2" },
-    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE" },
+    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE" },
+    { MSLIP_BAD_PERIODS, 44, "periods before the one that counts must be at most 65536" },
     { MSLIP_BAD_ARRAY_SIZE, 90, "too long to be addressed" },
     { MSLIP_BAD_ALIGNMENT, 91, "misaligned pointer" },
 };
@@ -157,7 +159,7 @@ static int is_possible_element(const mslip_element *e)
 {
     const double values[] = { e->composite_modulus, e->normal_force, e->half_width, e->approach, e->normal_stiffness,
                               e->tangential_stiffness };
-    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE, m = e->directions + 1;
+    const int by_force = e->normal_input == MSLIP_INPUT_NORMAL_FORCE, m = e->directions + 1;
     double state[STATE], force[COMPONENTS], tangent[TANGENT], dissipated;
     int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && (m == 2 || m == 3);
     for (size_t i = 0; i < LENGTH(values); ++i) {
@@ -264,7 +266,7 @@ static void test_parameters(int shape)
     }
 }
 
-/* Values that are valid one by one, but not together; and invalid references of the displacement. */
+/* Values that are valid one by one, but not together; invalid references of the displacement, and numbers of springs. */
 static void test_combinations(void)
 {
     const mslip_parameters good = flat_parameters();
@@ -297,6 +299,21 @@ static void test_combinations(void)
         check_rejected(init(ROUNDED), rows[i].status, "mslip_contact_init", "a combination");
         check_rejected(init(ROUNDED_ELEMENT), rows[i].status, "mslip_element_init", "a combination");
     }
+    static const int32_t springs[] = { -8, 1, 13, 17, INT32_MAX, INT32_MIN };
+    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
+    for (size_t i = 0; i < LENGTH(springs); ++i) {
+        *p = good;
+        p->springs = springs[i];
+        save_regions();
+        check_rejected(init(ROUNDED), MSLIP_BAD_SPRINGS, "mslip_contact_init", "springs");
+        check_rejected(init(ROUNDED_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init", "springs");
+        *e = elliptic_parameters();
+        e->springs = springs[i];
+        save_regions();
+        check_rejected(init(ELLIPTIC), MSLIP_BAD_SPRINGS, "mslip_contact_init_elliptic", "springs");
+        check_rejected(init(ELLIPTIC_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init_elliptic", "springs");
+    }
+    save_regions();
     mslip_parameters_default(NULL);
     mslip_elliptic_parameters_default(NULL);
     CHECK(raised() == 0 && nothing_changed_but(NULL));
@@ -407,6 +424,7 @@ static const struct {
     POINTER(table, 8, 1), POINTER(buffer, 8, 1), POINTER(index, 4, 0), POINTER(active, 4, 0), POINTER(out[0], 8, 0),
     POINTER(out[1], 8, 0), POINTER(out[2], 8, 0), POINTER(out[3], 8, 0), POINTER(out[4], 8, 0), POINTER(found_directions, 4, 0),
     POINTER(found_rule, 4, 0), POINTER(found_harmonics, sizeof(size_t), 0), POINTER(found_samples, sizeof(size_t), 0),
+    POINTER(found_periods, sizeof(size_t), 0),
 };
 
 /* Each pointer in turn is misaligned, and NULL if it is required. */
@@ -606,6 +624,7 @@ static void set_up_other(const char *fields, int is_element, int variant)
     call.table_length = mslip_stiffness_table_length();
     call.harmonics = HARMONICS;
     call.samples = SAMPLES;
+    call.periods = PERIODS;
     call.directions = is_element ? directions_of(variant) : 0;
     call.normal_input = normal_input_of(variant);
     call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
@@ -624,6 +643,7 @@ static void set_up_other(const char *fields, int is_element, int variant)
     call.found_harmonics = last(out_regions[1], sizeof *call.found_harmonics);
     call.found_samples = last(out_regions[2], sizeof *call.found_samples);
     call.found_directions = last(out_regions[3], sizeof *call.found_directions);
+    call.found_periods = last(out_regions[0], sizeof *call.found_periods);
     call.found_rule = last(out_regions[4], sizeof *call.found_rule);
     for (size_t i = 0; i < LENGTH(pointers); ++i) {
         if (strstr(fields, pointers[i].name) == NULL) {
@@ -737,6 +757,14 @@ static void test_other(const char *name, int32_t (*function_call)(void), const c
         rejected(&f, is_element ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_RULE, "rule");
         call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
     }
+    if (strstr(fields, "call.periods,")) {
+        static const size_t periods[] = { 65537, SIZE_MAX / 2 + 1, SIZE_MAX };
+        for (size_t i = 0; i < LENGTH(periods); ++i) {
+            call.periods = periods[i];
+            rejected(&f, MSLIP_BAD_PERIODS, "periods");
+        }
+        call.periods = PERIODS;
+    }
     if (strstr(fields, "call.state_length,")) {
         const function *update = find(is_element ? "mslip_element_update" : "mslip_masing_update", is_element ? variant : 0);
         bad_lengths(&f, &call.state_length, least_state(update), MSLIP_STATE_TOO_SHORT);
@@ -754,8 +782,8 @@ static void test_other(const char *name, int32_t (*function_call)(void), const c
     }
     if (strstr(fields, "call.found_rule,")) {
         CHECK(*call.found_harmonics == HARMONICS && *call.found_samples == SAMPLES && *call.found_rule == call.rule);
-        CHECK(!is_element || *call.found_directions == directions_of(variant));
-        call.found_harmonics = call.found_samples = NULL;
+        CHECK(!is_element || (*call.found_directions == directions_of(variant) && *call.found_periods == PERIODS));
+        call.found_harmonics = call.found_samples = call.found_periods = NULL;
         call.found_rule = call.found_directions = NULL;
         CHECK(f.call() == MSLIP_OK);
     }
@@ -802,13 +830,13 @@ static void test_lengths(void)
 static void test_workspaces_of_the_other_law(const function *f)
 {
     const function *other = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
-    double header[2];
+    double header[3];
     set_up(f);
     memcpy(header, call.workspace, sizeof header);
     call.workspace = (double *)(void *)workspace_region->start;
     init_workspace(other, 1, 8, workspace_length_of(other, 1, 8), call.workspace);
     rejected(f, MSLIP_BAD_WORKSPACE, "the workspace of a contact");
-    CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
+    CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
     set_up(other);
     memcpy(call.workspace, header, sizeof header);
     rejected(other, MSLIP_BAD_WORKSPACE, "the workspace of an element");
@@ -820,7 +848,7 @@ static void test_normal_motions(const function *f)
 {
     static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
     const size_t items = items_of(f);
-    const int by_force = normal_input_of(f->rule) == MSLIP_NORMAL_FORCE;
+    const int by_force = normal_input_of(f->rule) == MSLIP_INPUT_NORMAL_FORCE;
     for (size_t k = 0; k < LENGTH(sizes); ++k) {
         for (int shape = 0; shape < 4; ++shape) {
             set_up(f);
@@ -935,7 +963,7 @@ static void test_two_directions(void)
         if (f->takes & TAKES_WORKSPACE) {
             set_up(f);
             call.workspace = (double *)(void *)workspace_region->start;
-            CHECK(mslip_element_workspace_init(directions_of(other), 1, 8, 0, workspace_region->bytes / 8, call.workspace)
+            CHECK(mslip_element_workspace_init(directions_of(other), 1, 8, 0, 0, workspace_region->bytes / 8, call.workspace)
                   == MSLIP_OK);
             rejected(f, MSLIP_BAD_DIRECTIONS, "a workspace with other directions");
         }
@@ -998,8 +1026,8 @@ int main(int argc, char **argv)
         }
     }
     test_lengths();
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_APPROACH));
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_APPROACH));
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_INPUT_APPROACH));
+    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_INPUT_APPROACH));
     test_two_directions();
     test_table();
     test_other_contacts();

@@ -227,7 +227,8 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
     return check_rejected_but(NULL, status, expected, function, what);
 }
 
-enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
+enum { COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
 /* The largest numbers of components of a displacement, and of coefficients. */
 enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
@@ -322,7 +323,8 @@ static inline size_t workspace_length_of(const function *f, size_t harmonics, si
 static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
 {
     CHECK((f->takes & IS_ELEMENT
-               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, PERIODS, length,
+                                              workspace)
                : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
 }
 
@@ -392,7 +394,7 @@ static inline int kind_of_input(const function *f, size_t i)
     const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
     const size_t m = components_of(f);
     const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % m == m - 1;
-    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_APPROACH ? normal : normal + 1;
+    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
 }
 
 /* Lengths of the shortest state, and of one for the reversals or pieces in use. */
@@ -436,7 +438,7 @@ static inline double decaying(int reversals)
 /* A rising load with displacements to and fro, all sticking: each step adds a piece. */
 static inline void fill_element_state(const mslip_element *element, double *state)
 {
-    const int by_force = element->normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = element->normal_input == MSLIP_INPUT_NORMAL_FORCE;
     CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
     for (int k = 0; k < USED_PIECES; ++k) {
         const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);

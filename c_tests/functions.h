@@ -26,13 +26,13 @@ typedef struct {
     mslip_contact *new_contact;
     mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
+    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples, periods;
     int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
     double *workspace, *table, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
-    size_t *found_harmonics, *found_samples;
+    size_t *found_harmonics, *found_samples, *found_periods;
 } arguments;
 
 #endif
@@ -85,14 +85,15 @@ CALL(element_update, call.elements, call.state_length, call.state, call.input, c
 CALL(element_path, call.elements, call.state_length, call.state, call.n, call.input, call.out[0], call.out[1], call.out[2],
      call.out[3])
 CALL(element_tractions, call.elements, call.state_length, call.state, call.n, call.input, call.out[1], call.out[2])
-CALL(element_workspace_init, call.directions, call.harmonics, call.samples, call.rule, call.workspace_length, call.buffer)
+CALL(element_workspace_init, call.directions, call.harmonics, call.samples, call.rule, call.periods, call.workspace_length,
+     call.buffer)
 CALL(element_workspace_size, call.workspace, call.found_directions, call.found_harmonics, call.found_samples,
-     call.found_rule)
-CALL(element_harmonic_force, call.elements, call.workspace, call.input, call.out[1], call.out[2], call.out[3])
+     call.found_rule, call.found_periods)
+CALL(element_harmonic_force, call.elements, call.workspace, call.input, call.out[1], call.out[2], call.out[3], call.out[4])
 CALL(batch_element_update, call.n, call.n_contacts, call.elements, call.index, call.active, call.state_length, call.state,
      call.input, call.out[0], call.out[1], call.out[2], call.out[3])
 CALL(batch_element_harmonic_force, call.n, call.n_contacts, call.elements, call.index, call.active, call.workspace,
-     call.input, call.out[1], call.out[2], call.out[3])
+     call.input, call.out[1], call.out[2], call.out[3], call.out[4])
 #undef CALL
 #endif
 
@@ -126,57 +127,63 @@ ROW(batch_harmonic_force, TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_UNIFOR
      COEFFICIENTS * ITEMS, 0, COEFFICIENTS * ITEMS, COEFFICIENTS * COEFFICIENTS * ITEMS, ITEMS)
 ROW(batch_harmonic_force, TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_EVENT_DRIVEN, NONE, DISPLACEMENT,
      COEFFICIENTS * ITEMS, 0, COEFFICIENTS * ITEMS, COEFFICIENTS * COEFFICIENTS * ITEMS, ITEMS)
-ROW(normal_force, IS_ELEMENT | TAKES_COUNT, MSLIP_APPROACH, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS, ITEMS)
-ROW(normal_force, IS_ELEMENT | TAKES_COUNT, MSLIP_NORMAL_FORCE, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS, ITEMS)
-ROW(normal_force, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_APPROACH, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS, ITEMS)
-ROW(normal_force, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS,
+ROW(normal_force, IS_ELEMENT | TAKES_COUNT, MSLIP_INPUT_APPROACH, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS, ITEMS)
+ROW(normal_force, IS_ELEMENT | TAKES_COUNT, MSLIP_INPUT_NORMAL_FORCE, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS, ITEMS)
+ROW(normal_force, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, APPROACH, ITEMS, 0, ITEMS, ITEMS,
      ITEMS)
-ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, MSLIP_APPROACH, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS, ITEMS, ITEMS)
-ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, MSLIP_NORMAL_FORCE, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS, ITEMS, ITEMS)
-ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_APPROACH, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS, ITEMS,
-     ITEMS)
-ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS,
+ROW(normal_force, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, APPROACH, ITEMS, 0, ITEMS,
      ITEMS, ITEMS)
-ROW(element_update, IS_ELEMENT | TAKES_STATE, MSLIP_APPROACH, NONE, DISPLACEMENT, 2, STATE, 2, 2 * 2, 1)
-ROW(element_update, IS_ELEMENT | TAKES_STATE, MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT, 2, STATE, 2, 2 * 2, 1)
-ROW(element_update, IS_ELEMENT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_APPROACH, NONE, DISPLACEMENT, 3, STATE, 3, 3 * 3, 1)
-ROW(element_update, IS_ELEMENT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT, 3, STATE, 3, 3 * 3, 1)
-ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_APPROACH, NONE, DISPLACEMENT, 2 * ITEMS, STATE, 2 * ITEMS,
-     2 * 2 * ITEMS, ITEMS)
-ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT, 2 * ITEMS, STATE,
+ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, MSLIP_INPUT_APPROACH, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS, ITEMS, ITEMS)
+ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, MSLIP_INPUT_NORMAL_FORCE, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS, ITEMS, ITEMS)
+ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, NORMAL_FORCE, ITEMS, 0, ITEMS,
+     ITEMS, ITEMS)
+ROW(normal_approach, IS_ELEMENT | TAKES_COUNT, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, NORMAL_FORCE, ITEMS, 0,
+     ITEMS, ITEMS, ITEMS)
+ROW(element_update, IS_ELEMENT | TAKES_STATE, MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT, 2, STATE, 2, 2 * 2, 1)
+ROW(element_update, IS_ELEMENT | TAKES_STATE, MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT, 2, STATE, 2, 2 * 2, 1)
+ROW(element_update, IS_ELEMENT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT, 3, STATE, 3, 3 * 3,
+     1)
+ROW(element_update, IS_ELEMENT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT, 3, STATE, 3,
+     3 * 3, 1)
+ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT, 2 * ITEMS, STATE,
      2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
-ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_APPROACH, NONE, DISPLACEMENT, 3 * ITEMS,
-     STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
-ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT,
+ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT, 2 * ITEMS, STATE,
+     2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
+ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT,
      3 * ITEMS, STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
-ROW(element_tractions, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_APPROACH, NONE, POSITION, ITEMS, 0, ITEMS, ITEMS)
-ROW(element_tractions, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_NORMAL_FORCE, NONE, POSITION, ITEMS, 0, ITEMS, ITEMS)
-ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, MSLIP_APPROACH, NONE, DISPLACEMENT, 2 * COEFFICIENTS, 0,
-     2 * COEFFICIENTS, 2 * COEFFICIENTS * 2 * COEFFICIENTS, 1)
-ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT, 2 * COEFFICIENTS, 0,
-     2 * COEFFICIENTS, 2 * COEFFICIENTS * 2 * COEFFICIENTS, 1)
-ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, TWO_DIRECTIONS + MSLIP_APPROACH, NONE, DISPLACEMENT,
-     3 * COEFFICIENTS, 0, 3 * COEFFICIENTS, 3 * COEFFICIENTS * 3 * COEFFICIENTS, 1)
-ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT,
-     3 * COEFFICIENTS, 0, 3 * COEFFICIENTS, 3 * COEFFICIENTS * 3 * COEFFICIENTS, 1)
-ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, MSLIP_APPROACH, NONE, DISPLACEMENT, 2 * ITEMS,
-     ITEMS * STATE, 2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
-ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT,
-     2 * ITEMS, ITEMS * STATE, 2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
-ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, TWO_DIRECTIONS + MSLIP_APPROACH, NONE,
-     DISPLACEMENT, 3 * ITEMS, ITEMS * STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
-ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE,
-     DISPLACEMENT, 3 * ITEMS, ITEMS * STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
-ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_APPROACH, NONE, DISPLACEMENT,
-     2 * COEFFICIENTS * ITEMS, 0, 2 * COEFFICIENTS * ITEMS, 2 * COEFFICIENTS * 2 * COEFFICIENTS * ITEMS, ITEMS)
-ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_NORMAL_FORCE, NONE,
-     DISPLACEMENT, 2 * COEFFICIENTS * ITEMS, 0, 2 * COEFFICIENTS * ITEMS, 2 * COEFFICIENTS * 2 * COEFFICIENTS * ITEMS, ITEMS)
-ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, TWO_DIRECTIONS + MSLIP_APPROACH,
-     NONE, DISPLACEMENT, 3 * COEFFICIENTS * ITEMS, 0, 3 * COEFFICIENTS * ITEMS, 3 * COEFFICIENTS * 3 * COEFFICIENTS * ITEMS,
+ROW(element_path, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT,
+     3 * ITEMS, STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
+ROW(element_tractions, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_INPUT_APPROACH, NONE, POSITION, ITEMS, 0, ITEMS, ITEMS)
+ROW(element_tractions, IS_ELEMENT | TAKES_COUNT | TAKES_STATE, MSLIP_INPUT_NORMAL_FORCE, NONE, POSITION, ITEMS, 0, ITEMS,
      ITEMS)
+ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT, 2 * COEFFICIENTS, 0,
+     2 * COEFFICIENTS, 2 * COEFFICIENTS * 2 * COEFFICIENTS, 1, 1)
+ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT, 2 * COEFFICIENTS, 0,
+     2 * COEFFICIENTS, 2 * COEFFICIENTS * 2 * COEFFICIENTS, 1, 1)
+ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT,
+     3 * COEFFICIENTS, 0, 3 * COEFFICIENTS, 3 * COEFFICIENTS * 3 * COEFFICIENTS, 1, 1)
+ROW(element_harmonic_force, IS_ELEMENT | TAKES_WORKSPACE, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT,
+     3 * COEFFICIENTS, 0, 3 * COEFFICIENTS, 3 * COEFFICIENTS * 3 * COEFFICIENTS, 1, 1)
+ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT,
+     2 * ITEMS, ITEMS * STATE, 2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
+ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT,
+     2 * ITEMS, ITEMS * STATE, 2 * ITEMS, 2 * 2 * ITEMS, ITEMS)
+ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE,
+     DISPLACEMENT, 3 * ITEMS, ITEMS * STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
+ROW(batch_element_update, IS_ELEMENT | TAKES_COUNT | TAKES_STATE | IS_BATCH, TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE,
+     NONE, DISPLACEMENT, 3 * ITEMS, ITEMS * STATE, 3 * ITEMS, 3 * 3 * ITEMS, ITEMS)
+ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_INPUT_APPROACH, NONE,
+     DISPLACEMENT, 2 * COEFFICIENTS * ITEMS, 0, 2 * COEFFICIENTS * ITEMS, 2 * COEFFICIENTS * 2 * COEFFICIENTS * ITEMS,
+     ITEMS, ITEMS)
+ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH, MSLIP_INPUT_NORMAL_FORCE, NONE,
+     DISPLACEMENT, 2 * COEFFICIENTS * ITEMS, 0, 2 * COEFFICIENTS * ITEMS, 2 * COEFFICIENTS * 2 * COEFFICIENTS * ITEMS,
+     ITEMS, ITEMS)
 ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH,
-     TWO_DIRECTIONS + MSLIP_NORMAL_FORCE, NONE, DISPLACEMENT, 3 * COEFFICIENTS * ITEMS, 0, 3 * COEFFICIENTS * ITEMS,
-     3 * COEFFICIENTS * 3 * COEFFICIENTS * ITEMS, ITEMS)
+     TWO_DIRECTIONS + MSLIP_INPUT_APPROACH, NONE, DISPLACEMENT, 3 * COEFFICIENTS * ITEMS, 0, 3 * COEFFICIENTS * ITEMS,
+     3 * COEFFICIENTS * 3 * COEFFICIENTS * ITEMS, ITEMS, ITEMS)
+ROW(batch_element_harmonic_force, IS_ELEMENT | TAKES_COUNT | TAKES_WORKSPACE | IS_BATCH,
+     TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE, NONE, DISPLACEMENT, 3 * COEFFICIENTS * ITEMS, 0, 3 * COEFFICIENTS * ITEMS,
+     3 * COEFFICIENTS * 3 * COEFFICIENTS * ITEMS, ITEMS, ITEMS)
 #undef ROW
 #endif
 
@@ -196,8 +203,9 @@ OTHER(element_check, call.elements)
 OTHER(element_state_init, call.directions, call.state_length, call.buffer)
 OTHER(element_state_check, call.directions, call.state_length, call.state)
 OTHER(element_state_error, call.directions, call.state_length, call.state, call.out[1])
-OTHER(element_workspace_init, call.directions, call.harmonics, call.samples, call.rule, call.workspace_length, call.buffer)
+OTHER(element_workspace_init, call.directions, call.harmonics, call.samples, call.rule, call.periods, call.workspace_length,
+     call.buffer)
 OTHER(element_workspace_size, call.workspace, call.found_directions, call.found_harmonics, call.found_samples,
-     call.found_rule)
+     call.found_rule, call.found_periods)
 #undef OTHER
 #endif

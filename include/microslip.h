@@ -70,6 +70,9 @@
 // parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
 #define MSLIP_OUT_OF_RANGE 13
 
+// springs must be 0, 8, 12 or 16
+#define MSLIP_BAD_SPRINGS 14
+
 // invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
 #define MSLIP_BAD_CONTACT 20
 
@@ -133,8 +136,11 @@
 // directions must be 1 or 2, equal for all elements, states and workspaces of a call
 #define MSLIP_BAD_DIRECTIONS 42
 
-// normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
+// normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
 #define MSLIP_BAD_NORMAL_INPUT 43
+
+// the number of periods before the one that counts must be at most 65536
+#define MSLIP_BAD_PERIODS 44
 
 // array sizes do not agree (in Fortran), or an array is too long to be addressed
 #define MSLIP_BAD_ARRAY_SIZE 90
@@ -143,7 +149,7 @@
 #define MSLIP_BAD_ALIGNMENT 91
 
 // Version of this interface: incremented whenever a name, a meaning or a size changes.
-#define MSLIP_ABI_VERSION 3
+#define MSLIP_ABI_VERSION 4
 
 // Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 #define MSLIP_CENTRE_POINT 0
@@ -158,10 +164,10 @@
 #define MSLIP_EVENT_DRIVEN 1
 
 // The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
-#define MSLIP_APPROACH 0
+#define MSLIP_INPUT_APPROACH 0
 
 // The normal component of a displacement is the normal force [N] itself.
-#define MSLIP_NORMAL_FORCE 1
+#define MSLIP_INPUT_NORMAL_FORCE 1
 
 // Row of a sensitivity: derivative with respect to the normal force N.
 #define MSLIP_BY_NORMAL_FORCE 0
@@ -211,8 +217,8 @@ typedef struct mslip_parameters {
     struct mslip_material material[2];
     // `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     int32_t displacement_reference;
-    // Not read; set to 0.
-    int32_t reserved;
+    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    int32_t springs;
 } mslip_parameters;
 
 // Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -227,6 +233,10 @@ typedef struct mslip_elliptic_parameters {
     double friction_coefficient;
     // The two bodies.
     struct mslip_material material[2];
+    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    int32_t springs;
+    // Not read; set to 0.
+    int32_t reserved;
 } mslip_elliptic_parameters;
 
 // A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
@@ -267,10 +277,10 @@ typedef struct mslip_element {
     double tangential_stiffness;
     // Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     int32_t directions;
-    // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[5533];
+    double reserved[5534];
 } mslip_element;
 
 #ifdef __cplusplus
@@ -603,20 +613,23 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       int32_t rule);
 
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-// needs its own.
+// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
+// With one direction more than one changes nothing, and costs nothing.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
-// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
 // Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_element_workspace_init(int32_t directions,
                                      size_t harmonics,
                                      size_t samples,
                                      int32_t rule,
+                                     size_t periods,
                                      size_t workspace_length,
                                      double *workspace);
 
-// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
+// Number of directions, of harmonics and of samples, rule, and number of periods before the one that counts (never 0), of an
+// initialised workspace of elements. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
 //
@@ -625,7 +638,8 @@ int32_t mslip_element_workspace_size(const double *workspace,
                                      int32_t *directions,
                                      size_t *harmonics,
                                      size_t *samples,
-                                     int32_t *rule);
+                                     int32_t *rule,
+                                     size_t *periods);
 
 // Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
 // component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m]
@@ -634,9 +648,14 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
 //
 // Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
-// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
-// second one counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to another sample, and
-// the mean tangential force may depend on the start.
+// tangential displacement, is displaced to that sample at constant normal force, and advances from there through the periods of the
+// workspace and one more, which counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to
+// another sample, and the mean tangential force may depend on the start.
+//
+// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
+// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
+// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With the default
+// number of periods the one before is the first, and the drift contains the first loading. A drift is not an error.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
@@ -649,7 +668,8 @@ int32_t mslip_element_harmonic_force(const struct mslip_element *element,
                                      const double *displacement,
                                      double *force,
                                      double *jacobian,
-                                     double *dissipated);
+                                     double *dissipated,
+                                     double *drift);
 
 // Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
 // with the rule of the workspace. displacement [m] and force [N] are 2H+1 coefficients, [c0, cos1, sin1, cos2, sin2, ...];
@@ -695,7 +715,7 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
 // force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
 // is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
-// normal_input is MSLIP_APPROACH, w is the normal approach [m], or MSLIP_NORMAL_FORCE, w is the normal force [N].
+// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach [m], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
 //
 // In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 // directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -732,7 +752,7 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
 int32_t mslip_element_check(const struct mslip_element *element);
 
 // The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An
-// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+// approach <= 0 gives 0, 0, 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 // contact would be too wide for its length.
@@ -938,7 +958,7 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *dissipated);
 
 // mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
-// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one. Item i uses
 // elements[index[i]], or elements[i] if index is NULL. If active is not NULL and active[i] is 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
@@ -955,7 +975,8 @@ int32_t mslip_batch_element_harmonic_force(size_t n,
                                            const double *displacement,
                                            double *force,
                                            double *jacobian,
-                                           double *dissipated);
+                                           double *dissipated,
+                                           double *drift);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -81,6 +81,8 @@ pub struct Element {
     lateral: [f64; 2],
     shift: f64,
     size: f64,
+    /// The number of springs of the parameters; 0: the default.
+    pub springs_requested: u64,
     pub(crate) springs: Springs,
 }
 
@@ -171,6 +173,7 @@ impl Element {
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
         self.init(&flat.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
+        self.springs_requested = parameters.springs.unsigned_abs().into();
         (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
         (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
         Ok(())
@@ -202,6 +205,7 @@ impl Element {
         self.init(&ellipse.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
+        self.springs_requested = parameters.springs.unsigned_abs().into();
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
         Ok(())
@@ -693,6 +697,7 @@ const EMPTY: Element = Element {
     lateral: [0.0; 2],
     shift: 0.0,
     size: 0.0,
+    springs_requested: 0,
     springs: Springs::EMPTY,
 };
 

@@ -41,6 +41,7 @@ fn contacts() -> [(&'static str, Contact); 4] {
         normal_force: 100.0,
         friction_coefficient: 0.5,
         material,
+        ..EllipticParameters::default()
     };
     let sphere = Contact::elliptic(&sphere).unwrap();
     [("cylinder", cylinder), ("flat", flat(2e-4, 0.02)), ("slim cylinder", slim), ("sphere", sphere)]

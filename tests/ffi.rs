@@ -198,6 +198,9 @@ fn lengths() {
                 Kind::Size if argument.name == "harmonics" => {
                     rejected_at(argument.status, &[0, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
+                Kind::Size if argument.name == "periods" => {
+                    rejected_at(argument.status, &[(1 << 16) + 1, usize::MAX]);
+                }
                 Kind::Size => {
                     rejected_at(argument.status, &[0, 2 * HARMONICS, (1 << 24) + 1, usize::MAX, usize::MAX / 2 + 1]);
                 }
@@ -228,7 +231,7 @@ fn choices() {
 
 /// The invalid values of a quantity, and their status.
 fn invalid(call: &Call, law: &Law, argument: &Argument, i: usize) -> Vec<(f64, i32)> {
-    let by_force = law.normal_input == MSLIP_NORMAL_FORCE && !argument.extents.contains('k');
+    let by_force = law.normal_input == MSLIP_INPUT_NORMAL_FORCE && !argument.extents.contains('k');
     let is_normal_force = law.is_normal(call, argument, i) && by_force;
     let status = if is_normal_force { MSLIP_BAD_NORMAL_FORCE } else { argument.status };
     let mut values: Vec<(f64, i32)> = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|value| (value, status)).into();
@@ -293,8 +296,8 @@ fn memory() {
                     }
                 }
                 Workspace => {
-                    let header = law.workspace(call).values::<f64>()[..2].to_vec();
-                    for (word, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0)] {
+                    let header = law.workspace(call).values::<f64>()[..3].to_vec();
+                    for (word, value) in [(0, 0.0), (0, f64::NAN), (1, 0.5), (1, f64::NAN), (1, -1.0), (2, 0.0)] {
                         let mut header = header.clone();
                         header[word] = value;
                         words(&header);
@@ -512,7 +515,7 @@ fn paths() {
 #[test]
 fn slip_in_two_directions() {
     let law = calls::element(true, |element| unsafe {
-        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_APPROACH, element)
+        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_INPUT_APPROACH, element)
     });
     let path = call("mslip_element_path");
     let [u, w] = [law.displacement, law.normal];
@@ -540,7 +543,7 @@ fn harmonic_motions() {
                     let (n, workspace) = (2 * HARMONICS + 1, arguments.memory(1));
                     let (length, start) = (workspace.bytes / 8, workspace.start.cast());
                     let status = if call.has(Element) {
-                        unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, length, start) }
+                        unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, 0, length, start) }
                     } else {
                         unsafe { mslip_harmonic_workspace_init(1, samples, law.rule, length, start) }
                     };
@@ -551,7 +554,7 @@ fn harmonic_motions() {
                         values.extend([motion[3] * law.normal, motion[4] * law.normal, 0.0]);
                     }
                     arguments.set(2, Memory::of(&values));
-                    let by_force = call.has(Element) && law.normal_input == MSLIP_NORMAL_FORCE;
+                    let by_force = call.has(Element) && law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
                     let is_negative = by_force && motion[4] > motion[3];
                     let expected = if is_negative { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_OK };
                     assert_eq!((call.function)(&arguments.slots), expected, "{}: {motion:?}", call.name);
@@ -559,6 +562,36 @@ fn harmonic_motions() {
                         results(call, &arguments);
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Any allowed number of periods, with one direction the same bits; the size call returns it.
+#[test]
+fn periods() {
+    let call = call("mslip_element_harmonic_force");
+    for law in Law::all(call) {
+        let mut expected = None;
+        for periods in [0, 1, 3, 1 << 16] {
+            if periods > 3 && law.directions == 2 {
+                continue;
+            }
+            let arguments = Arguments::new(call, &law, Before::Uninitialised);
+            let (workspace, drift) = (arguments.memory(1), arguments.memory(call.arguments.len() - 1));
+            let (length, start) = (workspace.bytes / 8, workspace.start.cast());
+            let (h, s, rule, mut found) = (HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0);
+            unsafe {
+                assert_eq!(mslip_element_workspace_init(law.directions, h, s, rule, periods, length, start), MSLIP_OK);
+                let (none, no_size) = (null_mut(), null_mut());
+                assert_eq!(mslip_element_workspace_size(start, none, no_size, no_size, none, &raw mut found), MSLIP_OK);
+            }
+            assert_eq!(found, periods.max(1));
+            assert_eq!((call.function)(&arguments.slots), MSLIP_OK);
+            let results = results(call, &arguments);
+            if law.directions == 1 {
+                assert_eq!(drift.values::<f64>(), [0.0]);
+                assert_eq!(expected.get_or_insert_with(|| results.clone()), &results);
             }
         }
     }

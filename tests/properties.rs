@@ -44,6 +44,7 @@ fn contact() -> impl Strategy<Value = Contact> {
                 normal_force,
                 friction_coefficient,
                 material,
+                ..EllipticParameters::default()
             };
             Contact::elliptic(&parameters).unwrap()
         },

@@ -7,6 +7,9 @@ use common::Random;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
+use microslip::two_directions::harmonic_force::{
+    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+};
 use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -21,7 +24,7 @@ fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Ele
         friction_coefficient: 0.4,
         material: [STEEL; 2],
         displacement_reference: CENTRE_POINT,
-        reserved: 0,
+        springs: 0,
     };
     Element::rounded_flat(&parameters, directions, input).unwrap()
 }
@@ -37,6 +40,7 @@ fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input:
         normal_force: 1000.0,
         friction_coefficient: 0.4,
         material: [STEEL; 2],
+        ..EllipticParameters::default()
     };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
@@ -291,6 +295,7 @@ fn mirror_images_and_other_units_give_the_same_bits() {
             normal_force: 1000.0 * newton,
             friction_coefficient: 0.4,
             material,
+            ..EllipticParameters::default()
         };
         let (element, scaled) = (
             ellipse_of(1e-3, 3e-3, Directions::Two, input),
@@ -399,6 +404,144 @@ fn sticking_steps_divide_and_separation_erases() {
             }
             assert!(old.state.iter().zip(&new.state).all(|(one, two)| one == two));
             assert_eq!(old.to([0.4 * unit, -0.1 * unit, full]), new.to([0.4 * unit, -0.1 * unit, full]));
+        }
+    }
+}
+
+const HARMONICS: usize = 1;
+const SAMPLES: usize = 32;
+/// Of one component, and of all.
+const ROW: usize = 2 * HARMONICS + 1;
+const COEFFICIENTS: usize = 3 * ROW;
+
+struct Harmonic {
+    force: [f64; COEFFICIENTS],
+    jacobian: [f64; COEFFICIENTS * COEFFICIENTS],
+    dissipated: f64,
+    drift: f64,
+}
+
+fn harmonic(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Harmonic {
+    let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
+    workspace_init(HARMONICS, SAMPLES, periods, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    let mut result = Harmonic {
+        force: [f64::NAN; COEFFICIENTS],
+        jacobian: [f64::NAN; COEFFICIENTS * COEFFICIENTS],
+        dissipated: f64::NAN,
+        drift: f64::NAN,
+    };
+    let output = HarmonicOutput {
+        force: Some(&mut result.force),
+        jacobian: Some(&mut result.jacobian),
+        dissipated: Some(&mut result.dissipated),
+        drift: Some(&mut result.drift),
+    };
+    harmonic_force(element, &mut workspace, motion, output).unwrap();
+    result
+}
+
+fn by_approach_and_force() -> Vec<Element> {
+    vec![flat(1e-4, NormalInput::Approach, Directions::Two), ellipse(3.0)]
+}
+
+/// A mean displacement along x beside a vibration across it, under a normal input that swings about 0.7 of that of the tables.
+fn shaken(element: &Element, swing: f64) -> [f64; COEFFICIENTS] {
+    let (u, normal) = (unit(element), |share: f64| normal_input(element, share));
+    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(0.7), normal(0.7 + swing) - normal(0.7), 0.0]
+}
+
+/// The forces at the samples of a motion, by steps: those of the last period and of the one before.
+fn walked(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> [Vec<[f64; 3]>; 2] {
+    let at = |sample: usize| {
+        let (sin, cos) = (TAU * sample as f64 / SAMPLES as f64).sin_cos();
+        [0, 1, 2].map(|c| motion[c * ROW] + motion[c * ROW + 1] * cos + motion[c * ROW + 2] * sin)
+    };
+    let first = (0..SAMPLES).fold(0, |first, sample| if at(sample)[2] > at(first)[2] { sample } else { first });
+    let mut contact = Contact::new(element);
+    contact.to([0.0, 0.0, at(first)[2]]);
+    contact.to(at(first));
+    let mut forces = [vec![[0.0; 3]; SAMPLES], vec![[0.0; 3]; SAMPLES]];
+    for _ in 0..=periods {
+        forces.swap(0, 1);
+        for sample in (first + 1..=first + SAMPLES).map(|sample| sample % SAMPLES) {
+            forces[0][sample] = contact.to(at(sample)).force;
+        }
+    }
+    forces
+}
+
+#[test]
+fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
+    for element in by_approach_and_force() {
+        for swing in [0.0, 0.25] {
+            let motion = shaken(&element, swing);
+            let mut before = f64::INFINITY;
+            for periods in [1, 2, 4, 8] {
+                let Harmonic { force, drift, .. } = harmonic(&element, periods, &motion);
+                let [last, other] = walked(&element, periods, &motion);
+                let slip_force = element.friction_coefficient * last.iter().fold(0.0, |n: f64, force| n.max(force[2]));
+                let apart = |one: &[f64; 3], two: &[f64; 3]| (one[0] - two[0]).hypot(one[1] - two[1]);
+                let expected =
+                    last.iter().zip(&other).map(|(one, two)| apart(one, two)).fold(0.0, f64::max) / slip_force;
+                // Steps in the same order: they differ by the roundings of the samples.
+                assert!((drift - expected).abs() < 1e-10, "{swing} {periods}: {drift:e} {expected:e}");
+                let mean = last.iter().map(|force| force[0]).sum::<f64>() / SAMPLES as f64;
+                assert!((force[0] - mean).abs() < 1e-10 * slip_force, "{swing} {periods}: {} {mean}", force[0]);
+                assert!(drift < 0.8 * before, "{swing} {periods}: {drift:e} after {before:e}");
+                before = drift;
+            }
+            let [by_default, one, many] = [0, 1, 400].map(|periods| harmonic(&element, periods, &motion));
+            assert_eq!((by_default.force, by_default.dissipated), (one.force, one.dissipated));
+            // Constant normal force: that much of the energy is the shaking out.
+            let excess = one.dissipated / many.dissipated - 1.0;
+            assert!(many.drift < 1e-4 && (swing > 0.0 || excess > 0.5), "{:e} {excess}", many.drift);
+        }
+    }
+}
+
+#[test]
+fn nothing_drifts_on_a_line_or_after_separation() {
+    let element = ellipse(1.0);
+    let (u, full) = (unit(&element), element.normal_force);
+    let opening = [0.4 * u, 0.05 * u, 0.0, 0.0, 0.45 * u, 0.1 * u, 0.4 * full, 0.4 * full, 0.0];
+    let line = [0.4 * u, 0.05 * u, 0.4 * u, 0.0, 0.0, 0.0, 0.5 * full, 0.2 * full, 0.0];
+    for motion in [&opening, &line] {
+        let one = harmonic(&element, 1, motion);
+        for periods in [1, 2, 7] {
+            let more = harmonic(&element, periods, motion);
+            assert_eq!((more.drift, more.force, more.dissipated), (0.0, one.force, one.dissipated));
+            // The springs of a motion on a line, which give the stiffness across it, are those of the periods.
+            assert!(more.jacobian == one.jacobian || motion == &line);
+        }
+    }
+    // By steps, the first period of the opening contact contains the first loading, all others are equal.
+    let [[one, before], [last, other]] = [1, 2].map(|periods| walked(&element, periods, &opening));
+    assert!(one != before && one == last && last == other);
+}
+
+#[test]
+fn jacobians_are_derivatives_after_any_number_of_periods() {
+    for element in by_approach_and_force() {
+        let (motion, slip_force) = (shaken(&element, 0.25), slip_force(&element));
+        for periods in [0, 1, 3, 10] {
+            let jacobian = harmonic(&element, periods, &motion).jacobian;
+            for j in 0..COEFFICIENTS {
+                let scale = if j < 2 * ROW { unit(&element) } else { normal_input(&element, 1.0) };
+                let moved = |h: f64| {
+                    let mut motion = motion;
+                    motion[j] += h;
+                    harmonic(&element, periods, &motion).force
+                };
+                let h = 1e-6 * scale;
+                let (high, low) = (moved(h), moved(-h));
+                for i in 0..COEFFICIENTS {
+                    let difference = (high[i] - low[i]) / (2.0 * h);
+                    // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-10 of the force.
+                    let error = (difference - jacobian[i + COEFFICIENTS * j]).abs() * scale / slip_force;
+                    assert!(error < 1e-6, "{periods} periods, entry {i} {j}: {error:e}");
+                }
+            }
         }
     }
 }

@@ -31,6 +31,8 @@ const SPHERE: EllipticParameters = EllipticParameters {
     normal_force: 800.0,
     friction_coefficient: 0.5,
     material: [STEEL; 2],
+    springs: 0,
+    reserved: 0,
 };
 
 /// Cylinder, flats with a/b of 0.5 and 0.97, sphere.
@@ -63,7 +65,14 @@ fn element_of_row(row: &Row, normal_force: f64, input: NormalInput) -> Element {
     let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
     let element = if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
-        let ellipse = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
+        let ellipse = EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient,
+            material,
+            ..EllipticParameters::default()
+        };
         Element::elliptic(&ellipse, Directions::One, input)
     } else {
         let flat = Parameters { normal_force, friction_coefficient, material, ..geometry(row) };

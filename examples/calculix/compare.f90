@@ -68,7 +68,7 @@ contains
     integer, intent(in) :: directions
     integer :: status
 
-    call mslip_element_init(parameters_of('element.inp'), directions, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters_of('element.inp'), directions, MSLIP_INPUT_APPROACH, element, status)
     call require(status)
     m = directions + 1
   end subroutine initialise_element

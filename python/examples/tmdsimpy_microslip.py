@@ -4,8 +4,8 @@
     vibration_system.add_nl_force(MicroslipForce(Q, T, microslip.Contact(...)))
 
 `Q` (local, N) gives the local displacements of the N degrees of freedom, `T` (N, local) the forces of the local ones. A
-`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `APPROACH` has one or
-two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
+`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `INPUT_APPROACH` has one
+or two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
 undeformed structure.
 
 Conventions. tmdsimpy orders harmonic coefficients by the harmonic, then by the degree of freedom: all c0, all cos1, all sin1, ...;
@@ -37,8 +37,8 @@ class MicroslipForce(HystereticForce):
             raise ValueError(f"T must have the shape {self.Q.shape[::-1]}, not {self.T.shape}")
         self.unloaded_at_mean = unloaded_at_mean
         self.is_element = isinstance(law, microslip.Element)
-        if self.is_element and law.normal_input != microslip.APPROACH:
-            raise ValueError("the normal input of the element must be APPROACH")
+        if self.is_element and law.normal_input != microslip.INPUT_APPROACH:
+            raise ValueError("the normal input of the element must be INPUT_APPROACH")
         self.components = law.directions + 1 if self.is_element else 1
         self.items, rest = divmod(self.Q.shape[0], self.components)
         if rest:

@@ -32,7 +32,7 @@ SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 REFERENCE = {"displacement_reference": 1}
-DIRECTIONS = {"directions": 1, "normal_input": 0}
+DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 
@@ -79,7 +79,7 @@ def valid():
         "ElementState": {"directions": 1, "pieces": 8},
         "ElementState.from_bytes": {"data": bytes(element_state), "directions": 1},
         "ElementState.copy": {},
-        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0},
+        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0, "periods": 3},
         "ElementArray": {"elements": [element]},
         "ElementArray.states": {"n": 2, "pieces": 8},
         "ElementArray.update": {
@@ -210,7 +210,7 @@ def test_constants_are_given_by_number_or_word():
         for make in (microslip.Contact, microslip.Element):
             assert make(**FLAT, displacement_reference=wanted) == make(**FLAT, displacement_reference=word)
     assert microslip.Workspace(1, 8, "event_driven").rule == microslip.EVENT_DRIVEN
-    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.NORMAL_FORCE
+    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.INPUT_NORMAL_FORCE
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -47,8 +47,8 @@ def test_wrong_shapes_are_rejected():
         MicroslipForce(np.ones((1, 5)), np.ones((1, 5)), contact)
     with pytest.raises(ValueError, match="rows for each element"):
         MicroslipForce(np.ones((3, 5)), np.ones((5, 3)), elements[0])
-    with pytest.raises(ValueError, match="must be APPROACH"):
-        MicroslipForce(np.ones((2, 5)), np.ones((5, 2)), microslip.Element(**CONTACT, normal_input=microslip.NORMAL_FORCE))
+    with pytest.raises(ValueError, match="must be INPUT_APPROACH"):
+        MicroslipForce(np.ones((2, 5)), np.ones((5, 2)), microslip.Element(**CONTACT, normal_input=microslip.INPUT_NORMAL_FORCE))
 
 
 def test_mean_displacement():

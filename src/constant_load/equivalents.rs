@@ -301,6 +301,7 @@ mod tests {
             normal_force: 1e-10,
             friction_coefficient: 1e-10,
             material: [Material { young_modulus: 1e60, poisson_ratio: 0.3 }; 2],
+            ..EllipticParameters::default()
         })
         .unwrap();
         let of = |times: f64| jenkins(&contact, times * contact.slip_displacement).unwrap();

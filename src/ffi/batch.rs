@@ -264,7 +264,7 @@ unsafe fn harmonic_forces<L: Law, W>(
     workspace: &mut W,
     one: usize,
     displacement: *const f64,
-    [force, jacobian, dissipated]: [*mut f64; 3],
+    [force, jacobian, dissipated, drift]: [*mut f64; 4],
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -273,7 +273,8 @@ unsafe fn harmonic_forces<L: Law, W>(
     // SAFETY: by the function's contract.
     let (displacement, mut outputs) = unsafe {
         let (force, jacobian) = (output(force, all)?, output(jacobian, square)?);
-        (input(displacement, all)?, Outputs { force, jacobian, dissipated: output(dissipated, items.n)? })
+        let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
+        (input(displacement, all)?, Outputs { force, jacobian, dissipated, drift })
     };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
     items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
@@ -286,17 +287,19 @@ struct Outputs<'a> {
     force: Option<&'a mut [f64]>,
     jacobian: Option<&'a mut [f64]>,
     dissipated: Option<&'a mut [f64]>,
+    drift: Option<&'a mut [f64]>,
 }
 
 impl Outputs<'_> {
     /// Outputs of item i. Not inlined, to keep the loop over the items small.
     #[inline(never)]
     fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
-        let Outputs { force, jacobian, dissipated } = self;
+        let Outputs { force, jacobian, dissipated, drift } = self;
         HarmonicOutput {
             force: part(force, i, coefficients),
             jacobian: part(jacobian, i, coefficients * coefficients),
             dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
+            drift: part(drift, i, 1).and_then(<[f64]>::first_mut),
         }
     }
 }
@@ -401,7 +404,8 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         // SAFETY: by the function's contract.
         unsafe {
             let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
+            let (mut workspace, outputs) =
+                (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
             let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
             harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
         }
@@ -450,7 +454,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
 }
 
 /// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
-/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one. Item i uses
 /// elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
@@ -471,12 +475,13 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     force: *mut f64,
     jacobian: *mut f64,
     dissipated: *mut f64,
+    drift: *mut f64,
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            let outputs = [force, jacobian, dissipated];
+            let outputs = [force, jacobian, dissipated, drift];
             with_law!(pointers::element_workspace_size(workspace)?.0, L => {
                 let mut workspace = pointers::element_workspace::<L>(workspace)?;
                 let one = L::COMPONENTS * L::coefficients(&workspace);

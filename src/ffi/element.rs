@@ -3,7 +3,7 @@
 use super::pointers::{
     self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
 };
-use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
+use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::{ElementLaw, PathOutput, Requested};
@@ -42,8 +42,8 @@ unsafe fn initialise<P>(
         let element = unsafe { element.cast::<Element>().as_mut() }.ok_or(Error::NullPointer)?;
         let directions = directions_of(directions)?;
         let normal_input = match normal_input {
-            MSLIP_APPROACH => NormalInput::Approach,
-            MSLIP_NORMAL_FORCE => NormalInput::Force,
+            MSLIP_INPUT_APPROACH => NormalInput::Approach,
+            MSLIP_INPUT_NORMAL_FORCE => NormalInput::Force,
             _ => return Err(Error::BadNormalInput),
         };
         init(element, parameters, directions, normal_input)?;
@@ -56,7 +56,7 @@ unsafe fn initialise<P>(
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
 /// force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
 /// is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
-/// normal_input is MSLIP_APPROACH, w is the normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
+/// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach \[m\], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 /// directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
-/// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+/// approach <= 0 gives 0, 0, 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 /// contact would be too wide for its length.

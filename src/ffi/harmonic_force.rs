@@ -1,12 +1,12 @@
 //! Harmonic balance: workspaces and harmonic force.
 
 use super::element::directions_of;
-use super::pointers::{self, check_alignment, input, memory, output, status, with_law};
+use super::pointers::{self, check_alignment, input, memory, output, outputs, status, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::fourier::workspace::WorkspaceLayout;
+use crate::fourier::workspace::{Size, WorkspaceLayout};
 use crate::law::ElementLaw;
 use crate::parameters::PARAMETERS;
 use libc::size_t;
@@ -109,7 +109,7 @@ pub extern "C" fn mslip_element_workspace_length(
 ) -> size_t {
     let length = |directions| {
         let length = with_law!(directions, L => {
-            <L as ElementLaw>::Layout::new(harmonics, samples).map(|layout| layout.length())
+            <L as ElementLaw>::Layout::new(Size::new(harmonics, samples)).map(|layout| layout.length())
         });
         length.unwrap_or(0)
     };
@@ -117,10 +117,11 @@ pub extern "C" fn mslip_element_workspace_length(
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-/// needs its own.
+/// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
+/// With one direction more than one changes nothing, and costs nothing.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
-/// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+/// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 ///
 /// # Safety
 /// `workspace` is NULL or valid for workspace_length doubles.
@@ -130,6 +131,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     harmonics: size_t,
     samples: size_t,
     rule: i32,
+    periods: size_t,
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
@@ -137,12 +139,14 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
         let directions = check_element_rule(directions, rule)?;
         // SAFETY: by the function's contract.
         let memory = unsafe { memory(workspace_length, workspace) }?;
-        with_law!(directions, L => <L as ElementLaw>::Layout::init(harmonics, samples, memory))
+        let size = Size::new(harmonics, samples).with_periods(periods);
+        with_law!(directions, L => <L as ElementLaw>::Layout::init(size, memory))
     };
     status(init())
 }
 
-/// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
+/// Number of directions, of harmonics and of samples, rule, and number of periods before the one that counts (never 0), of an
+/// initialised workspace of elements. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
 ///
@@ -155,9 +159,10 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     harmonics: *mut size_t,
     samples: *mut size_t,
     rule: *mut i32,
+    periods: *mut size_t,
 ) -> i32 {
     let read = || {
-        [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
+        [harmonics, samples, periods].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
         // SAFETY: by the function's contract.
         let (found, size, _) = unsafe { pointers::element_workspace_size(workspace) }?;
@@ -167,6 +172,7 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
             harmonics.as_mut().into_iter().for_each(|output| *output = size.harmonics);
             samples.as_mut().into_iter().for_each(|output| *output = size.samples);
             rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
+            periods.as_mut().into_iter().for_each(|output| *output = size.periods);
         }
         Ok(())
     };
@@ -180,9 +186,14 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
 ///
 /// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
-/// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
-/// second one counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to another sample, and
-/// the mean tangential force may depend on the start.
+/// tangential displacement, is displaced to that sample at constant normal force, and advances from there through the periods of the
+/// workspace and one more, which counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to
+/// another sample, and the mean tangential force may depend on the start.
+///
+/// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
+/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
+/// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With the default
+/// number of periods the one before is the first, and the drift contains the first loading. A drift is not an error.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
@@ -199,11 +210,12 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     force: *mut f64,
     jacobian: *mut f64,
     dissipated: *mut f64,
+    drift: *mut f64,
 ) -> i32 {
     let compute = || {
         // SAFETY: by the function's contract.
         unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
+            let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated, drift]);
             with_law!(element.tangential_directions(), L => {
                 element_harmonic_force::<L>(element, workspace, displacement, outputs)
             })
@@ -218,7 +230,7 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
     element: &Element,
     workspace: *mut f64,
     displacement: *const f64,
-    [force, jacobian, dissipated]: [*mut f64; 3],
+    [force, jacobian, dissipated, drift]: [*mut f64; 4],
 ) -> Result<(), Error> {
     // SAFETY: by the function's contract.
     let mut workspace = unsafe { pointers::element_workspace::<L>(workspace) }?;
@@ -226,8 +238,8 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
     // SAFETY: by the function's contract.
     let (displacement, output) = unsafe {
         let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
-        let dissipated = output(dissipated, 1)?.and_then(<[f64]>::first_mut);
-        (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated })
+        let [dissipated, drift] = outputs([dissipated, drift], 1)?.map(|output| output.and_then(<[f64]>::first_mut));
+        (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated, drift })
     };
     L::harmonic_force(element, &mut workspace, displacement, output)
 }
@@ -264,7 +276,8 @@ pub unsafe extern "C" fn mslip_harmonic_force(
         // SAFETY: by the function's contract.
         let (displacement, force, jacobian, dissipated) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
-        let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
+        let output =
+            HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut), drift: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
     };
     status(compute())
@@ -299,7 +312,7 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
         // SAFETY: by the function's contract.
         let (displacement, force, sensitivity) =
             unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
-        let output = HarmonicOutput { force, jacobian: None, dissipated: None };
+        let output = HarmonicOutput { force, jacobian: None, dissipated: None, drift: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
         match sensitivity {
             Some(sensitivity) => harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),

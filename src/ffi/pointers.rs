@@ -5,7 +5,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_extent};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
-use crate::fourier::workspace::{Size, WorkspaceLayout};
+use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
 use crate::law::ElementLaw;
 
 use crate::error::Error;
@@ -243,21 +243,21 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
 /// Header of a workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for two doubles.
+/// `pointer` is NULL or valid for three doubles.
 #[inline(always)]
-pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 2], Error> {
+pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
     check_alignment(pointer)?;
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, and valid for two doubles by the function's contract.
-    Ok(unsafe { pointer.cast::<[f64; 2]>().read() })
+    // SAFETY: aligned, and valid for three doubles by the function's contract.
+    Ok(unsafe { pointer.cast::<[f64; TAGS]>().read() })
 }
 
 /// An initialised workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for two doubles, and for the whole workspace if these are the header of one.
+/// `pointer` is NULL or valid for three doubles, and for the whole workspace if these are the header of one.
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     // SAFETY: by the function's contract.

@@ -14,8 +14,12 @@ pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f
     let mut memory = vec![0.0; rule.workspace_length(n / 2, samples)];
     rule.workspace_init(n / 2, samples, &mut memory).unwrap();
     let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], 0.0);
-    let output =
-        HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut dissipated) };
+    let output = HarmonicOutput {
+        force: Some(&mut force),
+        jacobian: Some(&mut jacobian),
+        dissipated: Some(&mut dissipated),
+        drift: None,
+    };
     harmonic_force(contact, &mut Workspace::new(&mut memory).unwrap(), displacement, output).unwrap();
     (force, jacobian, dissipated)
 }

@@ -731,11 +731,11 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     call mslip_element_check(element, status)
     call check_status('check of an element', status, MSLIP_OK)
     call check('size of an element: no padding', storage_size(element) == 64*(8 + size(element%reserved)))
-    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_APPROACH)
+    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_INPUT_APPROACH)
     call check_close('element: friction coefficient', element%friction_coefficient, 0.35_wp, tight)
     call check_close('element: normal force', element%normal_force, 17.0_wp, tight)
     old = element_state(16_mslip_size)
@@ -762,12 +762,12 @@ contains
     type(mslip_element) :: element
     real(wp) :: found(3), values(2), slopes(2), widths(2), back(2)
     integer(mslip_int) :: status
-    integer(mslip_int), parameter :: inputs(2) = [MSLIP_APPROACH, MSLIP_NORMAL_FORCE]
+    integer(mslip_int), parameter :: inputs(2) = [MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE]
     integer :: i
 
     do i = 1, 2
       element = element_of(inputs(i))
-      call mslip_normal_force_at(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
+      call mslip_normal_force(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
       call check_status('normal force', status, MSLIP_OK)
       call check_close('normal force', found(1), 13.07442920778120653977642_wp, tight)
       call check_close('normal stiffness', found(2), 242218902.8986542490946348_wp, tight)
@@ -775,7 +775,7 @@ contains
       call check_close('approach', values(1), 5.4339586390886424e-8_wp, tight)
       call check_close('normal compliance', slopes(1)*found(2), 1.0_wp, tight)
       call check_close('half-width', widths(1), found(3), tight)
-      call mslip_normal_force_at(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
+      call mslip_normal_force(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
       call check_status('normal forces', status, MSLIP_OK)
       call check_close('normal force of the parameters', values(1), element%normal_force, tight)
       call check_close('half-width of the parameters', widths(1), element%half_width, tight)
@@ -803,7 +803,7 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_NORMAL_FORCE)
+    element = element_of(MSLIP_INPUT_NORMAL_FORCE)
     displacement(1, :) = [(1.0e-8_wp*sin(1.7_wp*i), i = 1, steps)]
     displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
     start = element_state(16_mslip_size)
@@ -849,7 +849,7 @@ contains
     call check('element: a bound on the error of merged pieces', error > 0 .and. error < 0.35_wp*17)
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_APPROACH, sphere, status)
+    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_INPUT_APPROACH, sphere, status)
     call check_status('element of a sphere', status, MSLIP_OK)
     ! Hertz: N = 4/3 E* a^3/R, w = a^2/R.
     call check_close('sphere: approach', sphere%approach, 0.75_wp*50.0_wp/(sphere%composite_modulus*1.0e-4_wp), tight)
@@ -868,19 +868,19 @@ contains
     real(wp) :: of_contact(mslip_harmonic_workspace_length(harmonics, samples)), expected(m), square(m, m)
     real(wp), dimension(2*m) :: displacement, force, other, changed
     real(wp) :: jacobian(2*m, 2*m)
-    integer(mslip_size) :: found(2)
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: j
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     call check_status('element: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('element: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('element: size of a workspace', all(found == [harmonics, samples, 1_mslip_size]) .and. &
       all(kinds == [1_mslip_int, MSLIP_UNIFORM_SAMPLING]))
     call mslip_harmonic_workspace_init(harmonics, samples, of_contact, status)
     p = flat_parameters()
     call mslip_contact_init(p, contact, status)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_NORMAL_FORCE, element, status)
     displacement = 0
     displacement(1:m) = [0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]
     displacement(m + 1) = 800
@@ -893,14 +893,14 @@ contains
     call check('element: Jacobian at constant load', &
       all(abs(jacobian(1:m, 1:m) - square) <= 1.0e-9_wp*contact%initial_stiffness))
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     displacement = 0
     displacement(2) = 1.2e-8_wp
     displacement(5) = 3.0e-9_wp
     displacement(m + 1:m + 3) = [2.0e-8_wp, 1.0e-8_wp, 2.4e-8_wp]
-    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1))
+    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1), drift=energy(2))
     call check_status('element: harmonic force with separation', status, MSLIP_OK)
-    call check('element: positive energy', energy(1) > 0)
+    call check('element: positive energy, no drift', energy(1) > 0 .and. .not. abs(energy(2)) > 0)
     step = 1.0e-14_wp
     do j = 1, 2*m
       changed = displacement
@@ -931,8 +931,8 @@ contains
 
     p = flat_parameters()
     allocate (elements(2), each(n))
-    elements(1) = element_of(MSLIP_APPROACH)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, elements(2), status)
+    elements(1) = element_of(MSLIP_INPUT_APPROACH)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_APPROACH, elements(2), status)
     each = elements(index)
     start = spread(element_state(4_mslip_size), 2, n)
     expected = start
@@ -956,7 +956,7 @@ contains
     call mslip_batch_element_advance(elements(1:0), states(:, 1:0), displacement(:, 1:0), status)
     call check_status('element: no items', status, MSLIP_OK)
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     coefficients = 0
     coefficients(2, :) = displacement(1, :)
     coefficients(4, :) = displacement(2, :)
@@ -988,12 +988,13 @@ contains
     real(wp) :: displacement(3, n), force(3, n), tangent(3, 3, n), dissipated(n)
     real(wp) :: all_force(3, n), all_tangent(3, 3, n), all_dissipated(n)
     real(wp) :: coefficients(m, 2), harmonic(m, 2), jacobian(m, m, 2), energy(2), one(m), square(m, m), single, error
-    integer(mslip_size) :: found(2)
+    real(wp) :: drift(2), own_drift
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: i
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, two, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init_elliptic(p, two, MSLIP_INPUT_NORMAL_FORCE, element, status)
     call check_status('two directions: element', status, MSLIP_OK)
     call check('two directions: element', element%directions == 2)
     call mslip_element_state_init(two, start, status)
@@ -1043,20 +1044,22 @@ contains
     call check_status('two directions: batch in place', status, MSLIP_OK)
     call check_same('two directions: batch in place', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
 
-    call mslip_element_workspace_init(two, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(two, harmonics, samples, 3_mslip_size, workspace, status)
     call check_status('two directions: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('two directions: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('two directions: size of a workspace', all(found == [harmonics, samples, 3_mslip_size]) .and. &
       all(kinds == [two, MSLIP_UNIFORM_SAMPLING]))
     coefficients(:, 1) = [0.0_wp, 1.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 5.0e-8_wp, 30.0_wp, 0.0_wp, 0.0_wp]
     coefficients(:, 2) = [0.0_wp, 2.0e-7_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 10.0_wp, 5.0_wp]
     call mslip_batch_element_harmonic_force(spread(element, 1, 2), workspace, coefficients, status, force=harmonic, &
-      jacobian=jacobian, dissipated=energy)
+      jacobian=jacobian, dissipated=energy, drift=drift)
     call check_status('two directions: batch of harmonic forces', status, MSLIP_OK)
+    call check('two directions: drift', all(drift > 0 .and. drift < 0.1_wp))
     do i = 1, 2
-      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single)
+      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single, own_drift)
       call check_status('two directions: harmonic force', status, MSLIP_OK)
-      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i)], [one, [square], single])
+      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i), drift(i)], &
+        [one, [square], single, own_drift])
       call check('two directions: normal force', all(abs(one(7:9) - coefficients(7:9, i)) <= 1.0e-12_wp*30))
     end do
   end subroutine test_two_directions

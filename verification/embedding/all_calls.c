@@ -96,7 +96,7 @@ static double value(const struct sequence *s, const function *f, int kind, size_
     const mslip_contact *c = s->contact;
     const mslip_element *e = s->element;
     const int of_element = (f->takes & IS_ELEMENT) != 0;
-    const int by_force = of_element && e->normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = of_element && e->normal_input == MSLIP_INPUT_NORMAL_FORCE;
     const double sign = i % 2 == 0 ? 1.0 : -1.0, normal = !of_element ? 0.0 : by_force ? e->normal_force : e->approach;
     switch (kind) {
         case POSITION: return multiple(i, of_element ? e->half_width : c->half_width, 1.1);
@@ -140,7 +140,8 @@ static double *states(struct sequence *s, int of_element, size_t items)
     for (size_t i = 0; i < items; ++i) {
         double *state = memory + i * n;
         if (of_element) {
-            const double normal = s->element->normal_input == MSLIP_NORMAL_FORCE ? s->element->normal_force : s->element->approach;
+            const int by_force = s->element->normal_input == MSLIP_INPUT_NORMAL_FORCE;
+            const double normal = by_force ? s->element->normal_force : s->element->approach;
             const double step[2][2] = { { 0.0, 0.8 * normal }, { 0.1 * s->element->approach, 0.6 * normal } };
             accept(mslip_element_state_init(1, n, state));
             accept(mslip_element_path(s->element, n, state, 2, step[0], state, NULL, NULL, NULL));
@@ -161,7 +162,7 @@ static double *workspace(int of_element, int32_t rule)
     if (memory == NULL) {
         abort();
     }
-    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, n, memory)
+    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, 0, n, memory)
                       : mslip_harmonic_workspace_init(HARMONICS, SAMPLES, rule, n, memory));
     return memory;
 }
@@ -267,10 +268,11 @@ static void make_other(struct sequence *s, size_t other)
             call.new_element = (mslip_element *)(void *)array(s, sizeof(mslip_element) / sizeof(double));
         }
         call.out[1] = strstr(fields, "call.out[1],") ? array(s, 1) : NULL;
-        size_t sizes[2] = { 0, 0 };
+        size_t sizes[3] = { 0, 0, 0 };
         int32_t kinds[2] = { 0, 0 };
         call.found_harmonics = &sizes[0];
         call.found_samples = &sizes[1];
+        call.found_periods = &sizes[2];
         call.found_directions = &kinds[0];
         call.found_rule = &kinds[1];
         accept(others[other].call(call));
@@ -316,7 +318,7 @@ void initialise(int which, mslip_contact *contact, mslip_element *element)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, OPEN, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
-    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_APPROACH : MSLIP_NORMAL_FORCE;
+    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_INPUT_APPROACH : MSLIP_INPUT_NORMAL_FORCE;
     mslip_parameters p = flat_parameters();
     mslip_elliptic_parameters e = elliptic_parameters();
     if (kind == ELLIPSE || kind == SPHERE) {

@@ -147,7 +147,7 @@ pub(super) fn harmonic_force(
 ) {
     let Workspace { reversals, buffers } = workspace;
     let requested = Requested { force: output.force.is_some(), stiffness: output.jacobian.is_some() };
-    let HarmonicOutput { force, mut jacobian, dissipated } = output;
+    let HarmonicOutput { force, mut jacobian, dissipated, .. } = output;
     let motion = Motion::new(displacement);
     let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
     let (count, half_wave_symmetric) = motion.find_reversals(grid, buffers.instants);

@@ -159,13 +159,13 @@ typedef struct {
     mslip_contact *new_contact;
     mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples;
+    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples, periods;
     int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
     double *workspace, *table, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
-    size_t *found_harmonics, *found_samples;
+    size_t *found_harmonics, *found_samples, *found_periods;
 } arguments;
 
 #endif
@@ -202,10 +202,10 @@ fn c_rows(function: &Function, short: &str) -> String {
     let is_element = has("Element").is_some();
     let variants: &[(&str, usize)] = match (is_element, has("Workspace").is_some()) {
         (true, _) => &[
-            ("MSLIP_APPROACH", 2),
-            ("MSLIP_NORMAL_FORCE", 2),
-            ("TWO_DIRECTIONS + MSLIP_APPROACH", 3),
-            ("TWO_DIRECTIONS + MSLIP_NORMAL_FORCE", 3),
+            ("MSLIP_INPUT_APPROACH", 2),
+            ("MSLIP_INPUT_NORMAL_FORCE", 2),
+            ("TWO_DIRECTIONS + MSLIP_INPUT_APPROACH", 3),
+            ("TWO_DIRECTIONS + MSLIP_INPUT_NORMAL_FORCE", 3),
         ],
         (false, true) => &[("MSLIP_UNIFORM_SAMPLING", 1), ("MSLIP_EVENT_DRIVEN", 1)],
         (false, false) => &[("0", 1)],

@@ -173,7 +173,7 @@ impl Memory {
     }
 
     fn workspace_init(&mut self, slot: usize, [harmonics, samples]: [usize; 2], rule: i32, fault: Fault) {
-        let mut values = vec![UNTOUCHED; mslip_harmonic_workspace_length(harmonics, samples, rule).max(2)];
+        let mut values = vec![UNTOUCHED; mslip_harmonic_workspace_length(harmonics, samples, rule).max(3)];
         let pointer = if fault == Fault::NullWorkspace { null_mut() } else { values.as_mut_ptr() };
         let length = with_fault(values.len(), fault);
         let answer =

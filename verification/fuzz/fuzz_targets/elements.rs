@@ -229,15 +229,16 @@ impl Memory {
     }
 
     fn workspace_init(&mut self, [directions, rule]: [i32; 2], [harmonics, samples]: [usize; 2], fault: Fault) {
-        let length = mslip_element_workspace_length(directions, harmonics, samples, rule).max(2);
+        let length = mslip_element_workspace_length(directions, harmonics, samples, rule).max(3);
         let mut values = vec![UNTOUCHED; length];
         let pointer = if fault == Fault::NullWorkspace { null_mut() } else { values.as_mut_ptr() };
         let n = with_fault(length, fault);
-        let answer =
-            status(true, || unsafe { mslip_element_workspace_init(directions, harmonics, samples, rule, n, pointer) });
+        let answer = status(true, || unsafe {
+            mslip_element_workspace_init(directions, harmonics, samples, rule, 0, n, pointer)
+        });
         if answer == MSLIP_OK {
             let (mut d, mut h, mut s, mut r) = (0, 0, 0, -1);
-            let size = unsafe { mslip_element_workspace_size(pointer, &mut d, &mut h, &mut s, &mut r) };
+            let size = unsafe { mslip_element_workspace_size(pointer, &mut d, &mut h, &mut s, &mut r, null_mut()) };
             assert_eq!((size, d, h, s, r), (MSLIP_OK, directions, harmonics, samples, rule));
         } else {
             assert!(untouched(&values), "a rejected workspace has been modified");
@@ -272,7 +273,14 @@ impl Memory {
                 let header = self.workspace.as_ptr();
                 let (mut directions, mut harmonics, mut samples) = (1, 0, 0);
                 let size = unsafe {
-                    mslip_element_workspace_size(header, &mut directions, &mut harmonics, &mut samples, null_mut())
+                    mslip_element_workspace_size(
+                        header,
+                        &mut directions,
+                        &mut harmonics,
+                        &mut samples,
+                        null_mut(),
+                        null_mut(),
+                    )
                 };
                 let length = mslip_element_workspace_length(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING);
                 if size == MSLIP_OK && length > self.workspace.len() {
@@ -301,7 +309,7 @@ impl Memory {
         let c = components(valid, e.directions);
         let positive = |value: f64| if value > 0.0 && value < 1e150 { value } else { 1e-6 };
         let shift = positive(e.approach * e.friction_coefficient.min(1e3));
-        let normal = positive(if e.normal_input == MSLIP_NORMAL_FORCE { e.normal_force } else { e.approach });
+        let normal = positive(if e.normal_input == MSLIP_INPUT_NORMAL_FORCE { e.normal_force } else { e.approach });
         let scales = match call.function {
             Function::NormalForce => [e.approach; 2],
             Function::NormalApproach => [e.normal_force; 2],
@@ -483,7 +491,7 @@ impl Memory {
                 let expected = other.then_some(Error::BadDirections.code());
                 let harmonic = |[f, j, d]: [*mut f64; 3]| unsafe {
                     let u = input(&displacement);
-                    predicted(expected, mslip_element_harmonic_force(element, workspace, u, f, j, d))
+                    predicted(expected, mslip_element_harmonic_force(element, workspace, u, f, j, d, null_mut()))
                 };
                 if let Some([force, jacobian, dissipated]) = run(valid, omitted, [m, m * m, 1], harmonic) {
                     all!(force, f64::is_finite);
@@ -542,12 +550,20 @@ impl Memory {
                     let displacement = coefficients(items);
                     let harmonic = |[f, j, d]: [*mut f64; 3]| unsafe {
                         let u = input(&displacement);
-                        mslip_batch_element_harmonic_force(n, ELEMENTS, p, pi, pa, workspace, u, f, j, d)
+                        mslip_batch_element_harmonic_force(n, ELEMENTS, p, pi, pa, workspace, u, f, j, d, null_mut())
                     };
                     let own_workspace = self.workspace.as_ptr().cast_mut();
                     let alone = |i: usize, slot: usize, [f, j, d]: [*mut f64; 3]| {
                         single(slot, workspace_directions, &|one| unsafe {
-                            mslip_element_harmonic_force(one, own_workspace, displacement[i * m..].as_ptr(), f, j, d)
+                            mslip_element_harmonic_force(
+                                one,
+                                own_workspace,
+                                displacement[i * m..].as_ptr(),
+                                f,
+                                j,
+                                d,
+                                null_mut(),
+                            )
                         })
                     };
                     let valid = all_valid && self.valid_workspace;

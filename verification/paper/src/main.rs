@@ -8,6 +8,7 @@ mod claims;
 mod documents;
 mod drawings;
 mod equations;
+mod periods;
 mod samples;
 mod swing;
 mod table;
