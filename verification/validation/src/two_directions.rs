@@ -113,6 +113,7 @@ fn element(parameters: &Parameters) -> Element {
         normal_force,
         friction_coefficient,
         material,
+        ..EllipticParameters::default()
     };
     Element::elliptic(&sphere, Directions::Two, NormalInput::Force).expect("an element")
 }
