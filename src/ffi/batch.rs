@@ -188,7 +188,7 @@ impl Items<'_, Element> {
 /// Advances the states of all active items.
 ///
 /// # Safety
-/// As for [`mslip_batch_masing_update`].
+/// That of the interface.
 #[inline(never)]
 unsafe fn update<L: Law>(
     items: Items<L::Item>,
@@ -258,7 +258,7 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
 ///
 /// # Safety
-/// As for [`mslip_batch_harmonic_force`].
+/// That of the interface.
 unsafe fn harmonic_forces<L: Law, W>(
     items: Items<L::Item>,
     workspace: &mut W,
@@ -310,10 +310,6 @@ fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Opti
 /// If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
-///
-/// # Safety
-/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     n: size_t,
@@ -346,10 +342,6 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
 /// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
-///
-/// # Safety
-/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old
-/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_masing_update(
     n: size_t,
@@ -380,10 +372,6 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 /// 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
-/// lengths above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_harmonic_force(
     n: size_t,
@@ -417,10 +405,6 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 ///
 /// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 /// mslip_element_update; all outputs are unchanged then.
-///
-/// # Safety
-/// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old
-/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_update(
     n: size_t,
@@ -455,10 +439,6 @@ pub unsafe extern "C" fn mslip_batch_element_update(
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
 /// directions than the workspace; all outputs are unchanged then.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
-/// lengths above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     n: size_t,

@@ -64,9 +64,6 @@ unsafe fn initialise<P>(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
-///
-/// # Safety
-/// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init(
     p: *const Parameters,
@@ -84,9 +81,6 @@ pub unsafe extern "C" fn mslip_element_init(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 /// MSLIP_OUT_OF_RANGE; the element is unchanged then.
-///
-/// # Safety
-/// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init_elliptic(
     p: *const EllipticParameters,
@@ -102,9 +96,6 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
 /// functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
-///
-/// # Safety
-/// `element` is NULL or valid for an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
     // SAFETY: by the function's contract.
@@ -116,9 +107,6 @@ pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 /// contact would be too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_normal_force(
     element: *const mslip_element,
@@ -147,9 +135,6 @@ pub unsafe extern "C" fn mslip_normal_force(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
 /// contact would be too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_normal_approach(
     element: *const mslip_element,
@@ -224,9 +209,6 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 /// Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
     let init = || {
@@ -243,9 +225,6 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
     let check = || {
@@ -266,9 +245,6 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_error(
     directions: i32,
@@ -305,10 +281,6 @@ fn check_header<L: ElementLaw>(state: &[f64]) -> Result<(), Error> {
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 /// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
 /// too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_update(
     element: *const mslip_element,
@@ -335,7 +307,7 @@ pub unsafe extern "C" fn mslip_element_update(
 /// Checks all inputs of an update, then evaluates it.
 ///
 /// # Safety
-/// As for [`mslip_element_update`].
+/// That of the interface.
 #[inline(always)]
 unsafe fn checked_update<L: ElementLaw>(
     element: &Element,
@@ -398,10 +370,6 @@ pub(super) unsafe fn update<L: ElementLaw>(
 /// direction the path is then evaluated with a capacity of at most 256 pieces.
 ///
 /// Returns the codes of mslip_element_update; all outputs are unchanged then.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_path(
     element: *const mslip_element,
@@ -427,7 +395,7 @@ pub unsafe extern "C" fn mslip_element_path(
 }
 
 /// # Safety
-/// As for [`mslip_element_path`].
+/// That of the interface.
 unsafe fn path<L: ElementLaw>(
     element: &Element,
     state_length: usize,
@@ -471,9 +439,6 @@ unsafe fn path<L: ElementLaw>(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
 /// MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_tractions(
     element: *const mslip_element,

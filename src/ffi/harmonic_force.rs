@@ -36,9 +36,6 @@ pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: si
 /// energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-///
-/// # Safety
-/// `workspace` is NULL or valid for workspace_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     harmonics: size_t,
@@ -58,9 +55,6 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
 /// Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     workspace: *const f64,
@@ -121,9 +115,6 @@ pub extern "C" fn mslip_element_workspace_length(
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 /// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-///
-/// # Safety
-/// `workspace` is NULL or valid for workspace_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_workspace_init(
     directions: i32,
@@ -145,9 +136,6 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
 /// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_workspace_size(
     workspace: *const f64,
@@ -187,10 +175,6 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
 /// MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
-/// above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_harmonic_force(
     element: *const mslip_element,
@@ -213,7 +197,7 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
 }
 
 /// # Safety
-/// As for [`mslip_element_harmonic_force`].
+/// That of the interface.
 unsafe fn element_harmonic_force<L: ElementLaw>(
     element: &Element,
     workspace: *mut f64,
@@ -244,10 +228,6 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
 /// grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_force(
     contact: *const mslip_contact,
@@ -280,10 +260,6 @@ pub unsafe extern "C" fn mslip_harmonic_force(
 /// force.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_sensitivity(
     contact: *const mslip_contact,

@@ -12,9 +12,6 @@ use libc::size_t;
 
 /// Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
 /// MSLIP_CENTRE_POINT. NULL is ignored.
-///
-/// # Safety
-/// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
@@ -24,9 +21,6 @@ pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
 }
 
 /// Sets all parameters to NaN. NULL is ignored.
-///
-/// # Safety
-/// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
     if !p.is_null() {
@@ -63,9 +57,6 @@ unsafe fn initialise<P>(
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 /// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
-///
-/// # Safety
-/// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
     // SAFETY: by the function's contract.
@@ -76,9 +67,6 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 /// unchanged then.
-///
-/// # Safety
-/// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
     // SAFETY: by the function's contract.
@@ -89,9 +77,6 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 /// only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
-///
-/// # Safety
-/// `contact` is NULL or valid for a contact.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
     // SAFETY: by the function's contract.
@@ -102,9 +87,6 @@ pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i
 /// contact. Elliptical: on the x axis.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_tractions(
     contact: *const mslip_contact,
@@ -138,9 +120,6 @@ pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 /// MSLIP_NOT_AVAILABLE for an elliptical contact.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_slip(
     contact: *const mslip_contact,
@@ -175,9 +154,6 @@ pub unsafe extern "C" fn mslip_slip(
 /// the flat, a.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_displacement(
     contact: *const mslip_contact,
@@ -213,9 +189,6 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
 /// and stick half-width are 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_force(
     contact: *const mslip_contact,
@@ -253,9 +226,6 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 /// radius. Those with respect to a and L are 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles, sensitivity for 6 n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_sensitivity(
     contact: *const mslip_contact,

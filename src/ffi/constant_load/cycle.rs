@@ -13,9 +13,6 @@ use libc::size_t;
 /// spaced instants of one period, from t = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_hysteresis_loop(
     contact: *const mslip_contact,
@@ -44,9 +41,6 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
 /// Energy \[J\] dissipated per cycle between +- force_amplitude\[n\] \[N\], each from 0 to mu N (Eq. 13-16).
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_dissipated_energy(
     contact: *const mslip_contact,
@@ -72,9 +66,6 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
 /// the amplitude \[N/m^2\] (section 3.4); at amplitude 0: the initial stiffness.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_complex_stiffness(
     contact: *const mslip_contact,
@@ -110,9 +101,6 @@ pub extern "C" fn mslip_stiffness_table_length() -> size_t {
 /// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-///
-/// # Safety
-/// `contact` is NULL or valid for one item, `table` NULL or valid for table_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_stiffness_table_init(
     contact: *const mslip_contact,
@@ -133,10 +121,6 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
 /// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles, `contact` for one item, `table` for mslip_stiffness_table_length() doubles; outputs
-/// must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     contact: *const mslip_contact,
@@ -222,9 +206,6 @@ pub(in crate::ffi) fn write_complex_stiffness(
 /// force \[N\]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for one item; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_jenkins_equivalent(
     contact: *const mslip_contact,
@@ -250,9 +231,6 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
 /// histories, 6 to 43 in decaying vibrations. All are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles (force_error: one); outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_iwan_equivalent(
     contact: *const mslip_contact,

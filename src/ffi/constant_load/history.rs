@@ -24,9 +24,6 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// Initialises a state: unloaded, with zero force and displacement.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
     // SAFETY: by the function's contract.
@@ -37,9 +34,6 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
 /// check a tag and the number of reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {
     // SAFETY: by the function's contract.
@@ -49,9 +43,6 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
 /// Bound on the error \[N\] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
     let compute = || {
@@ -68,10 +59,6 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
 /// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or one; state_new is state_old or, like the outputs, does not
-/// alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_update(
     contact: *const mslip_contact,
@@ -204,10 +191,6 @@ unsafe fn write(output: *mut f64, value: f64) {
 /// evaluated with a capacity of at most 128 nested reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or n; state_new is state_old or, like the outputs, does not
-/// alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_path(
     contact: *const mslip_contact,
@@ -251,9 +234,6 @@ pub unsafe extern "C" fn mslip_masing_path(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 /// MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_tractions(
     contact: *const mslip_contact,
