@@ -8,7 +8,11 @@
 //! stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
 
 #![allow(unsafe_code, non_camel_case_types)]
-#![allow(clippy::missing_safety_doc, reason = "one contract, above")]
+#![allow(
+    clippy::missing_safety_doc,
+    unsafe_op_in_unsafe_fn,
+    reason = "one contract, above; other reasons stand at their blocks"
+)]
 
 mod pointers;
 

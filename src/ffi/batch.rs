@@ -72,11 +72,8 @@ impl Law for Contact {
         state_new: *mut f64,
         [force, stiffness, dissipated]: [*mut f64; 3],
     ) {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-            history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
-        }
+        let state_old = ptr::slice_from_raw_parts(state_old, state_length);
+        history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
     }
 }
 
@@ -106,8 +103,7 @@ impl<L: ElementLaw> Law for L {
         state_new: *mut f64,
         outputs: [*mut f64; 3],
     ) {
-        // SAFETY: by the function's contract.
-        unsafe { element::update::<L>(element, state_length, state_old, displacement, state_new, outputs) };
+        element::update::<L>(element, state_length, state_old, displacement, state_new, outputs);
     }
 }
 
@@ -140,9 +136,7 @@ impl<'a, T> Items<'a, T> {
     ) -> Result<Items<'a, T>, Error> {
         // Of the largest items, before arrays of that length are assumed.
         check_length::<f64>(n)?;
-        // SAFETY: by the function's contract.
-        let (laws, index, active) =
-            unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
+        let (laws, index, active) = (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?);
         Ok(Items { n, laws, index, active })
     }
 
@@ -270,11 +264,8 @@ unsafe fn harmonic_forces<L: Law, W>(
 ) -> Result<(), Error> {
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-    // SAFETY: by the function's contract.
-    let (displacement, mut outputs) = unsafe {
-        let (force, jacobian) = (output(force, all)?, output(jacobian, square)?);
-        (input(displacement, all)?, Outputs { force, jacobian, dissipated: output(dissipated, items.n)? })
-    };
+    let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
+    let mut outputs = Outputs { force, jacobian, dissipated: output(dissipated, items.n)? };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
     items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
     let mut active = items.with(displacement_of);
@@ -324,11 +315,11 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (items, amplitude, mut outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(amplitude, n)?, outputs?)
-        };
+        let (items, amplitude, mut outputs) = (
+            Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
+            input(amplitude, n)?,
+            outputs([k_real, k_imag, dk_real, dk_imag], n)?,
+        );
         items.check::<Contact>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
         items
             .with(|i| amplitude.get(i))
@@ -358,11 +349,8 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     dissipated: *mut f64,
 ) -> i32 {
     let update = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
-        }
+        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
     };
     status(update())
 }
@@ -386,13 +374,10 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     dissipated: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
-            let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
-            harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
-        }
+        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
+        let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
+        harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
     };
     status(compute())
 }

@@ -35,8 +35,7 @@ unsafe fn initialise<P>(
     init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
     let initialise = || {
-        // SAFETY: by the function's contract.
-        let parameters = unsafe { item(parameters) }?;
+        let parameters = item(parameters)?;
         check_alignment(element)?;
         // SAFETY: aligned; valid by the function's contract. It may be uninitialised, and is written before it is read.
         let element = unsafe { element.cast::<Element>().as_mut() }.ok_or(Error::NullPointer)?;
@@ -71,8 +70,7 @@ pub unsafe extern "C" fn mslip_element_init(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_rounded_flat) }
+    initialise(p, directions, normal_input, element, Element::init_rounded_flat)
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
@@ -88,8 +86,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_elliptic) }
+    initialise(p, directions, normal_input, element, Element::init_elliptic)
 }
 
 /// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other
@@ -98,8 +95,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { pointers::element(element) }.and_then(pointers::check_element))
+    status(pointers::element(element).and_then(pointers::check_element))
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
@@ -116,18 +112,15 @@ pub unsafe extern "C" fn mslip_normal_force(
     stiffness: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        normal_law(
-            element,
-            n,
-            approach,
-            [normal_force, stiffness, half_width],
-            Element::check_approach,
-            Element::four_normal_forces,
-            |_, value| value,
-        )
-    }
+    normal_law(
+        element,
+        n,
+        approach,
+        [normal_force, stiffness, half_width],
+        Element::check_approach,
+        Element::four_normal_forces,
+        |_, value| value,
+    )
 }
 
 /// The inverse normal law: approach \[m\], compliance \[m/N\] and half-width \[m\] under normal_force\[n\] \[N\]. At 0 the
@@ -144,18 +137,15 @@ pub unsafe extern "C" fn mslip_normal_approach(
     compliance: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        normal_law(
-            element,
-            n,
-            normal_force,
-            [approach, compliance, half_width],
-            Element::check_normal_force,
-            |element, given| given.map(|force| element.approach_under(force)),
-            |given, _| given,
-        )
-    }
+    normal_law(
+        element,
+        n,
+        normal_force,
+        [approach, compliance, half_width],
+        Element::check_normal_force,
+        |element, given| given.map(|force| element.approach_under(force)),
+        |given, _| given,
+    )
 }
 
 /// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
@@ -174,9 +164,8 @@ unsafe fn normal_law(
     normal_force: impl Fn(f64, f64) -> f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (element, given, [mut values, mut slopes, mut half_widths]) =
-            unsafe { (pointers::element(element)?, input(given, n)?, outputs(results, n)?) };
+            (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
         given.iter().try_for_each(|given| check(element, *given))?;
         for (block, given) in given.chunks(4).enumerate() {
             let mut four = [given.first().copied().unwrap_or(0.0); 4];
@@ -213,8 +202,7 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
     let init = || {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let state = unsafe { memory(state_length, state) }?;
+        let state = memory(state_length, state)?;
         with_law!(directions, L => L::state_init(state))
     };
     status(init())
@@ -229,8 +217,7 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
     let check = || {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let state = unsafe { state_input(state_length, state) }?;
+        let state = state_input(state_length, state)?;
         with_law!(directions, L => {
             check_header::<L>(state)?;
             L::state_check(state)
@@ -254,8 +241,7 @@ pub unsafe extern "C" fn mslip_element_state_error(
 ) -> i32 {
     let compute = || {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let (state, mut force_error) = unsafe { (state_input(state_length, state)?, output(force_error, 1)?) };
+        let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         with_law!(directions, L => {
             check_header::<L>(state)?;
             set(&mut force_error, 0, || L::force_error(state));
@@ -293,13 +279,10 @@ pub unsafe extern "C" fn mslip_element_update(
     dissipated: *mut f64,
 ) -> i32 {
     let checked_update = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
-            })
-        }
+        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => {
+            checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
+        })
     };
     status(checked_update())
 }
@@ -383,13 +366,10 @@ pub unsafe extern "C" fn mslip_element_path(
     dissipated: *mut f64,
 ) -> i32 {
     let advance = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
-            })
-        }
+        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => {
+            path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
+        })
     };
     status(advance())
 }
@@ -407,12 +387,9 @@ unsafe fn path<L: ElementLaw>(
 ) -> Result<(), Error> {
     let times = |components: usize| n.checked_mul(components).ok_or(Error::BadArraySize);
     let (vectors, tangents) = (times(L::COMPONENTS)?, times(L::COMPONENTS * L::COMPONENTS)?);
-    // SAFETY: by the function's contract.
-    let (path, output) = unsafe {
-        let (path, force, tangent) =
-            (input(displacement, vectors)?, output(force, vectors)?, output(tangent, tangents)?);
-        (path, PathOutput { force, tangent, dissipated: output(dissipated, n)? })
-    };
+    let path = input(displacement, vectors)?;
+    let (force, tangent, dissipated) = (output(force, vectors)?, output(tangent, tangents)?, output(dissipated, n)?);
+    let output = PathOutput { force, tangent, dissipated };
     check_alignment(state_new)?;
     {
         // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
@@ -450,14 +427,12 @@ pub unsafe extern "C" fn mslip_element_tractions(
     shear: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let element = unsafe { pointers::element(element) }?;
+        let element = pointers::element(element)?;
         if element.tangential_directions() == Directions::Two {
             return Err(Error::NotAvailable);
         }
-        // SAFETY: by the function's contract.
         let (state, x, [pressure, shear]) =
-            unsafe { (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?) };
+            (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?);
         check_header::<OneDirection>(state)?;
         tractions(element, state, x, pressure, shear)
     };

@@ -46,8 +46,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
 ) -> i32 {
     let init = || {
         let rule = rule_of(rule)?;
-        // SAFETY: by the function's contract.
-        rule.workspace_init(harmonics, samples, unsafe { memory(workspace_length, workspace) }?)
+        rule.workspace_init(harmonics, samples, memory(workspace_length, workspace)?)
     };
     status(init())
 }
@@ -63,8 +62,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     rule: *mut i32,
 ) -> i32 {
     let read = || {
-        // SAFETY: by the function's contract.
-        let header = unsafe { pointers::workspace_header(workspace) }?;
+        let header = pointers::workspace_header(workspace)?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
         let (harmonics_found, samples_found, rule_found) = workspace_size(&header)?;
@@ -126,8 +124,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
 ) -> i32 {
     let init = || {
         let directions = check_element_rule(directions, rule)?;
-        // SAFETY: by the function's contract.
-        let memory = unsafe { memory(workspace_length, workspace) }?;
+        let memory = memory(workspace_length, workspace)?;
         with_law!(directions, L => <L as ElementLaw>::Layout::init(harmonics, samples, memory))
     };
     status(init())
@@ -147,8 +144,7 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     let read = || {
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
-        // SAFETY: by the function's contract.
-        let (found, size, _) = unsafe { pointers::element_workspace_size(workspace) }?;
+        let (found, size, _) = pointers::element_workspace_size(workspace)?;
         // SAFETY: aligned; NULL or valid for one item by the function's contract.
         unsafe {
             directions.as_mut().into_iter().for_each(|output| *output = found as i32);
@@ -185,13 +181,10 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     dissipated: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                element_harmonic_force::<L>(element, workspace, displacement, outputs)
-            })
-        }
+        let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
+        with_law!(element.tangential_directions(), L => {
+            element_harmonic_force::<L>(element, workspace, displacement, outputs)
+        })
     };
     status(compute())
 }
@@ -204,15 +197,11 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
     displacement: *const f64,
     [force, jacobian, dissipated]: [*mut f64; 3],
 ) -> Result<(), Error> {
-    // SAFETY: by the function's contract.
-    let mut workspace = unsafe { pointers::element_workspace::<L>(workspace) }?;
+    let mut workspace = pointers::element_workspace::<L>(workspace)?;
     let n = L::COMPONENTS * L::coefficients(&workspace);
-    // SAFETY: by the function's contract.
-    let (displacement, output) = unsafe {
-        let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
-        let dissipated = output(dissipated, 1)?.and_then(<[f64]>::first_mut);
-        (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated })
-    };
+    let (force, jacobian, dissipated) = (output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?);
+    let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
+    let displacement = input(displacement, n)?;
     L::harmonic_force(element, &mut workspace, displacement, output)
 }
 
@@ -238,12 +227,10 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     dissipated: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, mut workspace) = unsafe { (pointers::contact(contact)?, pointers::workspace(workspace)?) };
+        let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
-        // SAFETY: by the function's contract.
         let (displacement, force, jacobian, dissipated) =
-            unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
+            (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?);
         let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
     };
@@ -269,12 +256,10 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
     sensitivity: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, mut workspace) = unsafe { (pointers::contact(contact)?, pointers::workspace(workspace)?) };
+        let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
-        // SAFETY: by the function's contract.
         let (displacement, force, sensitivity) =
-            unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
+            (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?);
         let output = HarmonicOutput { force, jacobian: None, dissipated: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
         match sensitivity {

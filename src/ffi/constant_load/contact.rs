@@ -39,8 +39,7 @@ unsafe fn initialise<P>(
     construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
     let initialise = || {
-        // SAFETY: by the function's contract.
-        let parameters = unsafe { item(parameters) }?;
+        let parameters = item(parameters)?;
         if contact.is_null() {
             return Err(Error::NullPointer);
         }
@@ -59,8 +58,7 @@ unsafe fn initialise<P>(
 /// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::rounded_flat) }
+    initialise(p, contact, Contact::rounded_flat)
 }
 
 /// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -69,8 +67,7 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 /// unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::elliptic) }
+    initialise(p, contact, Contact::elliptic)
 }
 
 /// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
@@ -79,8 +76,7 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { pointers::contact(contact) }.and_then(pointers::check_contact))
+    status(pointers::contact(contact).and_then(pointers::check_contact))
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
@@ -97,9 +93,8 @@ pub unsafe extern "C" fn mslip_tractions(
     shear: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (contact, x, [mut pressure, mut shear]) =
-            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?) };
+            (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         for (i, &x) in x.iter().enumerate() {
@@ -130,9 +125,8 @@ pub unsafe extern "C" fn mslip_slip(
     damage: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (contact, x, [mut slip, mut damage]) =
-            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?) };
+            (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         point.slip(0.0)?;
@@ -164,11 +158,8 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
     stick_half_width: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) = unsafe {
-            let outputs = outputs([displacement, compliance, stick_half_width], n);
-            (pointers::contact(contact)?, input(force, n)?, outputs?)
-        };
+        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) =
+            (pointers::contact(contact)?, input(force, n)?, outputs([displacement, compliance, stick_half_width], n)?);
         force.iter().try_for_each(|&force| contact.check_force(force))?;
         if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
             return Ok(());
@@ -199,11 +190,8 @@ pub unsafe extern "C" fn mslip_monotonic_force(
     stick_half_width: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, displacement, [force, stiffness, stick_half_width]) = unsafe {
-            let outputs = outputs([force, stiffness, stick_half_width], n);
-            (pointers::contact(contact)?, input(displacement, n)?, outputs?)
-        };
+        let (contact, displacement, [force, stiffness, stick_half_width]) =
+            (pointers::contact(contact)?, input(displacement, n)?, outputs([force, stiffness, stick_half_width], n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
@@ -235,11 +223,8 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
     sensitivity: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, displacement, force, sensitivity) = unsafe {
-            let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
-            (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?, sensitivity)
-        };
+        let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
+        let (contact, displacement, force) = (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, None);
         let columns = sensitivity.map(|sensitivity| sensitivity.as_chunks_mut().0).into_iter().flatten();

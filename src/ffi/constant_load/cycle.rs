@@ -22,9 +22,8 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     force: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (contact, [mut displacement, mut force]) =
-            unsafe { (pointers::contact(contact)?, outputs([displacement, force], n)?) };
+            (pointers::contact(contact)?, outputs([displacement, force], n)?);
         let cycle = contact.hysteresis_loop(amplitude)?;
         if displacement.is_none() && force.is_none() {
             return Ok(());
@@ -49,9 +48,8 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
     energy: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (contact, amplitude, energy) =
-            unsafe { (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?) };
+            (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?);
         amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
         let Some(energy) = energy else { return Ok(()) };
         for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
@@ -77,11 +75,8 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, amplitude, outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (pointers::contact(contact)?, input(amplitude, n)?, outputs?)
-        };
+        let (contact, amplitude, outputs) =
+            (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
         if outputs.iter().all(Option::is_none) {
             return Ok(());
@@ -108,9 +103,7 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
     table: *mut f64,
 ) -> i32 {
     let init = || {
-        // SAFETY: by the function's contract.
-        let (contact, table) =
-            unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
+        let (contact, table) = (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?);
         table.write(StiffnessTable::EMPTY).init(contact);
         Ok(())
     };
@@ -133,11 +126,12 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_imag: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, table, amplitude, outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (pointers::contact(contact)?, pointers::stiffness_table(table)?, input(amplitude, n)?, outputs?)
-        };
+        let (contact, table, amplitude, outputs) = (
+            pointers::contact(contact)?,
+            pointers::stiffness_table(table)?,
+            input(amplitude, n)?,
+            outputs([k_real, k_imag, dk_real, dk_imag], n)?,
+        );
         if !table.is_of(contact) {
             return Err(Error::BadTable);
         }
@@ -214,9 +208,8 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     slip_force: *mut f64,
 ) -> i32 {
     let compute = || {
-        // SAFETY: by the function's contract.
         let (contact, [mut stiffness, mut slip_force]) =
-            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?) };
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
         set(&mut stiffness, 0, || slider.stiffness);
         set(&mut slip_force, 0, || slider.slip_force);
@@ -243,9 +236,8 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         pointers::check_length::<f64>(n)?;
         // Before arrays of that length are assumed.
         equivalents::check_count(n)?;
-        // SAFETY: by the function's contract.
         let (contact, [mut stiffness, mut slip_force], mut force_error) =
-            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?) };
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?);
         let mut i = 0;
         let error = equivalents::iwan(contact, n, |slider| {
             set(&mut stiffness, i, || slider.stiffness);

@@ -1,12 +1,12 @@
 //! How the operators are computed. Gauss-Legendre rules of 32 nodes are exact to rounding: where a root begins in a piece or next
 //! to it, its square root is the variable.
 
-use super::{All, FIRST, Functionals, OPERATORS, Operator, Operators, POINTS, TOP};
+use super::{All, FIRST, Functionals, OPERATORS, Operator, Operators, TOP};
 use crate::numerics::chebyshev::{Interpolant, TERMS};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use core::array::from_fn;
 use std::format;
-use std::prelude::rust_2024::*;
+use std::string::String;
 
 const GAUSS: &[[[f64; 4]; 2]] = gauss_rule(MAX_GAUSS_BLOCKS);
 
