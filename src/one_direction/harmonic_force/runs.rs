@@ -175,7 +175,7 @@ impl Stack<'_> {
     }
 
     /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
-    /// it was any.
+    /// one was removed.
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
         while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
