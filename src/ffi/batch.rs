@@ -2,7 +2,7 @@
 
 use super::constant_load::cycle::write_complex_stiffness;
 use super::constant_load::history;
-use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status, with_law};
+use super::pointers::{self, call, check_alignment, check_length, input, optional_input, output, outputs, with_law};
 use super::{element, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
@@ -314,7 +314,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (items, amplitude, mut outputs) = (
             Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
             input(amplitude, n)?,
@@ -324,8 +324,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
         items
             .with(|i| amplitude.get(i))
             .try_for_each(|(i, contact, amplitude)| write_complex_stiffness(contact, *amplitude, i, &mut outputs))
-    };
-    status(compute())
+    })
 }
 
 /// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
@@ -348,11 +347,10 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let update = || {
+    call(|| {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
         update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
-    };
-    status(update())
+    })
 }
 
 /// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
@@ -373,13 +371,12 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
         let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
         let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
         harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
-    };
-    status(compute())
+    })
 }
 
 /// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
@@ -405,7 +402,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let update = || {
+    call(|| {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
@@ -414,8 +411,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
                 update::<L>(items, state_length, states_old, displacement, states_new, outputs)
             })
         }
-    };
-    status(update())
+    })
 }
 
 /// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
@@ -437,7 +433,7 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
@@ -449,6 +445,5 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
                 harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
             })
         }
-    };
-    status(compute())
+    })
 }

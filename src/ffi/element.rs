@@ -1,7 +1,7 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
 use super::pointers::{
-    self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
+    self, call, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
 };
 use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
@@ -34,7 +34,7 @@ unsafe fn initialise<P>(
     element: *mut mslip_element,
     init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
-    let initialise = || {
+    call(|| {
         let parameters = item(parameters)?;
         check_alignment(element)?;
         // SAFETY: aligned; valid by the function's contract. It may be uninitialised, and is written before it is read.
@@ -48,8 +48,7 @@ unsafe fn initialise<P>(
         init(element, parameters, directions, normal_input)?;
         pointers::set_checksum(element);
         Ok(())
-    };
-    status(initialise())
+    })
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
@@ -163,7 +162,7 @@ unsafe fn normal_law(
     law: impl Fn(&Element, &[f64; 4]) -> [NormalPoint; 4],
     normal_force: impl Fn(f64, f64) -> f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (element, given, [mut values, mut slopes, mut half_widths]) =
             (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
         given.iter().try_for_each(|given| check(element, *given))?;
@@ -178,8 +177,7 @@ unsafe fn normal_law(
             }
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
@@ -200,12 +198,11 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
-    let init = || {
+    call(|| {
         let directions = directions_of(directions)?;
         let state = memory(state_length, state)?;
         with_law!(directions, L => L::state_init(state))
-    };
-    status(init())
+    })
 }
 
 /// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
@@ -215,15 +212,14 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 /// MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
-    let check = || {
+    call(|| {
         let directions = directions_of(directions)?;
         let state = state_input(state_length, state)?;
         with_law!(directions, L => {
             check_header::<L>(state)?;
             L::state_check(state)
         })
-    };
-    status(check())
+    })
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
@@ -239,7 +235,7 @@ pub unsafe extern "C" fn mslip_element_state_error(
     state: *const f64,
     force_error: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let directions = directions_of(directions)?;
         let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         with_law!(directions, L => {
@@ -247,8 +243,7 @@ pub unsafe extern "C" fn mslip_element_state_error(
             set(&mut force_error, 0, || L::force_error(state));
             Ok(())
         })
-    };
-    status(compute())
+    })
 }
 
 /// Checks the length and the tag of a state.
@@ -278,13 +273,12 @@ pub unsafe extern "C" fn mslip_element_update(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let checked_update = || {
+    call(|| {
         let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
         with_law!(element.tangential_directions(), L => {
             checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
         })
-    };
-    status(checked_update())
+    })
 }
 
 /// Checks all inputs of an update, then evaluates it.
@@ -365,13 +359,12 @@ pub unsafe extern "C" fn mslip_element_path(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let advance = || {
+    call(|| {
         let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
         with_law!(element.tangential_directions(), L => {
             path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
         })
-    };
-    status(advance())
+    })
 }
 
 /// # Safety
@@ -426,7 +419,7 @@ pub unsafe extern "C" fn mslip_element_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let element = pointers::element(element)?;
         if element.tangential_directions() == Directions::Two {
             return Err(Error::NotAvailable);
@@ -435,6 +428,5 @@ pub unsafe extern "C" fn mslip_element_tractions(
             (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?);
         check_header::<OneDirection>(state)?;
         tractions(element, state, x, pressure, shear)
-    };
-    status(compute())
+    })
 }

@@ -1,7 +1,7 @@
 //! Harmonic balance: workspaces and harmonic force.
 
 use super::element::directions_of;
-use super::pointers::{self, check_alignment, input, memory, output, status, with_law};
+use super::pointers::{self, call, check_alignment, input, memory, output, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::{Directions, Element};
@@ -44,11 +44,10 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
-    let init = || {
+    call(|| {
         let rule = rule_of(rule)?;
         rule.workspace_init(harmonics, samples, memory(workspace_length, workspace)?)
-    };
-    status(init())
+    })
 }
 
 /// Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
@@ -61,7 +60,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     samples: *mut size_t,
     rule: *mut i32,
 ) -> i32 {
-    let read = || {
+    call(|| {
         let header = pointers::workspace_header(workspace)?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
@@ -77,8 +76,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
             rule.as_mut().into_iter().for_each(|output| *output = constant);
         }
         Ok(())
-    };
-    status(read())
+    })
 }
 
 /// Checks what a workspace of an element is made for. An event-driven rule is not available.
@@ -122,12 +120,11 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
-    let init = || {
+    call(|| {
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
         with_law!(directions, L => <L as ElementLaw>::Layout::init(harmonics, samples, memory))
-    };
-    status(init())
+    })
 }
 
 /// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
@@ -141,7 +138,7 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     samples: *mut size_t,
     rule: *mut i32,
 ) -> i32 {
-    let read = || {
+    call(|| {
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
         let (found, size, _) = pointers::element_workspace_size(workspace)?;
@@ -153,8 +150,7 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
             rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
         }
         Ok(())
-    };
-    status(read())
+    })
 }
 
 /// Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
@@ -180,13 +176,12 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
         with_law!(element.tangential_directions(), L => {
             element_harmonic_force::<L>(element, workspace, displacement, outputs)
         })
-    };
-    status(compute())
+    })
 }
 
 /// # Safety
@@ -226,15 +221,14 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
         let (displacement, force, jacobian, dissipated) =
             (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?);
         let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
-    };
-    status(compute())
+    })
 }
 
 /// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and
@@ -255,7 +249,7 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
     force: *mut f64,
     sensitivity: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
         let (displacement, force, sensitivity) =
@@ -266,6 +260,5 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
             Some(sensitivity) => harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
             None => Ok(()),
         }
-    };
-    status(compute())
+    })
 }

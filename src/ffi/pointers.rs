@@ -19,6 +19,12 @@ pub fn status(result: Result<(), Error>) -> i32 {
     }
 }
 
+/// The status of a call.
+#[inline(always)]
+pub fn call(call: impl FnOnce() -> Result<(), Error>) -> i32 {
+    status(call())
+}
+
 /// Rejects lengths that exceed the address space.
 #[inline(always)]
 pub fn check_length<T>(n: usize) -> Result<(), Error> {

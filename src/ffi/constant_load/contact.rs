@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, check_alignment, input, item, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, check_alignment, input, item, output, outputs, set, status};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
@@ -38,7 +38,7 @@ unsafe fn initialise<P>(
     contact: *mut mslip_contact,
     construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
-    let initialise = || {
+    call(|| {
         let parameters = item(parameters)?;
         if contact.is_null() {
             return Err(Error::NullPointer);
@@ -48,8 +48,7 @@ unsafe fn initialise<P>(
         // SAFETY: aligned, not NULL, and valid by the function's contract.
         unsafe { contact.write(initialised) };
         Ok(())
-    };
-    status(initialise())
+    })
 }
 
 /// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
@@ -92,7 +91,7 @@ pub unsafe extern "C" fn mslip_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, x, [mut pressure, mut shear]) =
             (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?);
         let point = contact.curve_at_force(force)?;
@@ -102,8 +101,7 @@ pub unsafe extern "C" fn mslip_tractions(
             set(&mut shear, i, || point.shear(x));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
@@ -124,7 +122,7 @@ pub unsafe extern "C" fn mslip_slip(
     slip: *mut f64,
     damage: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, x, [mut slip, mut damage]) =
             (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?);
         let point = contact.curve_at_force(force)?;
@@ -139,8 +137,7 @@ pub unsafe extern "C" fn mslip_slip(
             set(&mut damage, i, || point.damage_of(x, local_slip));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
@@ -157,7 +154,7 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
     compliance: *mut f64,
     stick_half_width: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) =
             (pointers::contact(contact)?, input(force, n)?, outputs([displacement, compliance, stick_half_width], n)?);
         force.iter().try_for_each(|&force| contact.check_force(force))?;
@@ -171,8 +168,7 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
             set(&mut stick_half_width, i, || point.stick_half_width());
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Inverse of the monotonic curve, odd in the displacement: force \[N\], stiffness \[N/m\] and stick half-width \[m\] at
@@ -189,7 +185,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
     stiffness: *mut f64,
     stick_half_width: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, displacement, [force, stiffness, stick_half_width]) =
             (pointers::contact(contact)?, input(displacement, n)?, outputs([force, stiffness, stick_half_width], n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
@@ -200,8 +196,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             }
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
@@ -222,7 +217,7 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
     force: *mut f64,
     sensitivity: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
         let (contact, displacement, force) = (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
@@ -232,6 +227,5 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
             *column = contact.monotonic_sensitivity(displacement)?;
         }
         Ok(())
-    };
-    status(compute())
+    })
 }

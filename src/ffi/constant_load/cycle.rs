@@ -6,7 +6,7 @@ use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, input, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, input, output, outputs, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     displacement: *mut f64,
     force: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, [mut displacement, mut force]) =
             (pointers::contact(contact)?, outputs([displacement, force], n)?);
         let cycle = contact.hysteresis_loop(amplitude)?;
@@ -33,8 +33,7 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
             set(&mut force, i, || cycle.force(i, n));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Energy \[J\] dissipated per cycle between +- force_amplitude\[n\] \[N\], each from 0 to mu N (Eq. 13-16).
@@ -47,7 +46,7 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
     force_amplitude: *const f64,
     energy: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, amplitude, energy) =
             (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?);
         amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
@@ -56,8 +55,7 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
             *energy = contact.dissipated_energy(amplitude)?;
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Complex (harmonic) stiffness K' + iK'' \[N/m\] at displacement amplitude\[n\] >= 0 \[m\] and its derivatives with respect to
@@ -74,7 +72,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, amplitude, outputs) =
             (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
@@ -82,8 +80,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
             return Ok(());
         }
         write_untabulated(contact, amplitude, outputs)
-    };
-    status(compute())
+    })
 }
 
 /// Number of doubles in a table of the complex stiffness.
@@ -102,12 +99,11 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
     table_length: size_t,
     table: *mut f64,
 ) -> i32 {
-    let init = || {
+    call(|| {
         let (contact, table) = (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?);
         table.write(StiffnessTable::EMPTY).init(contact);
         Ok(())
-    };
-    status(init())
+    })
 }
 
 /// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
@@ -125,7 +121,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, table, amplitude, outputs) = (
             pointers::contact(contact)?,
             pointers::stiffness_table(table)?,
@@ -141,8 +137,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
             return Ok(());
         }
         write_untabulated(contact, amplitude, outputs)
-    };
-    status(compute())
+    })
 }
 
 /// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
@@ -207,15 +202,14 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     stiffness: *mut f64,
     slip_force: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, [mut stiffness, mut slip_force]) =
             (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
         set(&mut stiffness, 0, || slider.stiffness);
         set(&mut slip_force, 0, || slider.slip_force);
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Iwan model of n parallel Jenkins elements that approximates the monotonic curve with the smallest maximum error: stiffness\[n\]
@@ -232,7 +226,7 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
     slip_force: *mut f64,
     force_error: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         pointers::check_length::<f64>(n)?;
         // Before arrays of that length are assumed.
         equivalents::check_count(n)?;
@@ -246,6 +240,5 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         })?;
         set(&mut force_error, 0, || error);
         Ok(())
-    };
-    status(compute())
+    })
 }

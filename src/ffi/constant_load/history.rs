@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::ffi::MSLIP_OK;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
-    self, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
+    self, call, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
 };
 use core::{ptr, slice};
 use libc::size_t;
@@ -43,13 +43,12 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
-    let compute = || {
+    call(|| {
         let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         let error = state::state_error(state)?;
         set(&mut force_error, 0, || error);
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
@@ -191,7 +190,7 @@ pub unsafe extern "C" fn mslip_masing_path(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let advance = || {
+    call(|| {
         let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
         let [force, stiffness, dissipated] = outputs([force, stiffness, dissipated], n)?;
         check_alignment(state_new)?;
@@ -210,8 +209,7 @@ pub unsafe extern "C" fn mslip_masing_path(
         let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
         masing::path(contact, state, path, output);
         Ok(())
-    };
-    status(advance())
+    })
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] after an arbitrary load history (Eq. 21, superposed by Masing's rule).
@@ -228,13 +226,12 @@ pub unsafe extern "C" fn mslip_masing_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let (contact, state, x) = (pointers::contact(contact)?, state_input(state_length, state)?, input(x, n)?);
         let [mut pressure, shear] = outputs([pressure, shear], n)?;
         check_positions(x)?;
         masing::shear_tractions(contact, state, x, shear.unwrap_or(&mut []))?;
         x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
         Ok(())
-    };
-    status(compute())
+    })
 }
