@@ -7,6 +7,9 @@
  * Errors      Every function that can fail returns MSLIP_OK (0) or a positive status code; mslip_status_text has the message. On an
  *             error no output is modified. Infinite and NaN inputs are rejected.
  * Outputs     An output that is NULL is not computed.
+ * Memory      Each pointer is NULL or valid for what it stands for: as many items as its text says, [n] or one for each of n; one if
+ *             that says nothing; a state or other memory for as many doubles as the length that is passed with it. Contacts,
+ *             elements, states and tables may be memory of that size which was never initialised, a workspace must have been.
  * Aliasing    Output buffers must not alias any other argument, except where stated.
  * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
  *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
@@ -298,29 +301,21 @@ const char *mslip_status_text(int32_t status);
 
 // Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
 // MSLIP_CENTRE_POINT. NULL is ignored.
-//
-// Memory: `p` is NULL or valid for parameters.
 void mslip_parameters_default(struct mslip_parameters *p);
 
 // Sets all parameters to NaN. NULL is ignored.
-//
-// Memory: `p` is NULL or valid for parameters.
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
 // Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 //
 // Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 // MSLIP_OUT_OF_RANGE; the contact is unchanged then.
-//
-// Memory: `p` and `contact` are NULL or valid for their types.
 int32_t mslip_contact_init(const struct mslip_parameters *p, struct mslip_contact *contact);
 
 // Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 //
 // Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 // unchanged then.
-//
-// Memory: `p` and `contact` are NULL or valid for their types.
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
@@ -328,16 +323,12 @@ int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
 // only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
-//
-// Memory: `contact` is NULL or valid for a contact.
 int32_t mslip_contact_check(const struct mslip_contact *contact);
 
 // Tractions [Pa] at x[n] [m] along the width, under a monotonically increasing force [N] (Eq. 17, 21-24); 0 outside the
 // contact. Elliptical: on the x axis.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_tractions(const struct mslip_contact *contact,
                         double force,
                         size_t n,
@@ -350,8 +341,6 @@ int32_t mslip_tractions(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 // MSLIP_NOT_AVAILABLE for an elliptical contact.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_slip(const struct mslip_contact *contact,
                    double force,
                    size_t n,
@@ -364,8 +353,6 @@ int32_t mslip_slip(const struct mslip_contact *contact,
 // the flat, a.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      size_t n,
                                      const double *force,
@@ -378,8 +365,6 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
 // and stick half-width are 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               size_t n,
                               const double *displacement,
@@ -397,8 +382,6 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
 // radius. Those with respect to a and L are 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: Each pointer is NULL or valid for n doubles, sensitivity for 6 n; outputs must not alias any other argument.
 int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,
                                     size_t n,
                                     const double *displacement,
@@ -412,24 +395,18 @@ size_t mslip_state_length(size_t reversals);
 // Initialises a state: unloaded, with zero force and displacement.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-//
-// Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_state_init(size_t state_length, double *state);
 
 // Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
 // check a tag and the number of reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-//
-// Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_state_check(size_t state_length,
                           const double *state);
 
 // Bound on the error [N] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-//
-// Memory: `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 int32_t mslip_state_error(size_t state_length,
                           const double *state,
                           double *force_error);
@@ -438,9 +415,6 @@ int32_t mslip_state_error(size_t state_length,
 // (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or one; state_new is state_old or, like the outputs, does not
-// alias any other argument.
 int32_t mslip_masing_update(const struct mslip_contact *contact,
                             size_t state_length,
                             const double *state_old,
@@ -455,9 +429,6 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
 // evaluated with a capacity of at most 128 nested reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or n; state_new is state_old or, like the outputs, does not
-// alias any other argument.
 int32_t mslip_masing_path(const struct mslip_contact *contact,
                           size_t state_length,
                           const double *state_old,
@@ -472,8 +443,6 @@ int32_t mslip_masing_path(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 // MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                size_t state_length,
                                const double *state,
@@ -486,8 +455,6 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
 // spaced instants of one period, from t = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
                               double amplitude,
                               size_t n,
@@ -497,8 +464,6 @@ int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
 // Energy [J] dissipated per cycle between +- force_amplitude[n] [N], each from 0 to mu N (Eq. 13-16).
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *force_amplitude,
@@ -508,8 +473,6 @@ int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
 // the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *amplitude,
@@ -525,8 +488,6 @@ size_t mslip_stiffness_table_length(void);
 // share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-//
-// Memory: `contact` is NULL or valid for one item, `table` NULL or valid for table_length doubles.
 int32_t mslip_stiffness_table_init(const struct mslip_contact *contact,
                                    size_t table_length,
                                    double *table);
@@ -535,9 +496,6 @@ int32_t mslip_stiffness_table_init(const struct mslip_contact *contact,
 // errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-//
-// Memory: Each pointer is NULL or valid for n doubles, `contact` for one item, `table` for mslip_stiffness_table_length() doubles; outputs
-// must not alias any other argument.
 int32_t mslip_complex_stiffness_tabulated(const struct mslip_contact *contact,
                                           const double *table,
                                           size_t n,
@@ -551,8 +509,6 @@ int32_t mslip_complex_stiffness_tabulated(const struct mslip_contact *contact,
 // force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-//
-// Memory: Each pointer is NULL or valid for one item; outputs must not alias any other argument.
 int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
                                  double amplitude,
                                  double *stiffness,
@@ -564,8 +520,6 @@ int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
 // histories, 6 to 43 in decaying vibrations. All are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
-//
-// Memory: Each pointer is NULL or valid for n doubles (force_error: one); outputs must not alias any other argument.
 int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
                               size_t n,
                               double *stiffness,
@@ -587,8 +541,6 @@ size_t mslip_harmonic_workspace_length(size_t harmonics,
 // energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 //
 // Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-//
-// Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t samples,
                                       int32_t rule,
@@ -598,8 +550,6 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
 // Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-//
-// Memory: `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 int32_t mslip_harmonic_workspace_size(const double *workspace,
                                       size_t *harmonics,
                                       size_t *samples,
@@ -618,8 +568,6 @@ size_t mslip_element_workspace_length(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 // MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-//
-// Memory: `workspace` is NULL or valid for workspace_length doubles.
 int32_t mslip_element_workspace_init(int32_t directions,
                                      size_t harmonics,
                                      size_t samples,
@@ -632,8 +580,6 @@ int32_t mslip_element_workspace_init(int32_t directions,
 // initialised workspace of elements. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-//
-// Memory: `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 int32_t mslip_element_workspace_size(const double *workspace,
                                      int32_t *directions,
                                      size_t *harmonics,
@@ -660,9 +606,6 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
 // MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
-//
-// Memory: `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
-// above; outputs must not alias any other argument.
 int32_t mslip_element_harmonic_force(const struct mslip_element *element,
                                      double *workspace,
                                      const double *displacement,
@@ -683,9 +626,6 @@ int32_t mslip_element_harmonic_force(const struct mslip_element *element,
 // grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-// argument.
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -703,9 +643,6 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
 // force.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-//
-// Memory: `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-// argument.
 int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
                                    double *workspace,
                                    const double *displacement,
@@ -723,8 +660,6 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
-//
-// Memory: `p` and `element` are NULL or valid for their types.
 int32_t mslip_element_init(const struct mslip_parameters *p,
                            int32_t directions,
                            int32_t normal_input,
@@ -736,8 +671,6 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 // MSLIP_OUT_OF_RANGE; the element is unchanged then.
-//
-// Memory: `p` and `element` are NULL or valid for their types.
 int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     int32_t directions,
                                     int32_t normal_input,
@@ -747,8 +680,6 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
 // functions only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
-//
-// Memory: `element` is NULL or valid for an element.
 int32_t mslip_element_check(const struct mslip_element *element);
 
 // The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An
@@ -756,8 +687,6 @@ int32_t mslip_element_check(const struct mslip_element *element);
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 // contact would be too wide for its length.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_normal_force(const struct mslip_element *element,
                            size_t n,
                            const double *approach,
@@ -770,8 +699,6 @@ int32_t mslip_normal_force(const struct mslip_element *element,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
 // contact would be too wide for its length.
-//
-// Memory: Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 int32_t mslip_normal_approach(const struct mslip_element *element,
                               size_t n,
                               const double *normal_force,
@@ -789,8 +716,6 @@ size_t mslip_element_state_length(int32_t directions,
 // Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-//
-// Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_element_state_init(int32_t directions,
                                  size_t state_length,
                                  double *state);
@@ -800,8 +725,6 @@ int32_t mslip_element_state_init(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
-//
-// Memory: `state` is NULL or valid for state_length doubles.
 int32_t mslip_element_state_check(int32_t directions,
                                   size_t state_length,
                                   const double *state);
@@ -812,8 +735,6 @@ int32_t mslip_element_state_check(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
-//
-// Memory: `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 int32_t mslip_element_state_error(int32_t directions,
                                   size_t state_length,
                                   const double *state,
@@ -829,9 +750,6 @@ int32_t mslip_element_state_error(int32_t directions,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 // directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
 // too wide for its length.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-// outputs, does not alias any other argument.
 int32_t mslip_element_update(const struct mslip_element *element,
                              size_t state_length,
                              const double *state_old,
@@ -847,9 +765,6 @@ int32_t mslip_element_update(const struct mslip_element *element,
 // direction the path is then evaluated with a capacity of at most 256 pieces.
 //
 // Returns the codes of mslip_element_update; all outputs are unchanged then.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-// outputs, does not alias any other argument.
 int32_t mslip_element_path(const struct mslip_element *element,
                            size_t state_length,
                            const double *state_old,
@@ -865,8 +780,6 @@ int32_t mslip_element_path(const struct mslip_element *element,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
 // MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
-//
-// Memory: Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 int32_t mslip_element_tractions(const struct mslip_element *element,
                                 size_t state_length,
                                 const double *state,
@@ -879,9 +792,6 @@ int32_t mslip_element_tractions(const struct mslip_element *element,
 // If active is not NULL and active[i] is 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
-//
-// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
-// argument.
 int32_t mslip_batch_complex_stiffness(size_t n,
                                       size_t n_contacts,
                                       const struct mslip_contact *contacts,
@@ -898,9 +808,6 @@ int32_t mslip_batch_complex_stiffness(size_t n,
 // active is not NULL and active[i] is 0, item i is skipped, and its state is not written.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
-//
-// Memory: `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old
-// or, like the outputs, does not alias any other argument.
 int32_t mslip_batch_masing_update(size_t n,
                                   size_t n_contacts,
                                   const struct mslip_contact *contacts,
@@ -919,9 +826,6 @@ int32_t mslip_batch_masing_update(size_t n,
 // 0, item i is skipped.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
-//
-// Memory: `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
-// lengths above; outputs must not alias any other argument.
 int32_t mslip_batch_harmonic_force(size_t n,
                                    size_t n_contacts,
                                    const struct mslip_contact *contacts,
@@ -941,9 +845,6 @@ int32_t mslip_batch_harmonic_force(size_t n,
 //
 // Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 // mslip_element_update; all outputs are unchanged then.
-//
-// Memory: `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old
-// or, like the outputs, does not alias any other argument.
 int32_t mslip_batch_element_update(size_t n,
                                    size_t n_elements,
                                    const struct mslip_element *elements,
@@ -963,9 +864,6 @@ int32_t mslip_batch_element_update(size_t n,
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
 // directions than the workspace; all outputs are unchanged then.
-//
-// Memory: `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
-// lengths above; outputs must not alias any other argument.
 int32_t mslip_batch_element_harmonic_force(size_t n,
                                            size_t n_elements,
                                            const struct mslip_element *elements,

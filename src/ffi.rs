@@ -2,8 +2,17 @@
 //!
 //! All functions check every input before they write: a rejected call leaves all outputs unchanged. Unsafe code
 //! is here, for the pointers of the caller, and once in `simd`.
+//!
+//! # Safety
+//! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what it
+//! stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
 
 #![allow(unsafe_code, non_camel_case_types)]
+#![allow(
+    clippy::missing_safety_doc,
+    unsafe_op_in_unsafe_fn,
+    reason = "one contract, above; other reasons stand at their blocks"
+)]
 
 mod pointers;
 

@@ -94,7 +94,7 @@ pub const MAX_SLIDERS: usize = 1 << 16;
 /// Checks a number of sliders.
 ///
 /// # Errors
-/// `BadCount` if there are none, or more than [`MAX_SLIDERS`].
+/// `BadCount` for 0 sliders, or more than [`MAX_SLIDERS`].
 pub fn check_count(sliders: usize) -> Result<(), Error> {
     if (1..=MAX_SLIDERS).contains(&sliders) { Ok(()) } else { Err(Error::BadCount) }
 }

@@ -205,13 +205,8 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let coefficients = workspace.coefficients();
+    output.check(2 * coefficients, displacement)?;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
-    let n = 2 * coefficients;
-    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
-    if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
-        return Err(Error::BadArraySize);
-    }
-    check_coefficients(displacement)?;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
     let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
     let has_friction = !motion.open && element.friction_coefficient > 0.0;

@@ -100,8 +100,7 @@ fn description(function: &Function, form: Form) -> Vec<String> {
     if form == Form::Advance {
         return vec![format!("`{}` in place: the new state replaces the old one.", function.name)];
     }
-    let paragraphs =
-        function.comment.iter().filter(|text| !text.starts_with("Returns ") && !text.starts_with("Memory: "));
+    let paragraphs = function.comment.iter().filter(|text| !text.starts_with("Returns "));
     let paragraphs = paragraphs.map(|text| {
         let of_c = |sentence: &&str| ["NULL", "alias", "MSLIP_BY_"].iter().any(|word| sentence.contains(word));
         let kept: Vec<&str> = sentences(text).into_iter().filter(|sentence| !of_c(sentence)).collect();
