@@ -23,9 +23,8 @@ struct sequence {
     size_t arrays;
 };
 
-/* Their names. */
-extern const char *const calls[];
 extern const size_t number_of_calls;
+const char *name_of_call(size_t call);
 
 /* The element may be NULL. */
 void initialise(int which, mslip_contact *contact, mslip_element *element);
