@@ -375,10 +375,12 @@ fn paths() {
 /// Slip with springs, with all outputs.
 #[test]
 fn slip_in_two_directions() {
-    let [.., law] = calls::elements();
+    let law = calls::element(true, |element| unsafe {
+        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_APPROACH, element)
+    });
     let path = call("mslip_element_path");
     let [u, w] = [law.displacement, law.normal];
-    let mut arguments = Arguments::new(path, law, Before::Uninitialised);
+    let mut arguments = Arguments::new(path, &law, Before::Uninitialised);
     arguments.set(4, Memory::of(&[0.0, 0.0, w, 0.3 * u, 0.1 * u, w, 0.6 * u, -0.4 * u, 0.8 * w]));
     assert_eq!((path.function)(&arguments.slots), MSLIP_OK);
     let energy = results(path, &arguments)[2][2];

@@ -30,12 +30,7 @@ static const function functions[] = {
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
 /* Besides the functions: the versions, and amplitudes near slip. */
-const size_t number_of_calls = FUNCTIONS + 2;
-
-const char *name_of_call(size_t call)
-{
-    return call < FUNCTIONS ? functions[call].name : call == FUNCTIONS ? "version" : "near_slip";
-}
+static const size_t number_of_calls = FUNCTIONS + 2;
 
 static int takes(const function *f, int kind)
 {

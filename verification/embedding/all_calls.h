@@ -23,9 +23,6 @@ struct sequence {
     size_t arrays;
 };
 
-extern const size_t number_of_calls;
-const char *name_of_call(size_t call);
-
 /* The element may be NULL. */
 void initialise(int which, mslip_contact *contact, mslip_element *element);
 void begin_sequence(struct sequence *sequence);

@@ -200,7 +200,9 @@ pub fn run(input: &Input, of_elements: bool) {
         match (choice, choice.contact()) {
             // Initialised once for all runs.
             (Choice::Listed(_), Some((_, listed))) if !of_elements => {
-                unsafe { memory.laws[usize::from(law) * size..].as_mut_ptr().cast::<mslip_contact>().write(listed.into()) };
+                unsafe {
+                    memory.laws[usize::from(law) * size..].as_mut_ptr().cast::<mslip_contact>().write(listed.into())
+                };
                 memory.valid[usize::from(law)] = true;
             }
             _ => memory.perform(&step),
@@ -828,7 +830,21 @@ impl Clone for Prepared<'_> {
         let Prepared { call, step, extents, units, value, state_length, n_laws, valid, defined, .. } = *self;
         let (slots, input, states, items) =
             (self.slots.clone(), self.input.clone(), self.states.clone(), self.items.clone());
-        Prepared { call, step, slots, extents, units, input, value, states, state_length, items, n_laws, valid, defined }
+        Prepared {
+            call,
+            step,
+            slots,
+            extents,
+            units,
+            input,
+            value,
+            states,
+            state_length,
+            items,
+            n_laws,
+            valid,
+            defined,
+        }
     }
 }
 
