@@ -239,8 +239,8 @@ enum { REVERSALS = 125, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 92, USED_P
 #include "functions.h"
 
 /* The kinds of a function's arguments, by which the drivers distinguish functions. */
-enum { TAKES_COUNT = 1 << ARG_COUNT, TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE, TAKES_TABLE = 1 << ARG_TABLE,
-       IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30, IS_IWAN = 1 << 29 };
+enum { TAKES_COUNT = 1 << ARG_COUNT, TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
+       TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30, IS_IWAN = 1 << 29 };
 
 static arguments call;
 
@@ -274,7 +274,8 @@ static inline size_t extent_of(const char *extents, size_t components)
 {
     size_t extent = 1;
     for (; *extents != '\0'; ++extents) {
-        extent *= *extents == 'n' ? ITEMS : *extents == 'p' ? MSLIP_PARAMETER_COUNT : components * (*extents == 'k' ? COEFFICIENTS : 1);
+        const size_t factor = *extents == 'k' ? COEFFICIENTS : 1;
+        extent *= *extents == 'n' ? ITEMS : *extents == 'p' ? MSLIP_PARAMETER_COUNT : components * factor;
     }
     return extent;
 }
@@ -308,12 +309,13 @@ static inline void make_functions(void)
     for (int others = 0; others < 2; ++others) {
         for (size_t i = 0; i < LENGTH(described); ++i) {
             function f = described[i];
-            f.takes = (strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : 0) | (strstr(f.name, "iwan") ? IS_IWAN : 0);
+            f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : strstr(f.name, "iwan") ? IS_IWAN : 0;
             for (const argument *a = f.argument; a->name != NULL; ++a) {
                 f.takes |= 1u << a->kind;
             }
             const int is_other = !(f.takes & (1 << ARG_CONTACT | 1 << ARG_ELEMENT)) || !(f.takes & 1 << ARG_OUTPUT);
-            const int rules = f.takes & IS_ELEMENT ? f.directions * 2 : (f.takes & TAKES_WORKSPACE) || strstr(f.name, "workspace") ? 2 : 1;
+            const int has_rule = (f.takes & TAKES_WORKSPACE) || strstr(f.name, "workspace");
+            const int rules = f.takes & IS_ELEMENT ? f.directions * 2 : has_rule ? 2 : 1;
             for (int rule = 0; is_other == others && rule < rules; ++rule) {
                 add_function(f, rule);
             }
@@ -504,7 +506,8 @@ static inline void fill_state(const function *f, const void *law, double *state)
     CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
     for (int k = 0; k < USED_PIECES; ++k) {
         const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);
-        const double w = (element->normal_input == MSLIP_NORMAL_FORCE ? element->normal_force : element->approach) * (0.1 + 0.15 * k);
+        const double whole = element->normal_input == MSLIP_NORMAL_FORCE ? element->normal_force : element->approach;
+        const double w = whole * (0.1 + 0.15 * k);
         const double step[COMPONENTS] = { u, element->directions == 1 ? w : 0.7 * u, w };
         CHECK(mslip_element_update(element, STATE, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
     }

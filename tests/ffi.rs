@@ -140,8 +140,8 @@ fn check_initialised(call: &Call, arguments: &Arguments) {
     assert!((0..call.arguments.len()).all(|place| status(place) == MSLIP_OK), "{}", call.name);
 }
 
-/// Pointers that are misaligned or NULL; lengths and counts beyond the address space; memory that is uninitialised, truncated to its
-/// header or its length, or of the other number of directions. Values are tested by the C drivers.
+/// Pointers that are misaligned or NULL; lengths and counts beyond the address space; memory that is uninitialised, truncated to
+/// its header or its length, or of the other number of directions. Values are tested by the C drivers.
 #[test]
 fn invalid_arguments() {
     for_each_call(|call, law| {
@@ -219,8 +219,8 @@ fn invalid_memory(call: &Call, law: &Law, arguments: &mut Arguments, place: usiz
         words[0] += if call.is_of_element() { 5 } else { 3 };
         rejected_with(call, arguments, place, &words, argument.status);
     }
-    // Of the other number of directions; a state that is long enough for both. The arrays of a batch have the lengths of its workspace:
-    // a longer one would exceed them.
+    // Of the other number of directions; a state that is long enough for both. The arrays of a batch have the lengths of its
+    // workspace: a longer one would exceed them.
     let other = Law { directions: 3 - law.directions, ..law.clone() };
     if !call.is_of_element() || !(call.has(Element) || call.has(Choice)) {
         return;

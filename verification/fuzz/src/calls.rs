@@ -309,8 +309,8 @@ impl Memory {
         if self.of_elements { mslip_element_state_length(directions, 0) } else { mslip_state_length(0) }
     }
 
-    /// The values of a state in use: of an element with one direction a header of 8 doubles, whose first holds the number of knots in
-    /// its last 40 bits, and 4 for each; with two the shortest state.
+    /// The values of a state in use: of an element with one direction a header of 8 doubles, whose first holds the number of knots
+    /// in its last 40 bits, and 4 for each; with two the shortest state.
     fn used<'a>(&self, directions: i32, state: &'a [f64]) -> &'a [f64] {
         let knots = state.first().map_or(0, |tag| tag.to_bits() & 0xff_ffff_ffff) as usize;
         let length = match (self.of_elements, directions) {
@@ -661,8 +661,8 @@ impl Memory {
         }
     }
 
-    /// Results depend neither on the requested outputs nor on where the new state is stored, are within their bounds, and are those of
-    /// the steps of a path and of the items of a batch.
+    /// Results depend neither on the requested outputs nor on where the new state is stored, are within their bounds, and are those
+    /// of the steps of a path and of the items of a batch.
     fn compare(&mut self, prepared: &Prepared, some: &[(usize, Vec<f64>)]) {
         let Prepared { call, step, .. } = *prepared;
         let directions = prepared.units.directions;
