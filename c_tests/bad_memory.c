@@ -427,7 +427,7 @@ static void returns(const function *f)
         for (int i = 0; i < OUTPUTS; ++i) {
             writable += r == out_regions[i] ? f->out[i] : 0;
         }
-        holds &= memcmp(r->start, r->before, r->bytes - 8 * writable) == 0;
+        holds &= !r->in_use || memcmp(r->start, r->before, r->bytes - 8 * writable) == 0;
     }
     if (!CHECK(holds)) {
         printf("    %s wrote outside of its outputs\n", f->name);
@@ -493,7 +493,8 @@ int main(int argc, char **argv)
     alarm(600); /* a call that hangs is a failure */
 #endif
     for (int i = 0; i < FUNCTIONS; ++i) {
-        test_arbitrary_bytes(&functions[i], functions[i].takes & IS_IWAN ? 200 : 2000);
+        /* A batch makes the steps and forces of a single call, for five items; a slider takes a search. */
+        test_arbitrary_bytes(&functions[i], functions[i].takes & (IS_IWAN | IS_BATCH) ? 200 : 2000);
     }
     for (int i = 0; i < OUTPUTS; ++i) {
         free(valid_outputs[i]);

@@ -217,7 +217,7 @@ static double value_of(const function *f, const mslip_element *element, size_t i
                                         : element->friction_coefficient * element->normal_force / element->tangential_stiffness;
     const double far = one_in(16) ? log_uniform(1.0, 1e100) : uniform(0.0, 3.0);
     switch (kind) {
-        case POSITION: return sign() * 1.1 * share() * (element == NULL ? contact.half_width : element->half_width);
+        case X: return sign() * 1.1 * share() * (element == NULL ? contact.half_width : element->half_width);
         case FORCE: return sign() * share() * contact.slip_force;
         case FORCE_AMPLITUDE: return share() * contact.slip_force;
         case DISPLACEMENT: return fmax(-1e150, fmin(sign() * share() * far * slip, 1e150));
@@ -234,7 +234,7 @@ static double value_of(const function *f, const mslip_element *element, size_t i
     }
 }
 
-static size_t accepted_calls[FUNCTIONS];
+static size_t accepted_calls[LENGTH(functions)];
 
 /* A history of calls; each continues from the states of the one before. */
 static void make_calls(int which)

@@ -10,7 +10,7 @@ use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Paramete
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
-use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
+use microslip::two_directions::{Step, advance, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
@@ -352,8 +352,11 @@ fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] 
     contact.to([period[0], period[1], 0.0]);
     let (mut force, mut dissipated) = (vec![0.0; 3 * n + 3], vec![0.0; n + 1]);
     for _ in 0..20 {
-        let output = PathOutput { force: Some(&mut force), tangent: None, dissipated: Some(&mut dissipated) };
-        path(element, &mut contact.state, &period, output).unwrap();
+        for (k, displacement) in period.as_chunks().0.iter().enumerate() {
+            let step = contact.to(*displacement);
+            force[3 * k..][..3].copy_from_slice(&step.force);
+            dissipated[k] = step.dissipated;
+        }
     }
     let chord = |k: usize| (0..2).map(move |i| [3 * k + i, 3 * k + 3 + i]);
     let work: f64 = (0..n).flat_map(chord).map(|[i, j]| 0.5 * (force[i] + force[j]) * (period[j] - period[i])).sum();

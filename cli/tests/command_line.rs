@@ -319,17 +319,13 @@ fn histories_equal_those_of_the_library() {
 
 /// `[T, N]`, the stiffness and the dissipated energy of each step of a path.
 fn element_path(element: &Element, path: &[f64]) -> Vec<[f64; 4]> {
-    let n = path.len() / 2;
-    let mut state = vec![0.0; element_state::state_length(n)];
-    let (mut force, mut tangent, mut dissipated) = (vec![0.0; 2 * n], vec![0.0; 4 * n], vec![0.0; n]);
+    let mut state = vec![0.0; element_state::state_length(path.len() / 2)];
     element_state::state_init(&mut state).unwrap();
-    let output = element_state::PathOutput {
-        force: Some(&mut force),
-        tangent: Some(&mut tangent),
-        dissipated: Some(&mut dissipated),
+    let step = |displacement: &[f64; 2]| {
+        let step = element_state::advance(element, &mut state, *displacement, true).unwrap();
+        [step.force[0], step.force[1], step.tangent[0], step.dissipated]
     };
-    element_state::path(element, &mut state, path, output).unwrap();
-    (0..n).map(|i| [force[2 * i], force[2 * i + 1], tangent[4 * i], dissipated[i]]).collect()
+    path.as_chunks().0.iter().map(step).collect()
 }
 
 #[test]

@@ -301,7 +301,7 @@ pub fn contacts() -> &'static [Law; 3] {
 pub fn elements() -> &'static [Law; 3] {
     static ELEMENTS: OnceLock<[Law; 3]> = OnceLock::new();
     ELEMENTS.get_or_init(|| {
-        // The springs of both directions take too long under Miri: without friction there are none.
+        // Harmonic forces with the springs of both directions take too long under Miri: without friction there are none.
         let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
         [
             element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_INPUT_APPROACH, element) }),
@@ -436,18 +436,15 @@ impl Law {
     }
 
     fn table(&self) -> Memory {
-        static TABLES: OnceLock<[Vec<f64>; 3]> = OnceLock::new();
-        let tables = TABLES.get_or_init(|| {
-            contacts().each_ref().map(|law| {
-                let (contact, table) = (Memory::of_law(law, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
-                let status =
-                    unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
-                assert_eq!(status, MSLIP_OK);
-                table.values().to_vec()
-            })
-        });
+        static TABLES: [OnceLock<Vec<f64>>; 3] = [const { OnceLock::new() }; 3];
         let own = contacts().iter().position(|law| law.bytes == self.bytes).expect("a contact of the list");
-        Memory::of(&tables[own])
+        Memory::of(TABLES[own].get_or_init(|| {
+            let (contact, table) = (Memory::of_law(self, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
+            let status =
+                unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
+            assert_eq!(status, MSLIP_OK);
+            table.values().to_vec()
+        }))
     }
 }
 

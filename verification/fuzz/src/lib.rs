@@ -1,6 +1,17 @@
 //! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; and checked calls.
 
 pub mod calls;
+#[allow(dead_code, reason = "the valid arguments are those of the tests")]
+#[path = "../../../tests/calls/mod.rs"]
+mod interface;
+
+/// Asserts a bound of all values; NaN violates it.
+#[macro_export]
+macro_rules! all {
+    ($values:expr, $bound:expr) => {
+        assert!($values.iter().copied().all($bound), "{}: {:?}", stringify!($bound), $values)
+    };
+}
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
