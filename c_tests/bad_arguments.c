@@ -450,11 +450,17 @@ static void test_length(const function *f, const argument *a)
         if (is_state || i < 10 || i + 10 >= least) {
             const size_t unused = (full - i) * items_of(f);
             *length = i;
-            call.state = is_new ? NULL : STATES + unused;
-            call.buffer += is_new ? unused : 0;
+            if (is_new) {
+                call.buffer += unused;
+            } else {
+                call.state += unused;
+            }
             rejected(f, a->status, a->name);
-            call.state = is_new ? NULL : STATES - unused;
-            call.buffer -= is_new ? unused : 0;
+            if (is_new) {
+                call.buffer -= unused;
+            } else {
+                call.state -= unused;
+            }
         }
     }
     for (*length = least; is_state && !is_new && !(f->takes & IS_BATCH) && *length < used_state(f); ++*length) {

@@ -278,7 +278,7 @@ impl Memory {
             let shift = positive(e.approach * e.friction_coefficient.min(1e3));
             Units {
                 directions: e.directions,
-                by_force: e.normal_input == MSLIP_NORMAL_FORCE,
+                by_force: e.normal_input == MSLIP_INPUT_NORMAL_FORCE,
                 half_width: positive(e.half_width),
                 force: e.friction_coefficient * e.normal_force,
                 shift,
@@ -363,17 +363,18 @@ impl Memory {
                     &mut self.workspaces[step.workspace as usize % 2];
                 let before = values.clone();
                 change(values);
-                let (header, mut d, mut h, mut s, mut r) = (values.as_ptr(), 1, 0, 0, 0);
+                let (header, mut d, mut h, mut s, mut r, mut periods) = (values.as_ptr(), 1, 0, 0, 0, 0);
                 let (size, length) = unsafe {
                     if of_elements {
-                        let size = mslip_element_workspace_size(header, &mut d, &mut h, &mut s, &mut r);
+                        let size = mslip_element_workspace_size(header, &mut d, &mut h, &mut s, &mut r, &mut periods);
                         (size, mslip_element_workspace_length(d, h, s, r))
                     } else {
                         let size = mslip_harmonic_workspace_size(header, &mut h, &mut s, &mut r);
                         (size, mslip_harmonic_workspace_length(h, s, r))
                     }
                 };
-                if size == MSLIP_OK && length > values.len() {
+                // Many periods take long.
+                if size == MSLIP_OK && (length > values.len() || periods > 4) {
                     *values = before;
                 } else {
                     (*valid, *directions, *coefficients) = (false, d, 2 * h + 1);
