@@ -518,6 +518,16 @@ fn nothing_drifts_on_a_line_or_after_separation() {
             assert!(more.jacobian == one.jacobian || motion == &line);
         }
     }
+    // Alone, the drift is written too.
+    let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
+    workspace_init(HARMONICS, SAMPLES, 2, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    for motion in [&opening, &line] {
+        let mut drift = f64::NAN;
+        let output = HarmonicOutput { force: None, jacobian: None, dissipated: None, drift: Some(&mut drift) };
+        harmonic_force(&element, &mut workspace, motion, output).unwrap();
+        assert_eq!(drift, 0.0);
+    }
     // By steps, the first period of the opening contact contains the first loading, all others are equal.
     let [[one, before], [last, other]] = [1, 2].map(|periods| walked(&element, periods, &opening));
     assert!(one != before && one == last && last == other);

@@ -216,7 +216,7 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
-    let HarmonicOutput { mut force, mut jacobian, mut dissipated, drift } = output;
+    let HarmonicOutput { mut force, mut jacobian, mut dissipated, mut drift } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
     if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
         return Err(Error::BadArraySize);
@@ -227,6 +227,9 @@ pub fn harmonic_force(
     if on_line {
         let with_jacobian = jacobian.is_some();
         line(element, workspace, displacement, force.as_deref_mut(), with_jacobian, dissipated.as_deref_mut())?;
+        if let Some(drift) = &mut drift {
+            **drift = 0.0;
+        }
         if !with_jacobian {
             return Ok(());
         }
