@@ -84,6 +84,8 @@ pub struct Element {
     lateral: [f64; 2],
     shift: f64,
     size: f64,
+    /// The number of springs of the parameters; 0: the default.
+    pub springs_requested: u64,
     pub(crate) springs: Springs,
 }
 
@@ -178,6 +180,7 @@ impl Element {
         let plane = Plane { shape: &layered, ..flat.plane() };
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
+        self.springs_requested = parameters.springs.unsigned_abs().into();
         (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
         Ok(())
     }
@@ -210,6 +213,7 @@ impl Element {
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
+        self.springs_requested = parameters.springs.unsigned_abs().into();
         (self.flat, self.ellipse) = (EMPTY.flat, layered);
         Ok(())
     }
@@ -808,6 +812,7 @@ const EMPTY: Element = Element {
     lateral: [0.0; 2],
     shift: 0.0,
     size: 0.0,
+    springs_requested: 0,
     springs: Springs::EMPTY,
 };
 

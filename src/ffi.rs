@@ -2,10 +2,17 @@
 //!
 //! All functions check every input before they write: a rejected call leaves all outputs unchanged. Unsafe code
 //! is here, for the pointers of the caller, and once in `simd`.
+//!
+//! # Safety
+//! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what it
+//! stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
 
 #![allow(unsafe_code, non_camel_case_types)]
-
-mod parameters;
+#![allow(
+    clippy::missing_safety_doc,
+    unsafe_op_in_unsafe_fn,
+    reason = "one contract, above; other reasons stand at their blocks"
+)]
 
 mod pointers;
 
@@ -24,15 +31,15 @@ pub use constant_load::cycle::*;
 pub use constant_load::history::*;
 pub use element::*;
 pub use harmonic_force::*;
-pub use parameters::*;
 
 use crate::constant_load::contact::Contact;
 use crate::element::Element;
 use crate::error::Error;
+use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
-pub const MSLIP_ABI_VERSION: i32 = 3;
+pub const MSLIP_ABI_VERSION: i32 = 4;
 
 /// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 pub const MSLIP_CENTRE_POINT: i32 = 0;
@@ -45,9 +52,9 @@ pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
 pub const MSLIP_EVENT_DRIVEN: i32 = 1;
 
 /// The normal component of a displacement is the normal approach \[m\]; if it is not positive, the contact is open.
-pub const MSLIP_APPROACH: i32 = 0;
+pub const MSLIP_INPUT_APPROACH: i32 = 0;
 /// The normal component of a displacement is the normal force \[N\] itself.
-pub const MSLIP_NORMAL_FORCE: i32 = 1;
+pub const MSLIP_INPUT_NORMAL_FORCE: i32 = 1;
 
 /// Row of a sensitivity: derivative with respect to the normal force N.
 pub const MSLIP_BY_NORMAL_FORCE: i32 = 0;
@@ -107,10 +114,10 @@ pub struct mslip_element {
     pub tangential_stiffness: f64,
     /// Number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
     pub directions: i32,
-    /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 6560],
+    pub reserved: [f64; 6561],
 }
 
 const _: () = {
@@ -125,9 +132,10 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<mslip_parameters>() == 80 && size_of::<mslip_elliptic_parameters>() == 64);
-    assert!(offset_of!(mslip_parameters, material) == 40 && offset_of!(mslip_parameters, displacement_reference) == 72);
-    assert!(offset_of!(mslip_elliptic_parameters, material) == 32);
+    assert!(size_of::<Parameters>() == 104 && size_of::<EllipticParameters>() == 96);
+    assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, layer) == 72);
+    assert!(offset_of!(Parameters, springs) == 100 && offset_of!(EllipticParameters, springs) == 88);
+    assert!(offset_of!(EllipticParameters, material) == 32 && offset_of!(EllipticParameters, layer) == 64);
 };
 
 /// Version of the library, "1.2.3".

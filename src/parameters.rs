@@ -21,6 +21,7 @@ pub struct Material {
 
 /// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
 /// the contact.
+#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
     /// Normal compliance c_n >= 0 under the normal force of the parameters \[m/N\]; 0: none. A contact under a constant normal force
@@ -35,7 +36,10 @@ pub struct Layer {
 
 impl Layer {
     /// No layer.
-    pub const NONE: Layer = Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0 };
+    #[must_use]
+    pub const fn none() -> Layer {
+        Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0 }
+    }
 
     /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which the
     /// polynomials of a contact resolve down to this ratio.
@@ -56,11 +60,12 @@ impl Layer {
 
 impl Default for Layer {
     fn default() -> Self {
-        Layer::NONE
+        Layer::none()
     }
 }
 
 /// Flat with rounded edges on a flat (Eq. 1-24); a cylinder if the flat has no width.
+#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
     /// Half-width a >= 0 of the flat \[m\]; 0 is a Hertzian cylinder.
@@ -75,15 +80,16 @@ pub struct Parameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
-    /// A layer in series with the contact.
+    /// A layer in series with the contact; all zero: none.
     pub layer: Layer,
     /// `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     pub displacement_reference: i32,
-    /// Not read; set to 0.
-    pub reserved: i32,
+    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    pub springs: i32,
 }
 
 /// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
+#[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipticParameters {
     /// Semi-axis b > 0 of the contact ellipse along the tangential force \[m\].
@@ -96,11 +102,15 @@ pub struct EllipticParameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
-    /// A layer in series with the contact.
+    /// A layer in series with the contact; all zero: none.
     pub layer: Layer,
+    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    pub springs: i32,
+    /// Not read; set to 0.
+    pub reserved: i32,
 }
 
-/// Default of all parameters: NaN, so that an omitted parameter is rejected by its own error.
+/// Default of the numbers: NaN, so that an omitted parameter is rejected by its own error.
 const UNSET: f64 = f64::NAN;
 
 const UNSET_MATERIAL: Material = Material { young_modulus: UNSET, poisson_ratio: UNSET };
@@ -114,9 +124,9 @@ impl Default for Parameters {
             normal_force: UNSET,
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
-            layer: Layer::NONE,
+            layer: Layer::none(),
             displacement_reference: CENTRE_POINT,
-            reserved: 0,
+            springs: 0,
         }
     }
 }
@@ -129,7 +139,9 @@ impl Default for EllipticParameters {
             normal_force: UNSET,
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
-            layer: Layer::NONE,
+            layer: Layer::none(),
+            springs: 0,
+            reserved: 0,
         }
     }
 }
@@ -166,6 +178,10 @@ fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
     Ok(())
 }
 
+fn check_springs(springs: i32) -> Result<(), Error> {
+    if matches!(springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
+}
+
 impl Parameters {
     /// Checks the ranges of all parameters.
     ///
@@ -180,7 +196,7 @@ impl Parameters {
         check_materials(&self.material)?;
         self.layer.check(self.normal_force)?;
         match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => Ok(()),
+            CENTRE_POINT | RIGID_STRIP => check_springs(self.springs),
             _ => Err(Error::BadDisplacementReference),
         }
     }
@@ -197,7 +213,8 @@ impl EllipticParameters {
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         check_materials(&self.material)?;
-        self.layer.check(self.normal_force)
+        self.layer.check(self.normal_force)?;
+        check_springs(self.springs)
     }
 }
 
@@ -266,6 +283,24 @@ mod tests {
         assert_eq!(one.check(), Err(Error::BadDisplacementReference));
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
+        for springs in [0, 8, 12, 16] {
+            assert_eq!(Parameters { springs, ..steel() }.check(), Ok(()));
+        }
+        for springs in [-8, 1, 13, 24] {
+            assert_eq!(Parameters { springs, ..steel() }.check(), Err(Error::BadSprings));
+            let Parameters { normal_force, friction_coefficient, material, .. } = steel();
+            let ellipse = EllipticParameters {
+                semi_axis_x: 1e-4,
+                semi_axis_y: 1e-4,
+                normal_force,
+                friction_coefficient,
+                material,
+                springs,
+                ..EllipticParameters::default()
+            };
+            assert_eq!(ellipse.check(), Err(Error::BadSprings));
+            assert_eq!(EllipticParameters { springs: 12, ..ellipse }.check(), Ok(()));
+        }
     }
 
     #[test]

@@ -25,7 +25,7 @@ fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> Vec
             layer,
             ..Parameters::default()
         };
-        let alone = Contact::rounded_flat(&parameters(Layer::NONE)).unwrap();
+        let alone = Contact::rounded_flat(&parameters(Layer::none())).unwrap();
         [alone, Contact::rounded_flat(&parameters(layer(&alone))).unwrap()]
     };
     let ellipse = |layer| EllipticParameters {
@@ -35,8 +35,9 @@ fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> Vec
         friction_coefficient,
         material: [STEEL; 2],
         layer,
+        ..EllipticParameters::default()
     };
-    let alone = Contact::elliptic(&ellipse(Layer::NONE)).unwrap();
+    let alone = Contact::elliptic(&ellipse(Layer::none())).unwrap();
     let sphere = [alone, Contact::elliptic(&ellipse(layer(&alone))).unwrap()];
     vec![flat(0.0), flat(50e-6), flat(5e-3), sphere]
 }
@@ -385,6 +386,7 @@ fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
         friction_coefficient: 0.4,
         material: [STEEL; 2],
         layer,
+        ..EllipticParameters::default()
     };
     let check = |element: &Element, direction: usize, contact: &Contact, normal_force: f64| {
         for part in [1e-12, -1e-3, 0.1, 0.24, 0.26, -0.7, 0.99, 1.0, -1.0] {
@@ -407,7 +409,8 @@ fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
         let beyond = element.displacement_under(direction, 1.001 * contact.slip_force, normal_force);
         assert_eq!(beyond.map(|_| ()), Err(Error::ForceExceedsSlip));
     };
-    for layer in [Layer::NONE, Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0 }] {
+    for layer in [Layer::none(), Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0 }]
+    {
         for input in [NormalInput::Approach, NormalInput::Force] {
             // The compliance of the layer is given under the normal force of the parameters.
             let load = 0.4 * NORMAL_FORCE;
@@ -436,9 +439,10 @@ fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
             check(&element, 0, &Contact::elliptic(&ellipse(axes, layer)).unwrap(), NORMAL_FORCE);
         }
     }
-    let element = Element::elliptic(&ellipse([1e-4, 2e-4], Layer::NONE), Directions::Two, NormalInput::Force).unwrap();
+    let element =
+        Element::elliptic(&ellipse([1e-4, 2e-4], Layer::none()), Directions::Two, NormalInput::Force).unwrap();
     let [across, along] =
-        [[1e-4, 2e-4], [2e-4, 1e-4]].map(|axes| Contact::elliptic(&ellipse(axes, Layer::NONE)).unwrap());
+        [[1e-4, 2e-4], [2e-4, 1e-4]].map(|axes| Contact::elliptic(&ellipse(axes, Layer::none())).unwrap());
     check(&element, 0, &across, NORMAL_FORCE);
     check(&element, 1, &along, NORMAL_FORCE);
 }

@@ -5,7 +5,7 @@
 mod table;
 
 use microslip::shape::{HertzEllipse, RoundedFlat, Shape};
-use microslip::{EllipticParameters, Layer, Material, Parameters};
+use microslip::{EllipticParameters, Material, Parameters};
 use table::{Row, table};
 
 /// Relative errors of a shape at one row: half-width, the other of force and approach, shift, stiffness dN/dU, dS/dU.
@@ -44,7 +44,7 @@ fn normal_law_and_tangential_shift() {
                 normal_force,
                 friction_coefficient,
                 material,
-                layer: Layer::NONE,
+                ..EllipticParameters::default()
             };
             errors(&HertzEllipse::new(&parameters).unwrap(), &row)
         };

@@ -17,7 +17,7 @@ use crate::cycles::{Loop, Sample};
 use crate::error::{Error, error};
 use crate::input::{self, DisplacementReference, Geometry, ShapeParameter};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Material, Parameters};
 
 /// Places of the parameters in arrays.
 pub(crate) const FRICTION: usize = 0;
@@ -124,7 +124,7 @@ impl Family {
                     normal_force,
                     friction_coefficient,
                     material,
-                    layer: Layer::NONE,
+                    ..EllipticParameters::default()
                 })
             }
         };

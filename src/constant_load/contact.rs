@@ -378,6 +378,7 @@ pub(crate) mod tests {
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
             layer: layer(&ellipse(1e-4, 2e-4)),
+            ..EllipticParameters::default()
         };
         std::vec![flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
     }
@@ -402,7 +403,7 @@ pub(crate) mod tests {
             normal_force: 150.0,
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         })
         .unwrap()
     }
@@ -513,7 +514,7 @@ pub(crate) mod tests {
                             normal_force: three,
                             friction_coefficient: 0.3,
                             material,
-                            layer: Layer::NONE,
+                            ..EllipticParameters::default()
                         }));
                     }
                 }
@@ -574,8 +575,8 @@ pub(crate) mod tests {
             friction_coefficient: 5.3e116,
             material: [body; 2],
             displacement_reference: 1,
-            reserved: 0,
-            layer: Layer::NONE,
+            layer: Layer::none(),
+            springs: 0,
         };
         assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
     }
@@ -591,7 +592,7 @@ pub(crate) mod tests {
                 normal_force: 100.0,
                 friction_coefficient: 2f64.powi(exponent),
                 material: [soft, TITANIUM],
-                layer: Layer::NONE,
+                ..EllipticParameters::default()
             };
             match Contact::elliptic(&parameters) {
                 Ok(contact) => {

@@ -183,8 +183,8 @@ pub(crate) mod tests {
                         friction_coefficient,
                         material,
                         displacement_reference,
-                        reserved: 0,
-                        layer: Layer::NONE,
+                        layer: Layer::none(),
+                        springs: 0,
                     })
                     .unwrap()
                 };
@@ -201,7 +201,7 @@ pub(crate) mod tests {
                 normal_force,
                 friction_coefficient,
                 material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
-                layer: Layer::NONE,
+                ..EllipticParameters::default()
             })
             .unwrap()
         };
@@ -239,6 +239,7 @@ pub(crate) mod tests {
                     friction_coefficient,
                     material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
                     layer,
+                    ..EllipticParameters::default()
                 })
                 .unwrap()
             };

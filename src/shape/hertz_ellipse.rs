@@ -224,7 +224,7 @@ fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::cylinder;
-    use crate::parameters::{CENTRE_POINT, Layer, Material};
+    use crate::parameters::{CENTRE_POINT, Material};
 
     fn equal_bodies(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
         [Material { young_modulus, poisson_ratio }; 2]
@@ -238,7 +238,7 @@ mod tests {
             normal_force,
             friction_coefficient,
             material,
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         };
         HertzEllipse::new(&parameters).unwrap().initial_compliance()
     }

@@ -33,7 +33,7 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    pub const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
+    pub(crate) const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
 
     /// The layer of parameters that were checked, N > 0.
     ///
@@ -699,7 +699,7 @@ pub(crate) mod tests {
             normal_force: 150.0,
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
-            layer: parameters::Layer::NONE,
+            ..EllipticParameters::default()
         };
         let flats = FLATS.into_iter().map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
         flats.flat_map(with_layers).chain(with_layers(HertzEllipse::new(&ellipse).unwrap())).collect()

@@ -3,10 +3,11 @@
 //! The motion is u, v and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
 //! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
 //! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
-//! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts.
+//! displaced to that sample at constant normal force, and advanced along the periods of the workspace and one more, which counts.
 //!
 //! The Jacobian is the exact derivative of these steps: the derivatives of the memory with respect to all coefficients are carried
-//! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
+//! along through all periods. The drift compares the tangential forces of the last period with those of the one before; a contact that
+//! opens forgets, and has none. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
 //! springs.
 
 use super::Requested;
@@ -30,15 +31,17 @@ pub use crate::fourier::HarmonicOutput;
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
 }
 
-/// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
+/// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
+/// default, 1), and scratch memory.
 ///
 /// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
-pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Layout::init(harmonics, samples, workspace)
+/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more than 65536;
+/// `WorkspaceTooShort`.
+pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
+    Layout::init(Size::new(harmonics, samples).with_periods(periods), workspace)
 }
 
 /// Rows of columns besides the derivatives of the memory and their scratch memory: the motion, and the force.
@@ -86,12 +89,13 @@ impl WorkspaceLayout for Layout {
         HEADER
             + self.tables_length()
             + 4 * self.0.samples
+            + padded(2 * self.0.samples)
             + (ROWS + SCRATCH + MOTION_ROWS) * self.columns()
             + self.line_length()
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         let n = self.0.coefficients();
         let basis = tables.take(n * samples)?;
         for (sample, values) in basis.chunks_exact_mut(n).enumerate() {
@@ -114,6 +118,8 @@ pub struct Workspace<'a> {
     one_direction: one_direction::Workspace<'a>,
     /// u, v, normal component.
     samples: &'a mut [[f64; 4]],
+    /// Tx and Ty at the samples of the last period, over mu times the largest normal force.
+    forces: &'a mut [[f64; 2]],
     /// Derivatives of the memory, their scratch memory, and those of the motion and of the force.
     derivatives: &'a mut [f64],
     scratch: &'a mut [f64],
@@ -136,6 +142,7 @@ impl<'a> Workspace<'a> {
             basis,
             one_direction,
             samples: parts.take_blocks(size.samples)?,
+            forces: parts.take(2 * size.samples)?.as_chunks_mut().0,
             derivatives: parts.take(ROWS * columns)?,
             scratch: parts.take(SCRATCH * columns)?,
             motion: parts.take(MOTION_ROWS * columns)?,
@@ -201,15 +208,15 @@ impl<'a> Workspace<'a> {
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
 /// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
 /// too wide for its length.
-#[expect(clippy::too_many_lines, reason = "one period, in its order")]
+#[expect(clippy::too_many_lines, reason = "all periods, in their order")]
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
-    let (n, count) = (workspace.coefficients(), workspace.size.samples);
-    let HarmonicOutput { mut force, mut jacobian, mut dissipated } = output;
+    let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
+    let HarmonicOutput { mut force, mut jacobian, mut dissipated, mut drift } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
     if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
         return Err(Error::BadArraySize);
@@ -220,6 +227,9 @@ pub fn harmonic_force(
     if on_line {
         let with_jacobian = jacobian.is_some();
         line(element, workspace, displacement, force.as_deref_mut(), with_jacobian, dissipated.as_deref_mut())?;
+        if let Some(drift) = &mut drift {
+            **drift = 0.0;
+        }
         if !with_jacobian {
             return Ok(());
         }
@@ -240,6 +250,11 @@ pub fn harmonic_force(
         largest = if sample[2] > so_far { index } else { largest };
     }
     let top = workspace.sample(largest);
+    // A contact that opens forgets: whatever was before, the second period is the steady state.
+    let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
+    let periods = if opens { 1 } else { periods };
+    let has_drift = drift.is_some() && !on_line && !opens;
+    let slip_force = if has_drift { element.friction_coefficient * element.normal(top[2]).load } else { 0.0 };
     let mut from = Header::NONE;
     let mut springs = SpringState::RELAXED;
     let mut record = StepRecord::new();
@@ -249,12 +264,14 @@ pub fn harmonic_force(
         press.advance(element, &mut springs, Requested { tangent: false, energy: false }, &mut record);
         from = press.to;
     }
-    let mut energy = 0.0;
+    let (mut energy, mut largest_difference) = (0.0, 0f64);
     let per_sample = 1.0 / count as f64;
     let mut before = largest;
-    for step in 0..=2 * count {
+    // The first step displaces the pressed contact.
+    let steps = (0..=periods).flat_map(|period| (usize::from(period > 0)..=count).map(move |step| (period, step)));
+    for (period, step) in steps {
         let index = (largest + step).checked_rem(count).unwrap_or(0);
-        let counts = step > count;
+        let counts = period == periods;
         let to = workspace.sample(index);
         let (values, slope) = if frictionless {
             let normal = if element.is_closed(to[2]) { Some(element.normal(to[2])) } else { None };
@@ -269,7 +286,7 @@ pub fn harmonic_force(
                 }
                 if path.closed {
                     // The first displacement begins at rest, not at a sample.
-                    let start = if step == 0 { None } else { Some(before) };
+                    let start = if (period, step) == (0, 0) { None } else { Some(before) };
                     differentiate(element, workspace, &path, [&old, &springs], &record, &from, [start, Some(index)]);
                 } else {
                     workspace.motion.fill(0.0);
@@ -280,6 +297,14 @@ pub fn harmonic_force(
             (result.force, result.tangent[8])
         };
         before = index;
+        if slip_force > 0.0 && step > 0 {
+            let [x, y] = [values[0] / slip_force, values[1] / slip_force];
+            if let Some(place) = workspace.forces.get_mut(index) {
+                let [dx, dy] = [x - place[0], y - place[1]];
+                largest_difference = if counts { largest_difference.max((dx * dx + dy * dy).sqrt()) } else { 0.0 };
+                *place = [x, y];
+            }
+        }
         if !counts {
             continue;
         }
@@ -308,6 +333,9 @@ pub fn harmonic_force(
     }
     if let Some(dissipated) = dissipated {
         *dissipated = energy;
+    }
+    if let Some(drift) = drift {
+        *drift = largest_difference;
     }
     if on_line && let Some(jacobian) = jacobian {
         merge_line(workspace, jacobian);
@@ -393,7 +421,7 @@ fn line(
     }
     let jacobian = if with_jacobian { Some(matrix) } else { None };
     let requested = force.is_some().then_some(&mut *result);
-    let output = HarmonicOutput { force: requested, jacobian, dissipated };
+    let output = HarmonicOutput { force: requested, jacobian, dissipated, drift: None };
     one_direction::harmonic_force(element, &mut workspace.one_direction, motion, output)?;
     if let Some(force) = force {
         force.fill(0.0);
@@ -449,8 +477,8 @@ mod tests {
                 friction_coefficient: 0.4,
                 material,
                 displacement_reference: CENTRE_POINT,
-                reserved: 0,
-                layer: Layer::NONE,
+                layer: Layer::none(),
+                springs: 0,
             };
             Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
         };
@@ -460,7 +488,7 @@ mod tests {
             normal_force: 1000.0,
             friction_coefficient: 0.4,
             material,
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         };
         let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
         vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
@@ -494,7 +522,7 @@ mod tests {
 
     fn compute(element: &Element, motion: &[f64]) -> Result {
         let mut memory = vec![0.0; workspace_length(H, SAMPLES)];
-        workspace_init(H, SAMPLES, &mut memory).unwrap();
+        workspace_init(H, SAMPLES, 1, &mut memory).unwrap();
         let mut workspace = Workspace::new(&mut memory).unwrap();
         let mut result =
             Result { force: [0.0; COEFFICIENTS], jacobian: vec![0.0; COEFFICIENTS * COEFFICIENTS], dissipated: 0.0 };
@@ -502,6 +530,7 @@ mod tests {
             force: Some(&mut result.force),
             jacobian: Some(&mut result.jacobian),
             dissipated: Some(&mut result.dissipated),
+            drift: None,
         };
         harmonic_force(element, &mut workspace, motion, output).unwrap();
         result

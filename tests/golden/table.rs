@@ -1,6 +1,6 @@
 //! Reader of the reference tables: inputs are exact doubles, outputs have 25 digits.
 
-use microslip::{EllipticParameters, Layer, Material, Parameters};
+use microslip::{EllipticParameters, Material, Parameters};
 use std::collections::HashMap;
 use std::ops::Index;
 
@@ -37,8 +37,8 @@ macro_rules! tables {
 
 pub fn table(name: &str) -> Vec<Row> {
     let text: &'static str = tables!(name,
-        "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "layer_normal_law"
-        "layer_varying_load" "monotonic" "monotonic_inverse" "normal_law" "slip" "strip_3d" "tractions" "two_directions" "varying_load");
+        "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "layer_normal_law" "layer_varying_load"
+        "monotonic" "monotonic_inverse" "normal_law" "slip" "strip_3d" "tractions" "two_directions" "varying_load");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').map(str::trim).collect();
     let row = |line: &'static str| {
@@ -76,6 +76,6 @@ pub fn ellipse(row: &Row) -> EllipticParameters {
         normal_force: row["N"],
         friction_coefficient: row["mu"],
         material: [Material { young_modulus: row["E"], poisson_ratio: row["nu"] }; 2],
-        layer: Layer::NONE,
+        ..EllipticParameters::default()
     }
 }

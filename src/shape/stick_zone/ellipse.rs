@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use crate::constant_load::contact::Contact;
     use crate::constant_load::contact::tests::ellipse;
-    use crate::parameters::{EllipticParameters, Layer, Material};
+    use crate::parameters::{EllipticParameters, Material};
     use crate::shape::stick_zone::integrate;
 
     fn equal_bodies(young_modulus: f64, poisson_ratio: f64) -> [Material; 2] {
@@ -174,7 +174,7 @@ mod tests {
             normal_force,
             friction_coefficient: friction,
             material,
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         })
         .unwrap();
         let force = 7.0 / 8.0 * friction * normal_force;

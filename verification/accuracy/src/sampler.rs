@@ -108,7 +108,7 @@ impl Sampler {
                 normal_force: self.power(-3.0, 5.0),
                 friction_coefficient,
                 material,
-                layer: Layer::NONE,
+                ..EllipticParameters::default()
             });
         }
         // a and w over b; 1 - a/b may be below rounding.
@@ -153,8 +153,8 @@ impl Sampler {
             friction_coefficient,
             material,
             displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
-            reserved: 0,
-            layer: Layer::NONE,
+            layer: Layer::none(),
+            springs: 0,
         })
     }
 

@@ -1,6 +1,17 @@
 //! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; and checked calls.
 
 pub mod calls;
+#[allow(dead_code, reason = "the valid arguments are those of the tests")]
+#[path = "../../../tests/calls/mod.rs"]
+mod interface;
+
+/// Asserts a bound of all values; NaN violates it.
+#[macro_export]
+macro_rules! all {
+    ($values:expr, $bound:expr) => {
+        assert!($values.iter().copied().all($bound), "{}: {:?}", stringify!($bound), $values)
+    };
+}
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
@@ -127,9 +138,9 @@ impl Choice {
                     normal_force: n.value(100.0),
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
-                    layer: Layer::NONE,
+                    layer: Layer::none(),
                     displacement_reference: i32::from(if reference < 240 { reference % 2 } else { reference }),
-                    reserved: reference.into(),
+                    ..Parameters::default()
                 })
             }
             Choice::Ellipse { geometry: [x, y], load: [n, mu], material: m } => {
@@ -139,7 +150,7 @@ impl Choice {
                     normal_force: n.value(100.0),
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
-                    layer: Layer::NONE,
+                    ..EllipticParameters::default()
                 })
             }
         }
@@ -179,9 +190,9 @@ const FLAT: Parameters = Parameters {
     normal_force: 100.0,
     friction_coefficient: 0.5,
     material: [STEEL; 2],
-    layer: Layer::NONE,
+    layer: Layer::none(),
     displacement_reference: 0,
-    reserved: 0,
+    springs: 0,
 };
 
 /// Contacts from the cylinder to the nearly flat, short, long, open, without friction, and in extreme units, initialised once.
@@ -218,7 +229,7 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
                 normal_force,
                 friction_coefficient,
                 material,
-                layer: Layer::NONE,
+                ..EllipticParameters::default()
             }
         });
         let extreme_units = [(50e-6, 120, -100), (0.0, -90, 200)].map(|(flat_half_width, length, force)| {

@@ -4,7 +4,7 @@
 
 use microslip::constant_load::{masing, state};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::{Contact, CurvePoint, EllipticParameters, Layer, Material, Parameters};
+use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
@@ -97,7 +97,7 @@ impl Case {
             normal_force,
             friction_coefficient: FRICTION,
             material: [STEEL; 2],
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         };
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;
@@ -107,9 +107,13 @@ impl Case {
 
     /// The same contact under a normal force that varies.
     pub fn element(&self, input: NormalInput) -> Element {
+        self.element_of(Directions::One, input)
+    }
+
+    pub fn element_of(&self, directions: Directions, input: NormalInput) -> Element {
         match &self.input {
-            Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, input),
-            Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, input),
+            Input::Flat(parameters) => Element::rounded_flat(parameters, directions, input),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, directions, input),
         }
         .expect("an element of the paper")
     }

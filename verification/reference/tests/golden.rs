@@ -3,7 +3,7 @@
 #[path = "../../../tests/golden/table.rs"]
 mod table;
 
-use microslip::{EllipticParameters, Layer, Material, Parameters};
+use microslip::{EllipticParameters, Material, Parameters};
 use reference::element::{Element, harmonic_force};
 use reference::family::{Family, Given};
 use reference::history::History;
@@ -245,7 +245,7 @@ fn shape(row: &Row) -> Input {
             normal_force,
             friction_coefficient,
             material,
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         })
     } else {
         Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, ..geometry(row) })

@@ -2,7 +2,7 @@
 //! MPa and mJ; here everything is in SI units.
 
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 
 /// The contacts of the files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,7 +116,7 @@ impl Shape {
             normal_force,
             friction_coefficient: self.friction_coefficient(),
             material: [self.material(); 2],
-            layer: Layer::NONE,
+            ..EllipticParameters::default()
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::{Element, State};
 use crate::{Outcome, ensure};
-use microslip::{EllipticParameters, Layer, Material};
+use microslip::{EllipticParameters, Material};
 use reference::Input;
 
 const YOUNG_MODULUS: f64 = 7e10;
@@ -61,7 +61,7 @@ pub fn compare() -> Outcome {
         normal_force: LARGEST,
         friction_coefficient: FRICTION,
         material: [Material { young_modulus: YOUNG_MODULUS, poisson_ratio: POISSON_RATIO }; 2],
-        layer: Layer::NONE,
+        ..EllipticParameters::default()
     });
     let element = Element::new(&input, true).expect("an element");
     let mut state = State::new(64);
