@@ -158,7 +158,8 @@ static void extreme_parameter(int shape, int i, double value)
             printf("    %s, parameter %d: %g, flags %x\n", shapes[shape].function, i, value, (unsigned)flags);
         }
     } else {
-        CHECK(status == MSLIP_OUT_OF_RANGE || (IS_ROUNDED(shape) && status == MSLIP_LENGTH_TOO_SHORT));
+        CHECK(status == MSLIP_OUT_OF_RANGE || (IS_ROUNDED(shape) && status == MSLIP_LENGTH_TOO_SHORT) ||
+              (shape >= ROUNDED_ELEMENT && i >= shapes[shape].fields && status == MSLIP_NOT_AVAILABLE)); /* a layer in two directions */
         check_rejected(status, status, shapes[shape].function, "an extreme value");
     }
     *parameter(shape, i) = good;
@@ -223,6 +224,38 @@ static void test_parameters(int shape)
     }
 }
 
+/* The compliances and the stiffening load of a layer, behind the materials: invalid and extreme ones. */
+static void test_layer(int shape)
+{
+    static const double extremes[] = { 0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1e-8, 1.0, 1e160, DBL_MAX };
+    const double largest = IS_ROUNDED(shape) ? flat_parameters().normal_force : elliptic_parameters().normal_force;
+    const struct {
+        int field;
+        double value;
+        int32_t status;
+    } rows[] = {
+        { 0, -1e-9, MSLIP_BAD_NORMAL_COMPLIANCE }, { 0, (double)INFINITY, MSLIP_BAD_NORMAL_COMPLIANCE },
+        { 0, (double)NAN, MSLIP_BAD_NORMAL_COMPLIANCE }, { 1, -5e-324, MSLIP_BAD_TANGENTIAL_COMPLIANCE },
+        { 1, (double)INFINITY, MSLIP_BAD_TANGENTIAL_COMPLIANCE }, { 1, (double)NAN, MSLIP_BAD_TANGENTIAL_COMPLIANCE },
+        { 2, -1.0, MSLIP_BAD_STIFFENING_LOAD }, { 2, (double)NAN, MSLIP_BAD_STIFFENING_LOAD },
+        { 2, 0.999e-3 * largest, MSLIP_OUT_OF_RANGE }, { 2, 5e-324, MSLIP_OUT_OF_RANGE },
+    };
+    set_parameters(shape);
+    double *layer = parameter(shape, shapes[shape].fields);
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        layer[rows[i].field] = rows[i].value;
+        save_regions();
+        check_rejected(init(shape), rows[i].status, shapes[shape].function, "a layer");
+        layer[rows[i].field] = 0.0;
+    }
+    for (size_t i = 0; i < LENGTH(extremes) * LENGTH(extremes) * 3; ++i) {
+        const double stiffening[] = { 0.0, 1e-3 * largest, 1e300 };
+        layer[0] = extremes[i % LENGTH(extremes)];
+        layer[1] = extremes[i / LENGTH(extremes) % LENGTH(extremes)];
+        extreme_parameter(shape, shapes[shape].fields + 2, stiffening[i / (LENGTH(extremes) * LENGTH(extremes))]);
+    }
+}
+
 /* Values that are valid one by one, but not together; invalid references of the displacement, and numbers of springs. */
 static void test_combinations(void)
 {
@@ -269,6 +302,9 @@ static void test_combinations(void)
         save_regions();
         check_rejected(init(ELLIPTIC), MSLIP_BAD_SPRINGS, "mslip_contact_init_elliptic", "springs");
         check_rejected(init(ELLIPTIC_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init_elliptic", "springs");
+    }
+    for (int shape = 0; shape < SHAPES; ++shape) {
+        test_layer(shape);
     }
     save_regions();
     mslip_parameters_default(NULL);

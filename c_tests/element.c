@@ -19,12 +19,32 @@ static const double PI = 3.14159265358979323846;
 typedef struct {
     double tangential, normal, energy, slope;
 } tolerances;
-static const tolerances tight = { 1e-14, 1e-14, 1e-13, 1e-11 };
+static const tolerances tight = { 1e-14, 1e-14, 1e-13, 1e-11 }, tight_with_layer = { 1e-14, 1e-14, 1e-12, 1e-11 };
 
-static const char columns[] = "history,contact,a,R,L,semi_x,semi_y,N_ref,E1,nu1,E2,nu2,mu,pattern,control,step,N,u_n,delta,T,"
-                              "dT_ddelta,dT_dun,dN_dun,dissipated,stored,end";
-enum { HISTORY, CONTACT, A, R, L, SEMI_X, SEMI_Y, N_REF, E1, NU1, E2, NU2, MU, PATTERN, CONTROL, STEP, N, U_N, DELTA, T, DT_DDELTA,
-       DT_DUN, DN_DUN, DISSIPATED, STORED, END, COLUMNS };
+/* Each table without a layer, and with one: its compliances under N_layer and N_c. */
+#define OF_CONTACT "contact,a,R,L,semi_x,semi_y,N_ref,E1,nu1,E2,nu2,"
+#define OF_LAYER "c_n,c_t,N_layer,N_c,"
+#define OF_HISTORY "mu,pattern,control,step,N,u_n,delta,T,dT_ddelta,dT_dun,dN_dun,dissipated,stored,end"
+#define OF_NORMAL_LAW "given,N,u_n,size,tangential_approach,dN_dun,dS_dun"
+enum { HISTORY, CONTACT, A, R, L, SEMI_X, SEMI_Y, N_REF, E1, NU1, E2, NU2, C_N, C_T, N_LAYER, N_C, MU, PATTERN, CONTROL, STEP, N, U_N,
+       DELTA, T, DT_DDELTA, DT_DUN, DN_DUN, DISSIPATED, STORED, END, COLUMNS };
+
+/* A row of either table from column CONTACT on, without a layer with zeros for it; returns the first value behind. */
+static const double *with_layer(const double *v, int layered, double *row)
+{
+    memset(row, 0, (MU - CONTACT) * sizeof *row);
+    memcpy(row, v, ((layered ? MU : C_N) - CONTACT) * sizeof *row);
+    return v + (layered ? MU : C_N) - CONTACT;
+}
+
+/* The layer of a row under another normal force. */
+static mslip_layer layer_of(const double *v, double normal_force)
+{
+    const double ratio = isfinite(v[N_C]) ? (v[N_LAYER] + v[N_C]) / (normal_force + v[N_C]) : 1.0;
+    const mslip_layer layer = { ratio * v[C_N], ratio * v[C_T], v[N_C] };
+    const mslip_layer none = { 0.0, 0.0, 0.0 };
+    return v[N_LAYER] > 0.0 ? layer : none;
+}
 
 /* A history of the table. */
 typedef struct {
@@ -33,10 +53,11 @@ typedef struct {
     double largest_force, largest_displacement;
 } history;
 
-/* An element for loads up to this one, or for smaller loads if that is too large. */
+/* An element for loads up to this one, or for smaller loads if that is too large for the length, or for N_c. */
 static void init_from_row(const double *v, double mu, double normal_force, int32_t normal_input, mslip_element *element)
 {
     mslip_material material[2] = { { v[E1], v[NU1] }, { v[E2], v[NU2] } };
+    normal_force = v[N_LAYER] > 0.0 ? fmin(normal_force, 999.0 * v[N_C]) : normal_force;
     if (isnan(v[A])) {
         mslip_elliptic_parameters p;
         const double scale = normal_force > 0.0 ? cbrt(normal_force / v[N_REF]) : 1.0;
@@ -46,6 +67,7 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
         p.normal_force = normal_force > 0.0 ? normal_force : v[N_REF];
         p.friction_coefficient = mu;
         memcpy(p.material, material, sizeof material);
+        p.layer = layer_of(v, p.normal_force);
         CHECK(mslip_element_init_elliptic(&p, 1, normal_input, element) == MSLIP_OK);
         return;
     }
@@ -58,8 +80,10 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
     p.normal_force = normal_force;
     p.friction_coefficient = mu;
     memcpy(p.material, material, sizeof material);
+    p.layer = layer_of(v, normal_force);
     while ((status = mslip_element_init(&p, 1, normal_input, element)) == MSLIP_LENGTH_TOO_SHORT) {
         p.normal_force /= 4.0;
+        p.layer = layer_of(v, p.normal_force);
     }
     CHECK(status == MSLIP_OK && mslip_element_check(element) == MSLIP_OK);
 }
@@ -217,10 +241,11 @@ static void replay(const history *h, int32_t normal_input, double factor, tolera
 static void replay_all_ways(const history *h)
 {
     const int32_t given = h->by_force ? MSLIP_INPUT_NORMAL_FORCE : MSLIP_INPUT_APPROACH;
-    replay(h, given, 1.0, tight);
-    /* Tables for a million times this load, or as large as the length allows, and for a thousandth. */
-    replay(h, given, 1e6, tight);
-    replay(h, given, 1e-3, tight);
+    const tolerances allowed = h->row[0][N_LAYER] > 0.0 ? tight_with_layer : tight;
+    replay(h, given, 1.0, allowed);
+    /* Tables for a million times this load, or as large as the length and N_c allow, and for a thousandth. */
+    replay(h, given, 1e6, allowed);
+    replay(h, given, 1e-3, allowed);
     if (!h->opens) {
         /* The other input is rounded. */
         const tolerances rounded = { 1e-13, 1e-13, 1e-12, 1e-11 };
@@ -228,57 +253,63 @@ static void replay_all_ways(const history *h)
     }
 }
 
-static void check_histories(void)
+static void check_histories(int layered)
 {
     static history h;
     static table t;
+    double row[COLUMNS];
     int more, histories = 0;
-    t = open_table("varying_load", columns);
+    t = layered ? open_table("layer_varying_load", "history," OF_CONTACT OF_LAYER OF_HISTORY)
+                : open_table("varying_load", "history," OF_CONTACT OF_HISTORY);
     do {
         more = next_row(&t);
-        if (h.steps > 0 && (!more || t.value[HISTORY] != h.row[0][HISTORY])) {
+        if (more) {
+            row[HISTORY] = t.value[HISTORY];
+            memcpy(&row[MU], with_layer(&t.value[CONTACT], layered, &row[CONTACT]), (COLUMNS - MU) * sizeof *row);
+        }
+        if (h.steps > 0 && (!more || row[HISTORY] != h.row[0][HISTORY])) {
             replay_all_ways(&h);
             memset(&h, 0, sizeof h);
             ++histories;
         }
         if (more) {
             if (h.steps == MOST_STEPS) {
-                fprintf(stderr, "varying_load: line %d: the history is too long\n", t.line);
+                fprintf(stderr, "a history ending at line %d: the history is too long\n", t.line);
                 exit(2);
             }
             h.line = h.steps == 0 ? t.line : h.line;
-            h.by_force = strcmp(t.text[CONTROL], "N") == 0;
-            h.opens |= t.value[N] <= 0.0;
-            h.largest_force = fmax(h.largest_force, t.value[N]);
-            h.largest_displacement = fmax(h.largest_displacement, fabs(t.value[DELTA]));
-            memcpy(h.row[h.steps++], t.value, sizeof h.row[0]);
+            h.by_force = strcmp(t.text[layered ? CONTROL : CONTROL - (MU - C_N)], "N") == 0;
+            h.opens |= row[N] <= 0.0;
+            h.largest_force = fmax(h.largest_force, row[N]);
+            h.largest_displacement = fmax(h.largest_displacement, fabs(row[DELTA]));
+            memcpy(h.row[h.steps++], row, sizeof h.row[0]);
         }
     } while (more);
     CHECK(histories == 60);
 }
 
 /* Both directions of the normal law, by elements of both inputs and for three largest loads. */
-static void check_normal_law(void)
+static void check_normal_law(int layered)
 {
     static table t;
     static mslip_element element;
     static const double factors[] = { 1.0, 1e6, 1e-3 };
-    t = open_table("normal_law", "contact,a,R,L,semi_x,semi_y,N_ref,E1,nu1,E2,nu2,given,N,u_n,size,tangential_approach,dN_dun,"
-                                 "dS_dun");
-    enum { GIVEN = 11, FORCE, APPROACH, SIZE, SHIFT, STIFFNESS };
+    t = layered ? open_table("layer_normal_law", OF_CONTACT OF_LAYER OF_NORMAL_LAW)
+                : open_table("normal_law", OF_CONTACT OF_NORMAL_LAW);
+    enum { GIVEN, FORCE, APPROACH, SIZE, SHIFT, STIFFNESS };
     while (next_row(&t)) {
-        const double *v = t.value, force = v[FORCE], approach = v[APPROACH];
         double row[COLUMNS], got[3];
-        memcpy(&row[A], &v[1], 10 * sizeof *row); /* the same order, without the friction coefficient */
+        const double *v = with_layer(t.value, layered, &row[CONTACT]), force = v[FORCE], approach = v[APPROACH];
+        const double slope = layered ? 1e-12 : 1e-13; /* the singularities of a layer are closer to the pieces of the tables */
         for (int k = 0; k < 6; ++k) {
             init_from_row(row, 0.5, factors[k / 2] * force, k % 2, &element);
             accepted(&t, mslip_normal_force(&element, 1, &approach, &got[0], &got[1], &got[2]));
             compare(&t, "N", got[0], force, 1e-14 * force);
-            compare(&t, "dN/d(u_n)", got[1], v[STIFFNESS], 1e-13 * v[STIFFNESS]);
+            compare(&t, "dN/d(u_n)", got[1], v[STIFFNESS], slope * v[STIFFNESS]);
             compare(&t, "size", got[2], v[SIZE], 1e-14 * v[SIZE]);
             accepted(&t, mslip_normal_approach(&element, 1, &force, &got[0], &got[1], &got[2]));
             compare(&t, "u_n", got[0], approach, 1e-14 * approach);
-            compare(&t, "1/(dN/d(u_n))", got[1], 1.0 / v[STIFFNESS], 1e-13 / v[STIFFNESS]);
+            compare(&t, "1/(dN/d(u_n))", got[1], 1.0 / v[STIFFNESS], slope / v[STIFFNESS]);
             compare(&t, "size", got[2], v[SIZE], 1e-14 * v[SIZE]);
         }
     }
@@ -304,6 +335,51 @@ static void init_kind_of(int kind, double friction_coefficient, int32_t directio
         p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
         p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.3;
         CHECK(mslip_element_init(&p, directions, normal_input, element) == MSLIP_OK);
+    }
+}
+
+/* The displacement under a static force at a constant normal force carries that force, in each direction, and its statuses. */
+static void test_static_displacement(void)
+{
+    static mslip_element element;
+    for (int kind = 0; kind < KINDS; ++kind) {
+        for (int32_t directions = 1; directions <= 2; ++directions) {
+            double force[2] = { 150.0, -60.0 }, normal_force[2] = { 400.0, 123.0 }, u[2] = { 7.0, 7.0 }, compliance[2];
+            init_kind_of(kind, 0.5, directions, MSLIP_INPUT_NORMAL_FORCE, &element);
+            for (int32_t direction = 0; direction < directions; ++direction) {
+                CHECK(mslip_element_displacement(&element, direction, 2, force, normal_force, u, compliance) == MSLIP_OK);
+                for (int i = 0; i < 2; ++i) {
+                    double state[LONGEST], step[3] = { 0.0, 0.0, 0.0 }, found[3], tangent[9];
+                    const int m = directions + 1;
+                    CHECK(mslip_element_state_init(directions, LONGEST, state) == MSLIP_OK);
+                    step[directions] = normal_force[i];
+                    CHECK(mslip_element_update(&element, LONGEST, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
+                    step[direction] = u[i];
+                    CHECK(mslip_element_update(&element, LONGEST, state, step, state, found, tangent, NULL) == MSLIP_OK);
+                    /* The law of two directions has the curve of its springs along y. */
+                    const double allowed = direction == 0 ? 1e-13 : 2e-3;
+                    CHECK_RELATIVE(found[direction], force[i], allowed);
+                    CHECK_RELATIVE(1.0 / compliance[i], tangent[direction * (m + 1)], direction == 0 ? 1e-11 : 2e-2);
+                }
+            }
+            u[0] = 7.0;
+            CHECK(mslip_element_displacement(&element, directions, 1, force, normal_force, u, NULL) == MSLIP_BAD_DIRECTIONS);
+            CHECK(mslip_element_displacement(&element, -1, 1, force, normal_force, u, NULL) == MSLIP_BAD_DIRECTIONS);
+            CHECK(mslip_element_displacement(NULL, 0, 1, force, normal_force, u, NULL) == MSLIP_NULL_POINTER);
+            CHECK(mslip_element_displacement(&element, 0, 1, NULL, normal_force, u, NULL) == MSLIP_NULL_POINTER);
+            CHECK(mslip_element_displacement(&element, 0, 1, force, NULL, u, NULL) == MSLIP_NULL_POINTER);
+            force[1] = 0.5 * normal_force[1] * (1.0 + 1e-12);
+            CHECK(mslip_element_displacement(&element, 0, 2, force, normal_force, u, NULL) == MSLIP_FORCE_EXCEEDS_SLIP);
+            normal_force[1] = -1.0;
+            CHECK(mslip_element_displacement(&element, 0, 2, force, normal_force, u, NULL) == MSLIP_BAD_NORMAL_FORCE);
+            normal_force[1] = 0.0;
+            force[1] = (double)INFINITY;
+            CHECK(mslip_element_displacement(&element, 0, 2, force, normal_force, u, NULL) == MSLIP_BAD_FORCE);
+            CHECK(u[0] == 7.0);
+            force[1] = 0.0;
+            CHECK(mslip_element_displacement(&element, 0, 2, force, normal_force, u, compliance) == MSLIP_OK);
+            CHECK(u[1] == 0.0 && isinf(compliance[1]));
+        }
     }
 }
 
@@ -594,8 +670,11 @@ static void test_tractions(void)
 int main(int argc, char **argv)
 {
     table_arguments(argc, argv);
-    check_histories();
-    check_normal_law();
+    check_histories(0);
+    check_histories(1);
+    check_normal_law(0);
+    check_normal_law(1);
+    test_static_displacement();
     test_separation();
     test_largest_load();
     test_frictionless();

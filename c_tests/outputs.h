@@ -71,6 +71,9 @@
 #define mslip_normal_approach(...) with_outputs_normal_approach(__VA_ARGS__, NULL, NULL, NULL)
 #define with_outputs_normal_approach(a, b, c, d, e, f, ...) \
     mslip_normal_approach(a, b, c, d, e, f)
+#define mslip_element_displacement(...) with_outputs_element_displacement(__VA_ARGS__, NULL, NULL)
+#define with_outputs_element_displacement(a, b, c, d, e, f, g, ...) \
+    mslip_element_displacement(a, b, c, d, e, f, g)
 #define mslip_element_state_error(...) with_outputs_element_state_error(__VA_ARGS__, NULL)
 #define with_outputs_element_state_error(a, b, c, d, ...) \
     mslip_element_state_error(a, b, c, d)

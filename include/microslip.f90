@@ -84,6 +84,7 @@ module microslip
   public :: mslip_element_check
   public :: mslip_normal_force
   public :: mslip_normal_approach
+  public :: mslip_element_displacement
   public :: mslip_element_state_length
   public :: mslip_element_state_init
   public :: mslip_element_state_check
@@ -195,7 +196,10 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BY_LENGTH = 5  !! Derivative with respect to the length L.
   integer(mslip_int), parameter, public :: MSLIP_BY_COMPOSITE_MODULUS = 6
     !! Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
-  integer(mslip_int), parameter, public :: MSLIP_PARAMETER_COUNT = 6  !! Number of parameters: rows of a sensitivity.
+  integer(mslip_int), parameter, public :: MSLIP_BY_LAYER_COMPLIANCE = 7
+    !! Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is
+    !! added.
+  integer(mslip_int), parameter, public :: MSLIP_PARAMETER_COUNT = 7  !! Number of parameters: rows of a sensitivity.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
   ! </generated>
 
@@ -262,7 +266,7 @@ module microslip
     real(mslip_real) :: slip_displacement = 0  !! Displacement at the onset of gross slip on the monotonic curve [m].
     real(mslip_real) :: initial_stiffness = 0  !! Tangent stiffness at zero displacement [N/m].
     real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip [J].
-    real(mslip_real) :: reserved(675) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(676) = 0  !! Internal tables.
   end type mslip_contact
   type, bind(c), public :: mslip_element
     !! A friction contact element: the law under a normal force that varies, with separation. Initialised once and only
@@ -331,6 +335,14 @@ module microslip
     !! compliance of a cylinder and of an ellipse is infinite.
     module procedure normal_approach_array, normal_approach_scalar
   end interface mslip_normal_approach
+
+  interface mslip_element_displacement
+    !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
+    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
+    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
+    !! normal force.
+    module procedure element_displacement_array, element_displacement_scalar
+  end interface mslip_element_displacement
   ! </generated>
 
   interface address_of
@@ -696,6 +708,17 @@ module microslip
       type(c_ptr), value :: approach, compliance, half_width
       integer(c_int32_t) :: c_normal_approach
     end function c_normal_approach
+
+    function c_element_displacement(element, direction, n, force, normal_force, displacement, compliance) &
+      bind(c, name='mslip_element_displacement')
+      import
+      type(mslip_element), intent(in) :: element
+      integer(c_int32_t), value :: direction
+      integer(c_size_t), value :: n
+      real(c_double), intent(in) :: force(*), normal_force(*)
+      type(c_ptr), value :: displacement, compliance
+      integer(c_int32_t) :: c_element_displacement
+    end function c_element_displacement
 
     pure function c_element_state_length(directions, pieces) bind(c, name='mslip_element_state_length')
       import
@@ -1092,7 +1115,8 @@ contains
     !!
     !! Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative
     !! with respect to the edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E*
-    !! semi_axis_x^3/(3 N): of a sphere, its radius. Those with respect to a and L are 0.
+    !! semi_axis_x^3/(3 N): of a sphere, its radius. Those with respect to a and L are 0. The compliances of a layer,
+    !! which are those under N, and its stiffening load stay fixed.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacements [m]; magnitudes are at most 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
@@ -1847,6 +1871,59 @@ contains
     status = c_normal_approach(element, 1_mslip_size, [normal_force], address_of(approach), address_of(compliance), &
       address_of(half_width))
   end subroutine normal_approach_scalar
+
+  subroutine element_displacement_array(element, direction, force, normal_force, status, displacement, compliance)
+    !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
+    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
+    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
+    !! normal force.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or 1 (y).
+    real(mslip_real), intent(in) :: force(:)
+      !! Tangential force [N]; its magnitude is at most the friction coefficient times `normal_force`.
+    real(mslip_real), intent(in) :: normal_force(:)  !! Normal force [N], >= 0.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a
+      !! normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
+      !! MSLIP_FORCE_EXCEEDS_SLIP.
+    real(mslip_real), intent(inout), optional, target, contiguous :: displacement(:)  !! Displacement that carries the force [m].
+    real(mslip_real), intent(inout), optional, target, contiguous :: compliance(:)
+      !! Derivative of the displacement with respect to the force [m/N].
+
+    integer(mslip_size) :: n
+    type(c_ptr) :: ptr(2)
+
+    n = size(force, kind=mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (size(normal_force, kind=mslip_size) /= n) status = MSLIP_BAD_ARRAY_SIZE
+    if (present(displacement)) call check_array(displacement, n, ptr(1), status)
+    if (present(compliance)) call check_array(compliance, n, ptr(2), status)
+    if (status == MSLIP_OK) status = c_element_displacement(element, direction, n, force, normal_force, ptr(1), &
+      ptr(2))
+  end subroutine element_displacement_array
+
+  subroutine element_displacement_scalar(element, direction, force, normal_force, status, displacement, compliance)
+    !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
+    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
+    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
+    !! normal force.
+    type(mslip_element), intent(in) :: element  !! An initialised element.
+    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or 1 (y).
+    real(mslip_real), intent(in) :: force
+      !! Tangential force [N]; its magnitude is at most the friction coefficient times `normal_force`.
+    real(mslip_real), intent(in) :: normal_force  !! Normal force [N], >= 0.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a
+      !! normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
+      !! MSLIP_FORCE_EXCEEDS_SLIP.
+    real(mslip_real), intent(inout), optional, target :: displacement  !! Displacement that carries the force [m].
+    real(mslip_real), intent(inout), optional, target :: compliance
+      !! Derivative of the displacement with respect to the force [m/N].
+
+    status = c_element_displacement(element, direction, 1_mslip_size, [force], [normal_force], &
+      address_of(displacement), address_of(compliance))
+  end subroutine element_displacement_scalar
 
   pure function mslip_element_state_length(directions, pieces) result(length)
     !! Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it

@@ -199,8 +199,11 @@
 // Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
 #define MSLIP_BY_COMPOSITE_MODULUS 5
 
+// Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is added.
+#define MSLIP_BY_LAYER_COMPLIANCE 6
+
 // Number of parameters: rows of a sensitivity.
-#define MSLIP_PARAMETER_COUNT 6
+#define MSLIP_PARAMETER_COUNT 7
 
 // Success.
 #define MSLIP_OK 0
@@ -284,7 +287,7 @@ typedef struct mslip_contact {
     // Energy dissipated per cycle at incipient gross slip [J].
     double slip_energy;
     // Internal tables.
-    double reserved[675];
+    double reserved[676];
 } mslip_contact;
 
 // A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
@@ -399,13 +402,13 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               double *stick_half_width);
 
 // Derivatives of the force of the monotonic curve with respect to the parameters at displacement[n] [m], which stays fixed:
-// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity[6 i +
+// force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity[7 i +
 // MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
 // contact with mu = 0 or N = 0 at any displacement but 0.
 //
 // Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
 // edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-// radius. Those with respect to a and L are 0.
+// radius. Those with respect to a and L are 0. The compliances of a layer, which are those under N, and its stiffening load stay fixed.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,
@@ -731,6 +734,20 @@ int32_t mslip_normal_approach(const struct mslip_element *element,
                               double *approach,
                               double *compliance,
                               double *half_width);
+
+// The monotonic curve of an element at a constant normal force: the displacement [m] that carries force[n] [N], at most mu N in
+// magnitude, under normal_force[n] [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there. At mu N the compliance of
+// a cylinder and of an ellipse is infinite; so it is without friction and without a normal force.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a normal
+// force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+int32_t mslip_element_displacement(const struct mslip_element *element,
+                                   int32_t direction,
+                                   size_t n,
+                                   const double *force,
+                                   const double *normal_force,
+                                   double *displacement,
+                                   double *compliance);
 
 // Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 // of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces

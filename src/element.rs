@@ -418,28 +418,35 @@ impl Element {
         NormalPoint { value: shape.approach(w), slope }
     }
 
-    /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
-    /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
-    /// without a normal force.
+    /// # Errors
+    /// `BadDirections` unless the element has this tangential direction, 0 or 1.
+    pub fn check_direction(&self, direction: usize) -> Result<(), Error> {
+        if direction < self.tangential_directions() as usize { Ok(()) } else { Err(Error::BadDirections) }
+    }
+
+    /// Checks a static force at a constant normal force.
     ///
     /// # Errors
-    /// `BadDirections` for a direction that the element does not have; those of [`Element::check_normal_force`]; `BadForce` if the force
-    /// is not finite, `ForceExceedsSlip` if it exceeds mu N by more than rounding.
-    pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> Result<NormalPoint, Error> {
-        if direction >= self.tangential_directions() as usize {
-            return Err(Error::BadDirections);
-        }
+    /// Those of [`Element::check_normal_force`]; `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N by more than
+    /// rounding.
+    pub fn check_static(&self, force: f64, normal_force: f64) -> Result<(), Error> {
         self.check_normal_force(normal_force)?;
         if !is_finite(force) {
             return Err(Error::BadForce);
         }
+        let limit = self.friction_coefficient * normal_force;
+        if force.abs() > limit * (1.0 + 8.0 * f64::EPSILON) { Err(Error::ForceExceedsSlip) } else { Ok(()) }
+    }
+
+    /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
+    /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
+    /// without a normal force.
+    #[must_use]
+    pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> NormalPoint {
         let (size, mu) = (force.abs(), self.friction_coefficient);
         let limit = mu * normal_force;
-        if size > limit * (1.0 + 8.0 * f64::EPSILON) {
-            return Err(Error::ForceExceedsSlip);
-        }
         if limit <= 0.0 {
-            return Ok(NormalPoint { value: 0.0, slope: f64::INFINITY });
+            return NormalPoint { value: 0.0, slope: f64::INFINITY };
         }
         // The load of the stick zone, without the rounding of mu N.
         let stuck = if size < limit { mu.mul_add(normal_force, -size).max(0.0) / mu } else { 0.0 };
@@ -456,7 +463,7 @@ impl Element {
         };
         let vanishes = stuck <= 0.0 && self.shape().half_width(0.0) <= 0.0;
         let slope = if vanishes { f64::INFINITY } else { start.slope };
-        Ok(NormalPoint { value: mu.copysign(force) * shift, slope })
+        NormalPoint { value: mu.copysign(force) * shift, slope }
     }
 
     /// S in a direction and its derivative by the normal force, from the shape.

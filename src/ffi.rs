@@ -68,8 +68,10 @@ pub const MSLIP_BY_EDGE_RADIUS: i32 = 3;
 pub const MSLIP_BY_LENGTH: i32 = 4;
 /// Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
 pub const MSLIP_BY_COMPOSITE_MODULUS: i32 = 5;
+/// Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is added.
+pub const MSLIP_BY_LAYER_COMPLIANCE: i32 = 6;
 /// Number of parameters: rows of a sensitivity.
-pub const MSLIP_PARAMETER_COUNT: i32 = 6;
+pub const MSLIP_PARAMETER_COUNT: i32 = 7;
 
 /// Success.
 pub const MSLIP_OK: i32 = 0;
@@ -91,7 +93,7 @@ pub struct mslip_contact {
     /// Energy dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
     /// Internal tables.
-    pub reserved: [f64; 675],
+    pub reserved: [f64; 676],
 }
 
 /// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;

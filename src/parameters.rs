@@ -147,10 +147,10 @@ impl Default for EllipticParameters {
 }
 
 /// Number of parameters that forces are differentiated by.
-pub const PARAMETERS: usize = 6;
+pub const PARAMETERS: usize = 7;
 
 /// Derivatives with respect to the normal force N, the friction coefficient, the half-width a of the flat, the edge radius R, the length
-/// L and E*, in this order.
+/// L, E*, and the tangential compliance of the layer, in this order.
 pub type Sensitivity = [f64; PARAMETERS];
 
 /// A multiple.

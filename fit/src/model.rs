@@ -219,14 +219,15 @@ impl Curve {
             return friction;
         }
         let (z, (_, stiffness)) = self.solve(displacement / friction, series, contact);
-        let [by_load, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; 6]);
+        let [by_load, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; microslip::PARAMETERS]);
         contact * friction * by_load / (contact + series * stiffness).max(f64::MIN_POSITIVE)
     }
 
     /// dT₁/d(a/b) at constant z.
     fn shape_slope(&self, z: f64) -> f64 {
         let [of_flat, of_radius] = self.shape_slopes;
-        let [_, _, by_flat, by_radius, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; 6]);
+        let [_, _, by_flat, by_radius, ..] =
+            self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; microslip::PARAMETERS]);
         by_flat * of_flat + by_radius * of_radius
     }
 }

@@ -84,6 +84,7 @@ class Parameter(IntEnum):
     EDGE_RADIUS = 3
     LENGTH = 4
     COMPOSITE_MODULUS = 5
+    LAYER_COMPLIANCE = 6
     # </generated>
 
 

@@ -69,7 +69,7 @@ const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 /// Two bits: a tag with one wrong bit is not that of another contact, but for the geometry.
 const LAYERED: u64 = 6;
 
-const _: () = assert!(size_of::<Contact>() == 5448);
+const _: () = assert!(size_of::<Contact>() == 5456);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -136,7 +136,7 @@ impl Contact {
 
     /// The derivatives of mu N.
     fn with_slip_forces(self, normal_force: f64, friction_coefficient: f64) -> Contact {
-        let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0];
+        let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
         Contact { friction_coefficient, sensitivity_scales, ..self }
     }
 
@@ -185,7 +185,15 @@ impl Contact {
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
             gross_slip_quadrature: gross_slip_quadrature(zones),
-            sensitivity_scales: [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus],
+            sensitivity_scales: [
+                self.friction_coefficient,
+                normal_force,
+                by_size,
+                by_radius,
+                by_length,
+                by_modulus,
+                slip_force * self.stiffness_scale,
+            ],
             ..self.with_interpolant()
         })
     }

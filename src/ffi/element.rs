@@ -147,6 +147,38 @@ pub unsafe extern "C" fn mslip_normal_approach(
     )
 }
 
+/// The monotonic curve of an element at a constant normal force: the displacement \[m\] that carries force\[n\] \[N\], at most mu N in
+/// magnitude, under normal_force\[n\] \[N\] in a direction, 0 (x) or 1 (y), and the compliance \[m/N\] there. At mu N the compliance of
+/// a cylinder and of an ellipse is infinite; so it is without friction and without a normal force.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a normal
+/// force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_element_displacement(
+    element: *const mslip_element,
+    direction: i32,
+    n: size_t,
+    force: *const f64,
+    normal_force: *const f64,
+    displacement: *mut f64,
+    compliance: *mut f64,
+) -> i32 {
+    call(|| {
+        let (element, force, normal_force) = (pointers::element(element)?, input(force, n)?, input(normal_force, n)?);
+        let [mut displacements, mut compliances] = outputs([displacement, compliance], n)?;
+        let direction = usize::try_from(direction).map_err(|_| Error::BadDirections)?;
+        element.check_direction(direction)?;
+        let pairs = || force.iter().zip(normal_force).enumerate();
+        pairs().try_for_each(|(_, (&force, &normal_force))| element.check_static(force, normal_force))?;
+        for (i, (&force, &normal_force)) in pairs() {
+            let NormalPoint { value, slope } = element.displacement_under(direction, force, normal_force);
+            set(&mut displacements, i, || value);
+            set(&mut compliances, i, || slope);
+        }
+        Ok(())
+    })
+}
+
 /// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
 /// one that is computed.
 ///

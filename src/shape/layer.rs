@@ -190,13 +190,17 @@ impl LayerCurve {
         self.compliance / self.rest(load)
     }
 
-    /// Parts of derivatives of a force over μN at a fixed displacement, given the compliance of the contact at this force: those by N at
-    /// constant c_t, by μ, and by ζ.
-    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 3] {
+    /// The derivative by ζ of a force over μN at a fixed displacement, given the compliance of the contact at this force.
+    pub fn share_of_compliance(&self, load: Complement, of_contact: f64) -> f64 {
+        -self.consumed(load) / (of_contact + self.compliance_at(load))
+    }
+
+    /// The parts of the layer in the derivatives by N, at constant c_t, and by μ.
+    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
         let per_compliance = 1.0 / (of_contact + self.compliance_at(load));
         // [λ2 - η x2], and [τ λ2 - (x2 - ζτ)].
         let first = self.first_moment(load);
-        [self.stiffening * first * per_compliance, first * per_compliance, -self.consumed(load) * per_compliance]
+        [self.stiffening * first * per_compliance, first * per_compliance]
     }
 
     /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
@@ -222,10 +226,9 @@ impl Layer {
     /// # Errors
     /// `OutOfRange` if derived quantities are not representable.
     pub fn relative(&self, normal_force: f64, stiffness_scale: f64) -> Result<LayerCurve, Error> {
-        if self.tangential == 0.0 {
-            return Ok(LayerCurve::NONE);
+        if self.tangential > 0.0 {
+            in_range(&[self.tangential, stiffness_scale], &[])?;
         }
-        in_range(&[self.tangential, stiffness_scale], &[])?;
         let softest = self.softness(normal_force);
         let stiffening = self.stiffening * normal_force * softest;
         Ok(LayerCurve { compliance: self.tangential * softest * stiffness_scale, stiffening, softest })
@@ -258,8 +261,9 @@ impl LayeredZones {
 
     /// Adds a layer, unless it has no compliance.
     pub fn set_layer(&mut self, layer: &LayerCurve, elliptic: bool) {
+        self.layer = *layer;
         if layer.compliance > 0.0 {
-            (self.elliptic, self.layer) = (u64::from(elliptic), *layer);
+            self.elliptic = u64::from(elliptic);
             let contact = self.contact();
             let slip_shift = contact.slip_shift() + layer.compliance * layer.remaining(1.0);
             let small_load = contact.small_load().plus(layer.compliance, layer.curvature_series());
@@ -279,7 +283,7 @@ impl LayeredZones {
 
     /// What distinguishes the curve from that of the contact alone.
     pub fn shape(&self) -> [f64; 2] {
-        [self.layer.compliance, self.layer.stiffening]
+        [self.layer.compliance, self.layer.compliance * self.layer.stiffening]
     }
 
     pub fn layer(&self) -> &LayerCurve {

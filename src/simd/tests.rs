@@ -121,7 +121,7 @@ fn the_harmonic_force() {
                         drift: None,
                     };
                     harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
-                    let mut sensitivity = vec![0.0; 6 * n];
+                    let mut sensitivity = vec![0.0; crate::PARAMETERS * n];
                     harmonic_sensitivity(&contact, &mut workspace, &displacement, &mut sensitivity).unwrap();
                     [force, jacobian, dissipated.to_vec(), sensitivity].concat()
                 });

@@ -516,7 +516,7 @@ contains
     type(mslip_parameters) :: parameters, unset
     type(mslip_elliptic_parameters) :: ellipse
     type(mslip_contact) :: contact
-    real(wp) :: values(10), value
+    real(wp) :: values(13), value
     integer :: i, k
 
     call mslip_contact_init(unset, contact, status)
@@ -531,9 +531,9 @@ contains
         call mslip_contact_init(transfer(values, parameters), contact, status)
         call check_status('a parameter', status, expected(i))
         if (elliptic(i) == none) cycle
-        values(:9) = transfer(ellipse_parameters(), values, 9)
+        values(:12) = transfer(ellipse_parameters(), values, 12)
         values(i) = value
-        call mslip_contact_init_elliptic(transfer(values(:9), ellipse), contact, status)
+        call mslip_contact_init_elliptic(transfer(values(:12), ellipse), contact, status)
         call check_status('a parameter of an ellipse', status, elliptic(i))
       end do
       call mslip_parameters_default(unset)
@@ -557,6 +557,16 @@ contains
     ellipse%springs = -8
     call mslip_contact_init_elliptic(ellipse, contact, status)
     call check_status('springs of an ellipse', status, MSLIP_BAD_SPRINGS)
+    ellipse = ellipse_parameters()
+    ellipse%layer%normal_compliance = -1
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('the normal compliance of a layer', status, MSLIP_BAD_NORMAL_COMPLIANCE)
+    ellipse%layer = mslip_layer(0, -1, 0)
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('the tangential compliance of a layer', status, MSLIP_BAD_TANGENTIAL_COMPLIANCE)
+    ellipse%layer = mslip_layer(0, 0, -1)
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('the stiffening load of a layer', status, MSLIP_BAD_STIFFENING_LOAD)
     parameters = flat_parameters()
     parameters%length = 1.0e-4_wp
     call mslip_contact_init(parameters, contact, status)

@@ -200,13 +200,13 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 }
 
 /// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
-/// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity\[6 i +
+/// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity\[7 i +
 /// MSLIP_BY_...\], in \[N\] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
 /// contact with mu = 0 or N = 0 at any displacement but 0.
 ///
 /// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
 /// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-/// radius. Those with respect to a and L are 0.
+/// radius. Those with respect to a and L are 0. The compliances of a layer, which are those under N, and its stiffening load stay fixed.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]

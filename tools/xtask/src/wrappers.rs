@@ -64,6 +64,7 @@ pub fn test(functions: &[Function]) -> [(&'static str, Vec<String>); 2] {
         function.arguments.iter().any(Argument::is_output)
             && !function.name.ends_with("_error")
             && !function.has("by hand")
+            && !function.has("two inputs")
     };
     for function in functions.iter().filter(with_outputs) {
         for form in forms(function) {
@@ -473,8 +474,14 @@ impl Procedure<'_> {
     }
 
     fn check_of_input(&self, input: &Argument) -> Option<String> {
-        // The elements of a batch are checked last.
-        let is_checked = |letter: &char| *letter == 'k' || *letter == 'm' && !self.function.is_batch();
+        let mut inputs = self.function.arguments.iter().filter(|other| other.is_input() && other.declaration.pointer);
+        // The first one defines n. The elements of a batch are checked last.
+        let is_second = inputs.next().is_some_and(|first| first.name() != input.name());
+        let is_checked = |letter: &char| match letter {
+            'k' => true,
+            'm' => !self.function.is_batch(),
+            _ => is_second,
+        };
         let letter = input.extents.chars().find(is_checked)?;
         Some(format!("if ({} /= {letter}) status = MSLIP_BAD_ARRAY_SIZE", self.size(input, 1)))
     }
