@@ -46,7 +46,7 @@ OFFSET(mslip_contact, slip_displacement, 24);
 OFFSET(mslip_contact, initial_stiffness, 32);
 OFFSET(mslip_contact, slip_energy, 40);
 OFFSET(mslip_contact, reserved, 48);
-SIZE(mslip_contact, 5456);
+SIZE(mslip_contact, 2256);
 
 OFFSET(mslip_element, composite_modulus, 0);
 OFFSET(mslip_element, friction_coefficient, 8);

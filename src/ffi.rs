@@ -93,7 +93,7 @@ pub struct mslip_contact {
     /// Energy dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
     /// Internal tables.
-    pub reserved: [f64; 676],
+    pub reserved: [f64; 276],
 }
 
 /// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;

@@ -2,7 +2,7 @@
 //! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
-use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, Parts};
+use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
@@ -58,7 +58,6 @@ pub struct Contact {
     pub(crate) sensitivity_scales: Sensitivity,
     /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
     pub(crate) reference_slope: f64,
-    parts: Parts,
     /// Makes the sum of all words 0, in a contact that was written by the C interface.
     pub(crate) checksum: u64,
 }
@@ -69,7 +68,7 @@ const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 /// Two bits: a tag with one wrong bit is not that of another contact, but for the geometry.
 const LAYERED: u64 = 6;
 
-const _: () = assert!(size_of::<Contact>() == 5456);
+const _: () = assert!(size_of::<Contact>() == 2256);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -199,20 +198,17 @@ impl Contact {
     }
 
     fn with_interpolant(mut self) -> Contact {
-        let (flat, zones) = (&self.zones.flat, self.stick_zones());
-        let (slip_shift, compliance) = (zones.slip_shift(), zones.small_load().compliance);
-        if self.is_layered() {
-            let parts = self.has_knee().then_some(&mut self.parts);
-            self.interpolant = ForceInterpolant::of_layered(slip_shift, compliance, self.zones.sequence(), parts);
-        } else if !self.is_elementary() {
-            self.interpolant = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
+        let flat = &self.zones.flat;
+        let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
+        if self.is_layered() && !self.has_knee() {
+            let (slip_shift, compliance) = of(&self.zones);
+            self.interpolant = ForceInterpolant::of_layered(slip_shift, compliance, self.zones.sequence());
+        } else if !self.is_ellipse() {
+            let (slip_shift, compliance) = of(flat);
+            let alone = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
+            self.interpolant = if self.is_layered() { alone.without_layer() } else { alone };
         }
         self
-    }
-
-    /// The polynomials on parts of intervals.
-    pub(crate) fn parts(&self) -> &Parts {
-        &self.parts
     }
 
     pub(crate) fn gross_slip_quadrature(&self) -> &GrossSlipQuadrature {
@@ -337,7 +333,6 @@ const EMPTY: Contact = Contact {
     interpolant: ForceInterpolant::NONE,
     gross_slip_quadrature: NO_QUADRATURE,
     zones: LayeredZones::EMPTY,
-    parts: Parts::NONE,
     sensitivity_scales: [0.0; _],
     reference_slope: 0.0,
     checksum: 0,

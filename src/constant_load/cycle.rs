@@ -48,7 +48,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
         match self.evaluator().load_at(displacement) {
-            None if self.has_knee() => self.load_in_parts(displacement),
+            None if self.has_knee() => self.load_with_knee(displacement),
             load => load,
         }
     }

@@ -1,12 +1,13 @@
 //! Evaluation of the monotonic curve at a displacement: force and tangent stiffness, from the interpolant if possible.
 //!
-//! For an ellipse without a layer the curve is elementary. If there is no interpolant, next to gross slip or for Λ near 0, the stick zone is found by
-//! iteration.
+//! For an ellipse without a layer the curve is elementary. If there is no interpolant, next to gross slip, for Λ near 0, or with a layer
+//! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
-use crate::constant_load::interpolant::{ForceInterpolant, Interval, root_of};
-use crate::shape::stick_zone::Complement;
+use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, Interval, root_of};
+use crate::shape::stick_zone::ellipse::EllipseZones;
+use crate::shape::stick_zone::{Complement, StickZones};
 use crate::simd::dispatch;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
@@ -109,7 +110,7 @@ impl Contact {
         if self.is_frictionless() {
             return Response { force: 0.0, stiffness: 0.0 };
         }
-        if let Some((load, stiffness)) = self.load_in_parts(displacement) {
+        if let Some((load, stiffness)) = self.load_with_knee(displacement) {
             return Response { force: self.slip_force - self.slip_force * load.remaining, stiffness };
         }
         let zone = self.stick_zone_at_displacement(displacement);
@@ -118,11 +119,56 @@ impl Contact {
 }
 
 impl Contact {
-    /// The load at a displacement beyond the first polynomial, and the stiffness, from parts of dyadic intervals, if there are such.
-    pub(crate) fn load_in_parts(&self, displacement: f64) -> Option<(Complement, f64)> {
-        let distance = self.slip_displacement - displacement;
-        let (remaining, slope) = self.interpolant().in_parts(self.parts(), distance * self.outer_scale)?;
-        Some((Complement { consumed: 1.0 - remaining, remaining }, self.slip_force * self.outer_scale * slope))
+    /// The load at a displacement and the stiffness, of a contact whose layer bends the curve strongly, beyond half of mu N: Newton's method
+    /// in the logarithm of the remaining shift of the contact without its layer, which has an interpolant.
+    pub(crate) fn load_with_knee(&self, displacement: f64) -> Option<(Complement, f64)> {
+        let (zones, alone) = (self.layered_zones(), self.layered_zones().contact());
+        let remaining = (self.slip_displacement - displacement) * self.per_displacement_scale;
+        let has_curve = self.has_knee() && (self.is_ellipse() || self.interpolant().is_without_layer());
+        if !has_curve || remaining <= 0.0 || remaining > zones.slip_shift() - zones.small_load().half_shift {
+            return None;
+        }
+        let layer = zones.layer();
+        // The layer alone would have more load at this displacement; a shift grows at most like the power 2/3 of the load.
+        let of_layer = alone.slip_shift() * layer.load_remaining(remaining / layer.compliance()).cbrt().powi(2);
+        let mut own = remaining.min(of_layer).min(alone.slip_shift()).max(f64::MIN_POSITIVE);
+        let mut converged = false;
+        for _ in 0..30 {
+            let [left, compliance] = self.without_layer(own);
+            let load = Complement { consumed: 1.0 - left, remaining: left };
+            let (sum, both) = (own + layer.shift_remaining(left), compliance + layer.compliance_at(load));
+            if converged {
+                return Some((load, self.stiffness_scale / both));
+            }
+            let step = (remaining / sum).ln() * (sum / own * (compliance / both));
+            own = (own * step.exp()).min(alone.slip_shift());
+            // Quadratic convergence: the next point is exact.
+            converged = step.abs() < 1e-9;
+        }
+        None
+    }
+
+    /// 1 - τ and Λ + λ of the contact without its layer at a remaining shift.
+    fn without_layer(&self, remaining: f64) -> [f64; 2] {
+        let alone = self.layered_zones().contact();
+        let (slip_shift, full_stick) = (alone.slip_shift(), alone.small_load().compliance);
+        if self.is_ellipse() {
+            let point = EllipseZones::at(remaining);
+            return [point.remaining, full_stick + point.compliance_increase];
+        }
+        let y = (slip_shift - remaining) / (INNER_FRACTION * slip_shift);
+        if y <= 1.0 {
+            let (secant, tangent) = self.interpolant().inner_secant_and_tangent(y);
+            return [1.0 - (slip_shift - remaining) / full_stick * secant, full_stick / tangent];
+        }
+        let outer = (1.0 - INNER_FRACTION) * slip_shift;
+        match self.interpolant().outer_complement_and_slope(remaining / outer) {
+            Some((left, slope)) => [left, outer / slope],
+            None => {
+                let zone = alone.at_shift_remaining(remaining);
+                [zone.load.remaining, alone.compliance(&zone)]
+            }
+        }
     }
 }
 
@@ -231,7 +277,7 @@ impl CurveEvaluator<'_> {
                 && let Some(v) = block(roots, next)
             {
                 let interval = Interval::of(v[0]);
-                if !interval.is_covered() || !self.interpolant.has_dyadic_intervals() {
+                if !interval.is_covered() {
                     break;
                 }
                 let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);

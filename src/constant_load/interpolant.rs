@@ -7,7 +7,6 @@
 //! - beyond: polynomials in `v = sqrt(ρ)`, `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < v <= 2⁻ʲ, j = 0 to 4. The curve is
 //!   singular at v = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
 //!   converge at the same rate;
-//!   With a layer whose stiffness grows strongly with the load, which is singular closer to the interval, four per dyadic interval;
 //! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by Halley's method.
 //!
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
@@ -22,16 +21,10 @@ use crate::shape::stick_zone::CurvePoint;
 pub(crate) const INNER_FRACTION: f64 = 0.4;
 
 /// Number of dyadic intervals of v.
-const OCTAVES: usize = 5;
+const PIECES: usize = 5;
 
-/// Leading bits of the mantissa of v that choose a part of a dyadic interval, if there are several.
-const BITS: u32 = 2;
-
-/// Mark of an interpolant with divided intervals.
-const IN_PARTS: u64 = 2;
-
-/// Number of all parts.
-const PIECES: usize = OCTAVES << BITS;
+/// Mark of the interpolant of a contact without its layer, which bends the curve too strongly for polynomials.
+const WITHOUT_LAYER: u64 = 2;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
 pub(crate) static CYCLE_WEIGHTS: Polynomial = {
@@ -53,28 +46,36 @@ pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s): the secant stiffness over the initial one.
     inner: Polynomial,
     /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
-    pieces: [Polynomial; OCTAVES],
-    /// 1, or [`IN_PARTS`] if dyadic intervals are divided, if all polynomials are accurate; 0 if the curvature is too strong, for Λ near 0.
+    pieces: [Polynomial; PIECES],
+    /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0; [`WITHOUT_LAYER`].
     converged: u64,
 }
 
 impl ForceInterpolant {
     pub const NONE: ForceInterpolant =
-        ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; OCTAVES], converged: 0 };
+        ForceInterpolant { inner: [[0.0; 4]; _], pieces: [[[0.0; 4]; _]; PIECES], converged: 0 };
 
     /// The interpolant of the curve of a contact: the shift of gross slip, the compliance Λ, and points at decreasing remaining shifts.
     pub fn of(slip_shift: f64, compliance: f64, at_remaining: impl FnMut(f64) -> CurvePoint) -> ForceInterpolant {
-        ForceInterpolant::with::<16, 8>(slip_shift, compliance, at_remaining, None)
+        ForceInterpolant::with::<16, 8>(slip_shift, compliance, at_remaining)
     }
 
-    /// That of the curve of a contact with a layer: with parts of the dyadic intervals, if they are given.
+    /// That of the curve of a contact with a layer.
     pub fn of_layered(
         slip_shift: f64,
         compliance: f64,
         at_remaining: impl FnMut(f64) -> CurvePoint,
-        parts: Option<&mut Parts>,
     ) -> ForceInterpolant {
-        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(slip_shift, compliance, at_remaining, parts)
+        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(slip_shift, compliance, at_remaining)
+    }
+
+    /// The same interpolant, marked as that of the curve of the contact without its layer.
+    pub fn without_layer(self) -> ForceInterpolant {
+        ForceInterpolant { converged: WITHOUT_LAYER * self.converged, ..self }
+    }
+
+    pub fn is_without_layer(&self) -> bool {
+        self.converged == WITHOUT_LAYER
     }
 
     /// With N terms on the later intervals.
@@ -83,7 +84,6 @@ impl ForceInterpolant {
         slip_shift: f64,
         compliance: f64,
         mut at_remaining: impl FnMut(f64) -> CurvePoint,
-        parts: Option<&mut Parts>,
     ) -> ForceInterpolant {
         let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
@@ -96,36 +96,15 @@ impl ForceInterpolant {
         // From x = 0 on; the points are symmetric.
         tangents.reverse();
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
-        // With a layer the curve is singular closer to the intervals, for small N_c at two thirds of the displacement of gross slip from
-        // the first one, of which only the stiffness has an error of this size.
-        let divided = parts.is_some();
+        // With a layer the curve is singular closer to the intervals.
         let accuracy = if N < TERMS { 1e-15 } else { 1e-13 };
-        let mut converged = decrease.is_converged(if divided { 4e-12 } else { accuracy });
+        let mut converged = decrease.is_converged(accuracy);
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
             *first = 1.0;
         }
-        let mut pieces = [[[0.0; 4]; _]; OCTAVES];
+        let mut pieces = [[[0.0; 4]; _]; PIECES];
         let mut scale = 0.25;
-        for dyadic in parts.into_iter().flat_map(|Parts(parts)| parts.as_chunks_mut::<{ 1 << BITS }>().0) {
-            let scale_of_part = scale * const { 1.0 / (1 << BITS) as f64 };
-            for (piece, part) in dyadic.iter_mut().zip((1u32 << BITS..2 << BITS).rev()) {
-                let middle = f64::from(2 * part + 1);
-                let at = |z: f64| {
-                    let v = scale_of_part * (middle + z);
-                    at_remaining(remaining * v * v)
-                };
-                let unit = 2.0 * remaining * scale_of_part * scale_of_part;
-                let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
-                let (polynomial, piece_converged) = interpolate::<N, M>(compliance, unit, middle, at, tolerance);
-                *piece = polynomial;
-                converged &= piece_converged;
-            }
-            scale *= 0.5;
-        }
-        if divided {
-            return ForceInterpolant { inner, pieces, converged: IN_PARTS * u64::from(converged) };
-        }
         for (j, piece) in pieces.iter_mut().enumerate() {
             let at = |z: f64| {
                 let v = scale * (3.0 + z);
@@ -135,9 +114,9 @@ impl ForceInterpolant {
             // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
             let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
             let (polynomial, piece_converged) = if j < 2 {
-                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, 3.0, at, tolerance)
+                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, at, tolerance)
             } else {
-                interpolate::<N, M>(compliance, unit, 3.0, at, tolerance)
+                interpolate::<N, M>(compliance, unit, at, tolerance)
             };
             *piece = polynomial;
             converged &= piece_converged;
@@ -148,14 +127,21 @@ impl ForceInterpolant {
 
     #[inline(always)]
     pub fn is_converged(&self) -> bool {
-        self.converged != 0
+        self.converged == 1
     }
 
     /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1; `None` if not converged.
     #[inline(always)]
     pub fn secant_and_tangent(&self, y: f64) -> Option<(f64, f64)> {
+        let values = self.inner_secant_and_tangent(y);
+        self.is_converged().then_some(values)
+    }
+
+    /// The same without a check.
+    #[inline(always)]
+    pub fn inner_secant_and_tangent(&self, y: f64) -> (f64, f64) {
         let (secant, slope) = value_and_slope(&self.inner, y);
-        self.is_converged().then_some((secant, secant + slope * y))
+        (secant, secant + slope * y)
     }
 
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
@@ -168,35 +154,21 @@ impl ForceInterpolant {
         self.is_converged().then_some(value_and_slope(&powers, y))
     }
 
-    /// Whether there is one polynomial for each dyadic interval.
-    #[inline(always)]
-    pub fn has_dyadic_intervals(&self) -> bool {
-        self.converged == 1
-    }
-
-    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, if dyadic intervals are divided, or if not
-    /// converged.
+    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, or if not converged.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
+        let values = self.outer_complement_and_slope(rho)?;
+        self.is_converged().then_some(values)
+    }
+
+    /// The same without a check of the convergence.
+    #[inline(always)]
+    pub fn outer_complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
         let Interval(exponent) = Interval::of(v);
         let piece = self.pieces.get((1022 - exponent) as usize)?;
         let scale = power_of(exponent);
         let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - 3.0);
-        self.has_dyadic_intervals().then_some((remaining, 2.0 * scale * slope / v))
-    }
-
-    /// The same from a part of a dyadic interval.
-    pub fn in_parts(&self, Parts(parts): &Parts, rho: f64) -> Option<(f64, f64)> {
-        if self.converged != IN_PARTS {
-            return None;
-        }
-        let v = root_of(rho);
-        let number = (v.to_bits() >> (52 - BITS)).min((1023 << BITS) - 1);
-        let piece = parts.get(((1023 << BITS) - 1 - number) as usize)?;
-        let part = number & ((1 << BITS) - 1) | (1 << BITS);
-        let scale = power_of(number >> BITS) * const { (1 << BITS) as f64 };
-        let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - (2 * part + 1) as f64);
         Some((remaining, 2.0 * scale * slope / v))
     }
 
@@ -210,7 +182,7 @@ impl ForceInterpolant {
         (secants, tangents)
     }
 
-    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if it is not divided; any value at other v and intervals.
+    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if converged; any value at other v and intervals.
     #[inline(always)]
     pub fn four_complements_and_slopes<const SLOPES: bool>(
         &self,
@@ -229,15 +201,6 @@ impl ForceInterpolant {
         }
         (remaining, slopes)
     }
-}
-
-/// 1 - τ on parts of the dyadic intervals, those of the first interval first, for a contact with a layer of a small N_c.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Parts([Polynomial; PIECES]);
-
-impl Parts {
-    pub const NONE: Parts = Parts([[[0.0; 4]; _]; PIECES]);
 }
 
 /// The root v of ρ, at least a positive one.
@@ -260,7 +223,7 @@ impl Interval {
     /// Whether it has a polynomial.
     #[inline(always)]
     pub fn is_covered(self) -> bool {
-        1022 - self.0 < OCTAVES as u64
+        1022 - self.0 < PIECES as u64
     }
 }
 
@@ -270,12 +233,11 @@ fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
 }
 
-/// 1 - τ over an interval, and whether it has converged: the integral of `unit (m+z)/(Λ + λ)`, m the middle, with a constant that fits the
+/// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
 /// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
 fn interpolate<const N: usize, const M: usize>(
     compliance: f64,
     unit: f64,
-    middle: f64,
     mut at: impl FnMut(f64) -> CurvePoint,
     tolerance: f64,
 ) -> (Polynomial, bool) {
@@ -285,7 +247,7 @@ fn interpolate<const N: usize, const M: usize>(
         sum += remaining;
         let first = *first.get_or_insert(increase);
         let stiffness = 1.0 / (compliance + increase);
-        let (r, ratio) = (middle + z, (increase - first) * stiffness);
+        let (r, ratio) = (3.0 + z, (increase - first) * stiffness);
         let slope = (compliance + first) * curvature * stiffness * stiffness * stiffness;
         Tangent { value: r * ratio, slope: ratio - r * r * unit * slope }
     });
@@ -296,10 +258,10 @@ fn interpolate<const N: usize, const M: usize>(
     if let Some([constant, linear, square, _]) = integral.first_mut() {
         // The mean of z²/2 over the points is 1/4.
         *constant += sum * (1.0 / M as f64) - 0.25 * stiffness;
-        *linear += middle * stiffness;
+        *linear += 3.0 * stiffness;
         *square += 0.5 * stiffness;
     }
-    (integral, decrease.is_converged(tolerance * (middle - decrease.mean())))
+    (integral, decrease.is_converged(tolerance * (3.0 - decrease.mean())))
 }
 
 #[cfg(test)]
@@ -308,7 +270,7 @@ mod tests {
 
     /// The boundaries of the pieces: of the first polynomial, and of every dyadic interval of v.
     fn boundaries() -> impl Iterator<Item = f64> {
-        (0..=super::OCTAVES as i32).map(|piece| 1.0 - (1.0 - super::INNER_FRACTION) * 0.25f64.powi(piece))
+        (0..=super::PIECES as i32).map(|piece| 1.0 - (1.0 - super::INNER_FRACTION) * 0.25f64.powi(piece))
     }
 
     #[test]
@@ -352,18 +314,19 @@ mod tests {
         use crate::constant_load::contact::tests::layered;
         for ratio in [0.0, 10.0, 1.0, 0.3, 0.26, 0.2, 0.1, 0.03, 0.01, 3e-3, 1e-3] {
             for contact in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter().flat_map(|share| layered(share, ratio)) {
-                assert_eq!(
-                    contact.interpolant().converged,
-                    if contact.has_knee() { super::IN_PARTS } else { 1 },
-                    "{ratio}"
-                );
+                let expected = match (contact.has_knee(), contact.is_ellipse()) {
+                    (false, _) => 1,
+                    (true, false) => super::WITHOUT_LAYER,
+                    (true, true) => 0,
+                };
+                assert_eq!(contact.interpolant().converged, expected, "{ratio}");
                 let fractions = (1..200).map(|k| f64::from(k) / 200.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
                 for fraction in fractions.filter(|fraction| *fraction < 1.0) {
                     let displacement = fraction * contact.slip_displacement;
                     let (response, zone) =
                         (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
-                    // The curve of small N_c amplifies the rounding of the displacement; its first polynomial has not quite converged.
-                    let (of_force, of_stiffness) = if ratio < 0.01 { (2e-13, 4e-12) } else { (1e-14, 5e-14) };
+                    // The curve of small N_c amplifies the rounding of the displacement.
+                    let (of_force, of_stiffness) = if ratio < 0.01 { (2e-13, 2e-13) } else { (1e-14, 5e-14) };
                     let error = (response.force - contact.force_of(&zone)).abs() / contact.slip_force;
                     assert!(error < of_force, "{ratio} {fraction} {error:e}");
                     let error = (response.stiffness / contact.stiffness_of(&zone) - 1.0).abs();

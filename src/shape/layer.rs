@@ -148,7 +148,7 @@ impl LayerCurve {
     }
 
     /// The load 1 - τ at which [`LayerCurve::remaining`] has a value.
-    fn load_remaining(&self, value: f64) -> f64 {
+    pub fn load_remaining(&self, value: f64) -> f64 {
         let x = self.stiffening * value;
         if x < 1e-8 {
             self.softest * value * (1.0 + 0.5 * x)
@@ -183,6 +183,16 @@ impl LayerCurve {
     fn first_moment(&self, load: Complement) -> f64 {
         let ratio = load.consumed / self.rest(load);
         self.compliance * (self.stiffening * ratio) * ratio * logarithm_remainder(self.stiffening * ratio)
+    }
+
+    /// ζ.
+    pub fn compliance(&self) -> f64 {
+        self.compliance
+    }
+
+    /// x_s - x2.
+    pub fn shift_remaining(&self, remaining: f64) -> f64 {
+        self.compliance * self.remaining(remaining)
     }
 
     /// The compliance at a load.
