@@ -46,7 +46,7 @@ OFFSET(mslip_contact, slip_displacement, 24);
 OFFSET(mslip_contact, initial_stiffness, 32);
 OFFSET(mslip_contact, slip_energy, 40);
 OFFSET(mslip_contact, reserved, 48);
-SIZE(mslip_contact, 2256);
+SIZE(mslip_contact, 2264);
 
 OFFSET(mslip_element, composite_modulus, 0);
 OFFSET(mslip_element, friction_coefficient, 8);
@@ -60,7 +60,7 @@ OFFSET(mslip_element, normal_input, 60);
 OFFSET(mslip_element, reserved, 64);
 AT_COMPILE_TIME(mslip_element_directions_size, sizeof(((mslip_element *)0)->directions) == 4);
 AT_COMPILE_TIME(mslip_element_normal_input_size, sizeof(((mslip_element *)0)->normal_input) == 4);
-SIZE(mslip_element, 52552);
+SIZE(mslip_element, 52560);
 
 /* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)

@@ -266,7 +266,7 @@ module microslip
     real(mslip_real) :: slip_displacement = 0  !! Displacement at the onset of gross slip on the monotonic curve [m].
     real(mslip_real) :: initial_stiffness = 0  !! Tangent stiffness at zero displacement [N/m].
     real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip [J].
-    real(mslip_real) :: reserved(276) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(277) = 0  !! Internal tables.
   end type mslip_contact
   type, bind(c), public :: mslip_element
     !! A friction contact element: the law under a normal force that varies, with separation. Initialised once and only
@@ -283,7 +283,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
-    real(mslip_real) :: reserved(6561) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(6562) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 

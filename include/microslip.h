@@ -287,7 +287,7 @@ typedef struct mslip_contact {
     // Energy dissipated per cycle at incipient gross slip [J].
     double slip_energy;
     // Internal tables.
-    double reserved[276];
+    double reserved[277];
 } mslip_contact;
 
 // A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
@@ -312,7 +312,7 @@ typedef struct mslip_element {
     // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[6561];
+    double reserved[6562];
 } mslip_element;
 
 #ifdef __cplusplus

@@ -69,6 +69,7 @@ pub struct Element {
     /// S = `shift_per_approach` U + `shift_per_load` N, exactly, unless there is a table of the third quantity.
     shift_per_approach: f64,
     shift_per_load: f64,
+    has_third: u64,
     flat: Layered<RoundedFlat>,
     ellipse: Layered<HertzEllipse>,
     /// N(U) or S(N): the quantity that the input does not give.
@@ -93,8 +94,6 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
-/// Two bits: a tag with one wrong bit is not that of an element with a layer.
-const LAYERED: u64 = 24;
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
@@ -263,7 +262,7 @@ impl Element {
         let compliances = [shape.normal_compliance(w), shape.tangential_compliance(w)];
         let per_load = layer.shift_per_load(plane.per_approach[0], plane.per_load[0], compliances);
         (self.shift_per_approach, self.shift_per_load) = (plane.per_approach[0], per_load.unwrap_or(0.0));
-        self.tag |= if per_load.is_some() { 0 } else { LAYERED };
+        self.has_third = per_load.is_none().into();
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
         (self.shift, self.size) = (shift, w);
@@ -271,6 +270,9 @@ impl Element {
             self.springs.fill(plane, w);
         } else {
             self.springs = Springs::EMPTY;
+        }
+        if !self.has_third() {
+            self.third = Table::EMPTY;
         }
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
@@ -282,7 +284,7 @@ impl Element {
                 let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
                 let largest = regular(approach, self.largest_approach);
                 self.of_input.fill(largest, &load_of_approach);
-                if self.is_layered() {
+                if self.has_third() {
                     self.third.fill(largest, &|x| shape.series(shape.at_approach(x), Relation::ShiftOfApproach));
                 }
             }
@@ -290,7 +292,7 @@ impl Element {
                 let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
                 // The load of the parameters without the rounding error of its size.
                 self.of_input.fill(normal_force, &shift_of_load);
-                if self.is_layered() {
+                if self.has_third() {
                     self.third.fill(normal_force, &|x| shape.series(shape.at_load(x), Relation::ApproachOfLoad));
                 }
             }
@@ -337,8 +339,7 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        let tag = self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS);
-        tag == TAG || tag == TAG | LAYERED
+        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS) == TAG
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
@@ -348,7 +349,7 @@ impl Element {
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
         match self.tag & !(ELLIPTIC | FORCE_INPUT) {
-            tag if tag == TAG | tag_of(directions) || tag == TAG | LAYERED | tag_of(directions) => Ok(()),
+            tag if tag == TAG | tag_of(directions) => Ok(()),
             _ if self.is_initialised() => Err(Error::BadDirections),
             _ => Err(Error::BadElement),
         }
@@ -380,7 +381,7 @@ impl Element {
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
         let Some(at) = position else { return self.approach_outside(normal_force) };
-        if self.is_layered() {
+        if self.has_third() {
             let (value, slope) = self.third.value_and_slope(normal_force, at);
             return NormalPoint { value, slope };
         }
@@ -502,10 +503,10 @@ impl Element {
         self.tag & FORCE_INPUT == 0
     }
 
-    /// Whether a layer is in series with the contact of which S is no sum of U and N with constant factors.
+    /// Whether there is a table of the third quantity: with a layer, S is no sum of U and N with constant factors.
     #[inline(always)]
-    fn is_layered(&self) -> bool {
-        self.tag & LAYERED != 0
+    fn has_third(&self) -> bool {
+        self.has_third != 0
     }
 
     /// The family of sizes.
@@ -569,22 +570,21 @@ impl Element {
     /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
-        let position = self.of_input.position(input);
-        let (value, slope) = match position {
+        let (value, slope) = match self.of_input.position(input) {
             Some(at) => self.of_input.value_and_slope(input, at),
             None => self.outside(input),
         };
         if self.by_approach() {
-            let (shift, shift_slope) = if self.is_layered() {
-                match position {
-                    Some(at) => self.third.value_and_slope(input, at),
-                    None => self.shift_of_approach_outside(input),
-                }
-            } else {
-                let per_load = self.shift_per_load;
-                (self.shift_per_approach * input + per_load * value, self.shift_per_approach + per_load * slope)
-            };
-            Normal { load: value, shift, load_slope: slope, shift_slope }
+            if self.has_third() {
+                let (shift, shift_slope) = self.shift_of_approach(input);
+                return Normal { load: value, shift, load_slope: slope, shift_slope };
+            }
+            Normal {
+                load: value,
+                shift: self.shift_per_approach * input + self.shift_per_load * value,
+                load_slope: slope,
+                shift_slope: self.shift_per_approach + self.shift_per_load * slope,
+            }
         } else {
             Normal { load: input, shift: value, load_slope: 1.0, shift_slope: slope }
         }
@@ -620,7 +620,7 @@ impl Element {
         }
         let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
         let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
-        if self.is_layered() {
+        if self.has_third() {
             (shift, shift_slope) = self.third.four::<SLOPES>(input).unwrap_or_else(|| self.four_shifts_outside(input));
             return [value, shift, slope, shift_slope];
         }
@@ -643,9 +643,12 @@ impl Element {
         (value, slope)
     }
 
-    /// S(U) and its slope, from the shape.
+    /// S(U) and its slope.
     #[inline(never)]
-    fn shift_of_approach_outside(&self, approach: f64) -> (f64, f64) {
+    fn shift_of_approach(&self, approach: f64) -> (f64, f64) {
+        if let Some(at) = self.third.position(approach) {
+            return self.third.value_and_slope(approach, at);
+        }
         let (load, load_slope) = self.load_of_approach_outside(approach);
         let (shift, slope) = self.shift_of_load(load);
         (shift, slope * load_slope)
@@ -655,10 +658,7 @@ impl Element {
     fn four_shifts_outside(&self, approach: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
         let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
         for ((shift, slope), &approach) in shift.iter_mut().zip(&mut shift_slope).zip(approach) {
-            (*shift, *slope) = match self.third.position(approach) {
-                Some(at) => self.third.value_and_slope(approach, at),
-                None => self.shift_of_approach_outside(approach),
-            };
+            (*shift, *slope) = self.shift_of_approach(approach);
         }
         (shift, shift_slope)
     }
@@ -810,6 +810,7 @@ const EMPTY: Element = Element {
     smallest_input: 0.0,
     shift_per_approach: 0.0,
     shift_per_load: 0.0,
+    has_third: 0,
     flat: Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE },
     ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
     of_input: Table::EMPTY,

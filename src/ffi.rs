@@ -93,7 +93,7 @@ pub struct mslip_contact {
     /// Energy dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
     /// Internal tables.
-    pub reserved: [f64; 276],
+    pub reserved: [f64; 277],
 }
 
 /// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
@@ -119,7 +119,7 @@ pub struct mslip_element {
     /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 6561],
+    pub reserved: [f64; 6562],
 }
 
 const _: () = {

@@ -40,6 +40,60 @@ use crate::simd::dispatch;
 use core::array::from_fn;
 use core::f64::consts::PI;
 
+/// How K' is integrated up to gross slip, by the singularities of the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Quadrature {
+    /// All rules that are adapted to the singularity at gross slip.
+    AllRules,
+    /// The later ones.
+    LaterRules,
+    /// The finest one: a layer bends the curve strongly.
+    Knee,
+    /// The curve has a singularity close to zero displacement, too.
+    General,
+}
+
+impl From<u64> for Quadrature {
+    #[inline(always)]
+    fn from(number: u64) -> Quadrature {
+        match number {
+            0 => Quadrature::AllRules,
+            1 => Quadrature::LaterRules,
+            2 => Quadrature::Knee,
+            _ => Quadrature::General,
+        }
+    }
+}
+
+impl Quadrature {
+    /// That of a contact whose stick zones are known. The curve, continued to negative displacements, has a point of zero compliance, to
+    /// first order at `-Λ²/(2 h'')`. A layer moves it away.
+    pub fn of(contact: &Contact) -> Quadrature {
+        let zones = if contact.is_layered() { contact.layered_zones().contact() } else { contact.stick_zones() };
+        let series = zones.small_load();
+        let is_within = |fraction: f64| {
+            let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
+            series.compliance * series.compliance < distance
+        };
+        match (is_within(0.75), contact.has_knee(), is_within(1.5)) {
+            (true, ..) => Quadrature::General,
+            (false, true, _) => Quadrature::Knee,
+            (false, false, true) => Quadrature::LaterRules,
+            (false, false, false) => Quadrature::AllRules,
+        }
+    }
+
+    #[inline(always)]
+    fn rules(self) -> &'static [Rule] {
+        match self {
+            Quadrature::AllRules => &RULES,
+            Quadrature::LaterRules => RULES.get(1..).unwrap_or(&RULES),
+            Quadrature::Knee => core::slice::from_ref(&FINE_RULE),
+            Quadrature::General => &[],
+        }
+    }
+}
+
 /// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]
 pub struct ComplexStiffness<'a> {
@@ -168,7 +222,8 @@ impl ComplexStiffness<'_> {
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
         let fraction = amplitude * contact.per_slip_displacement();
-        if let Some(rules) = self.rules() {
+        if contact.quadrature() != Quadrature::General {
+            let rules = contact.quadrature().rules();
             if let Some(rule) = rules.iter().find(|rule| fraction <= rule.largest) {
                 return self.real_by_rule(rule);
             }
@@ -186,39 +241,15 @@ impl ComplexStiffness<'_> {
             return 0;
         }
         let fraction = self.amplitude * contact.per_slip_displacement();
-        let rules = match self.rules() {
-            None => return NODES_OF_TABLE,
-            Some(rules) if contact.has_knee() => rules,
-            Some(_) => &RULES,
+        let rules = match contact.quadrature() {
+            Quadrature::General => return NODES_OF_TABLE,
+            Quadrature::Knee => contact.quadrature().rules(),
+            Quadrature::AllRules | Quadrature::LaterRules => &RULES,
         };
         match rules.iter().find(|rule| fraction <= rule.largest) {
             Some(rule) => rule.nodes.len(),
             None if fraction < GROSS_SLIP_RULE_FROM => NODES_OF_TABLE,
             None => GAUSS.len() / 8,
-        }
-    }
-
-    /// The rules that are accurate below gross slip; `None` if the curve has a singularity close to zero displacement, too.
-    #[inline(always)]
-    fn rules(&self) -> Option<&'static [Rule]> {
-        let contact = self.contact;
-        if contact.is_layered() {
-            return self.rules_with_layer();
-        }
-        let rules = || RULES.get(usize::from(contact.has_singularity_within(1.5))..);
-        if contact.has_singularity_within(0.75) { None } else { rules() }
-    }
-
-    /// A layer moves the singularity of the contact alone away.
-    #[cold]
-    #[inline(never)]
-    fn rules_with_layer(&self) -> Option<&'static [Rule]> {
-        let alone = self.contact.layered_zones().contact();
-        let first = usize::from(Contact::has_singularity_of(alone, 1.5));
-        match Contact::has_singularity_of(alone, 0.75) {
-            true => None,
-            false if self.contact.has_knee() => Some(core::slice::from_ref(&FINE_RULE)),
-            false => RULES.get(first..),
         }
     }
 

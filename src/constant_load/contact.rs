@@ -1,6 +1,7 @@
 //! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
 //! that convert their nondimensional quantities into forces and displacements.
 
+use crate::constant_load::complex_stiffness::Quadrature;
 use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
@@ -51,6 +52,8 @@ pub struct Contact {
     /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
+    /// The [`Quadrature`] of K'.
+    quadrature: u64,
     interpolant: ForceInterpolant,
     gross_slip_quadrature: GrossSlipQuadrature,
     zones: LayeredZones,
@@ -62,13 +65,12 @@ pub struct Contact {
     pub(crate) checksum: u64,
 }
 
-/// Tag of an initialised contact: a magic number, the version of the layout, the geometry, and whether there is a layer.
+/// Tag of an initialised contact: a magic number, the version of the layout, and whether the curve is elementary: that of an ellipse
+/// without a layer.
 const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
-/// Two bits: a tag with one wrong bit is not that of another contact, but for the geometry.
-const LAYERED: u64 = 6;
 
-const _: () = assert!(size_of::<Contact>() == 2256);
+const _: () = assert!(size_of::<Contact>() == 2264);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -143,8 +145,8 @@ impl Contact {
     fn with_layer(mut self, layer: &parameters::Layer, normal_force: f64) -> Result<Contact, Error> {
         let layer = Layer::new(layer, normal_force)?;
         self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale)?, self.is_elementary());
-        self.tag |= if self.zones.has_layer() { LAYERED } else { 0 };
-        Ok(self)
+        let tag = if self.zones.has_layer() { TAG_ROUNDED_FLAT } else { self.tag };
+        Ok(Contact { tag, ..self })
     }
 
     /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
@@ -183,6 +185,7 @@ impl Contact {
             outer_scale: 1.0 / (outer * slip_displacement),
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
+            quadrature: Quadrature::of(&self) as u64,
             gross_slip_quadrature: gross_slip_quadrature(zones),
             sensitivity_scales: [
                 self.friction_coefficient,
@@ -211,23 +214,13 @@ impl Contact {
         self
     }
 
+    #[inline(always)]
+    pub(crate) fn quadrature(&self) -> Quadrature {
+        Quadrature::from(self.quadrature)
+    }
+
     pub(crate) fn gross_slip_quadrature(&self) -> &GrossSlipQuadrature {
         &self.gross_slip_quadrature
-    }
-
-    /// Whether the curve, continued to negative displacements, has a point of zero compliance within that fraction of the
-    /// displacement of gross slip: to first order at `-Λ²/(2 h'')`.
-    #[inline(always)]
-    pub(crate) fn has_singularity_within(&self, fraction: f64) -> bool {
-        Contact::has_singularity_of(self.stick_zones(), fraction)
-    }
-
-    /// The same of the curve of given stick zones.
-    #[inline(always)]
-    pub(crate) fn has_singularity_of(zones: &dyn StickZones, fraction: f64) -> bool {
-        let series = zones.small_load();
-        let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
-        series.compliance * series.compliance < distance
     }
 
     /// 1 over the displacement of gross slip; 0 without friction.
@@ -244,8 +237,7 @@ impl Contact {
     /// Whether this memory was initialised by a library of this version.
     #[inline(always)]
     pub(crate) fn is_initialised(&self) -> bool {
-        let tag = self.tag | 1;
-        tag == TAG_ELLIPTIC || tag == TAG_ELLIPTIC | LAYERED
+        self.tag | 1 == TAG_ELLIPTIC
     }
 
     /// An elliptical contact without a layer: its curve is elementary.
@@ -255,13 +247,13 @@ impl Contact {
     }
 
     pub(crate) fn is_ellipse(&self) -> bool {
-        self.tag & 1 != 0
+        self.is_elementary() || self.zones.is_elliptic()
     }
 
     /// Whether there is a layer that is compliant in the tangential direction.
     #[inline(always)]
     pub(crate) fn is_layered(&self) -> bool {
-        self.tag & LAYERED != 0
+        self.zones.has_layer()
     }
 
     #[inline(always)]
@@ -281,22 +273,12 @@ impl Contact {
     }
 
     pub(crate) fn stick_zones(&self) -> &dyn StickZones {
-        if self.tag == TAG_ROUNDED_FLAT {
-            &self.zones.flat
-        } else if self.is_elementary() {
+        if self.is_elementary() {
             &EllipseZones
-        } else {
+        } else if self.is_layered() {
             &self.zones
-        }
-    }
-
-    /// Dissipation and its derivative with respect to τ at a stick zone, τ >= 1/2, of a contact with an interpolant.
-    #[inline(always)]
-    pub(crate) fn cycle_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
-        if self.is_layered() {
-            self.zones.cycle(remaining, compliance_increase)
         } else {
-            self.zones.flat.cycle(remaining, compliance_increase)
+            &self.zones.flat
         }
     }
 
@@ -330,6 +312,7 @@ const EMPTY: Contact = Contact {
     slip_force_rounding: 0.0,
     inner_scale: 0.0,
     outer_scale: 0.0,
+    quadrature: Quadrature::General as u64,
     interpolant: ForceInterpolant::NONE,
     gross_slip_quadrature: NO_QUADRATURE,
     zones: LayeredZones::EMPTY,

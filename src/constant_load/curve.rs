@@ -67,7 +67,9 @@ impl Contact {
         Ok(CurvePoint { contact: self, sign: sign_of(displacement), known_by })
     }
 
-    /// The stick zone under a force from 0 to mu N.
+    /// The stick zone under a force from 0 to mu N. Not inlined: otherwise its minimum may be evaluated, and raise an exception, for a
+    /// point that is known by something else.
+    #[inline(never)]
     pub(crate) fn stick_zone_at_force(&self, force: f64) -> StickZone {
         let (force, unit) = (force.min(self.slip_force), self.slip_force.max(f64::MIN_POSITIVE));
         let remaining = self.slip_force - force;
@@ -76,7 +78,8 @@ impl Contact {
         self.stick_zones().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
     }
 
-    /// The stick zone at a displacement from 0 to that at the onset of gross slip.
+    /// The stick zone at a displacement from 0 to that at the onset of gross slip. Not inlined, as above.
+    #[inline(never)]
     pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         let displacement = displacement.min(self.slip_displacement);

@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::{Complement, StickZone};
+use crate::shape::stick_zone::{Complement, StickZone, StickZones};
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -28,18 +28,37 @@ impl Contact {
     /// amplitude \[N\].
     #[inline(always)]
     pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
-        let zones = self.stick_zones();
-        if let Some((load, stiffness)) = self.load_at(amplitude) {
-            if load.consumed <= 0.5 {
-                let (dissipation, slope) = zones.small_load().dissipation_with_derivative(load.consumed);
-                return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
-            }
-            let compliance_increase =
-                self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE) - zones.small_load().compliance;
-            let (dissipation, slope) = self.cycle_beyond_half(load.remaining, compliance_increase);
-            return (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness);
+        if self.is_layered() {
+            return self.cycle_energy_with_layer(amplitude);
         }
-        let zone = self.stick_zone_at_displacement(amplitude);
+        match self.evaluator().load_at(amplitude) {
+            Some(point) => self.cycle_energy_at(&self.layered_zones().flat, point),
+            None => self.cycle_energy_of_zone(amplitude),
+        }
+    }
+
+    #[inline(never)]
+    fn cycle_energy_with_layer(&self, amplitude: f64) -> (f64, f64) {
+        match self.load_at(amplitude) {
+            Some(point) => self.cycle_energy_at(self.layered_zones(), point),
+            None => self.cycle_energy_of_zone(amplitude),
+        }
+    }
+
+    /// The same at a load and the stiffness there.
+    #[inline(always)]
+    fn cycle_energy_at(&self, zones: &impl StickZones, (load, stiffness): (Complement, f64)) -> (f64, f64) {
+        let (dissipation, slope) = if load.consumed <= 0.5 {
+            zones.small_load().dissipation_with_derivative(load.consumed)
+        } else {
+            let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
+            zones.cycle(load.remaining, compliance - zones.small_load().compliance)
+        };
+        (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
+    }
+
+    fn cycle_energy_of_zone(&self, amplitude: f64) -> (f64, f64) {
+        let (zones, zone) = (self.stick_zones(), self.stick_zone_at_displacement(amplitude));
         let slope = self.slip_force * zones.d_dissipation(&zone) / zones.compliance(&zone);
         (self.energy_of(&zone), slope)
     }

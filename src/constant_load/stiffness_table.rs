@@ -58,8 +58,8 @@ const OVERLAP: f64 = 0.02;
 pub(crate) struct StiffnessTable {
     /// With count 0 if there are no polynomials.
     tag: f64,
-    /// The shape: Λ, the shift of gross slip, and the layer.
-    shape: [f64; 4],
+    /// The shape: Λ and the shift of gross slip.
+    shape: [f64; 2],
     /// (8/π) I and (8/π) G(0).
     moment: f64,
     slope_at_slip: f64,
@@ -159,7 +159,7 @@ type ValueAndSlope = (f64, f64);
 impl StiffnessTable {
     pub const EMPTY: StiffnessTable = StiffnessTable {
         tag: Kind::StiffnessTable.tag(0),
-        shape: [0.0; 4],
+        shape: [0.0; 2],
         moment: 0.0,
         slope_at_slip: 0.0,
         slip_energy: 0.0,
@@ -193,7 +193,7 @@ impl StiffnessTable {
     #[inline(always)]
     pub fn is_of(&self, contact: &Contact) -> bool {
         let [one, other] = [self.shape, shape_of(contact)];
-        (0..4).all(|i| (one[i] - other[i]).abs() <= 1e-13 * one[i].abs())
+        (0..2).all(|i| (one[i] - other[i]).abs() <= 1e-13 * one[i].abs())
     }
 
     #[inline(always)]
@@ -418,9 +418,9 @@ struct Curve {
     others: [Input<POINTS>; PIECES],
 }
 
-fn shape_of(contact: &Contact) -> [f64; 4] {
-    let (zones, [compliance, stiffening]) = (contact.stick_zones(), contact.layered_zones().shape());
-    [zones.small_load().compliance, zones.slip_shift(), compliance, stiffening]
+fn shape_of(contact: &Contact) -> [f64; 2] {
+    let zones = contact.stick_zones();
+    [zones.small_load().compliance, zones.slip_shift()]
 }
 
 impl Curve {
@@ -429,7 +429,7 @@ impl Curve {
     /// `false` without friction, for small Λ, and with a layer whose N_c is small.
     #[inline(never)]
     fn init(&mut self, contact: &Contact) -> bool {
-        let [compliance, slip_shift, ..] = shape_of(contact);
+        let [compliance, slip_shift] = shape_of(contact);
         if contact.is_frictionless() || compliance < SMALLEST_COMPLIANCE || contact.has_knee() {
             return false;
         }

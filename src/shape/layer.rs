@@ -281,6 +281,12 @@ impl LayeredZones {
         }
     }
 
+    /// Whether the contact is an ellipse, if there is a layer.
+    pub fn is_elliptic(&self) -> bool {
+        self.elliptic != 0
+    }
+
+    #[inline(always)]
     pub fn has_layer(&self) -> bool {
         self.layer.compliance > 0.0
     }
@@ -289,11 +295,6 @@ impl LayeredZones {
     /// function of the displacement, at complex displacements near gross slip.
     pub fn has_knee(&self) -> bool {
         self.layer.stiffening > 4.0 * self.layer.softest
-    }
-
-    /// What distinguishes the curve from that of the contact alone.
-    pub fn shape(&self) -> [f64; 2] {
-        [self.layer.compliance, self.layer.compliance * self.layer.stiffening]
     }
 
     pub fn layer(&self) -> &LayerCurve {
