@@ -5,7 +5,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::limits::check_displacement;
-use crate::numerics::fp_class::{abs_le, is_finite};
+use crate::numerics::fp_class::{abs_le, is_finite, le};
 use crate::shape::stick_zone::{Complement, StickZone};
 
 /// Relative amount by which a force may exceed mu N through rounding.
@@ -67,9 +67,7 @@ impl Contact {
         Ok(CurvePoint { contact: self, sign: sign_of(displacement), known_by })
     }
 
-    /// The stick zone under a force from 0 to mu N. Not inlined: otherwise its minimum may be evaluated, and raise an exception, for a
-    /// point that is known by something else.
-    #[inline(never)]
+    /// The stick zone under a force from 0 to mu N.
     pub(crate) fn stick_zone_at_force(&self, force: f64) -> StickZone {
         let (force, unit) = (force.min(self.slip_force), self.slip_force.max(f64::MIN_POSITIVE));
         let remaining = self.slip_force - force;
@@ -78,11 +76,11 @@ impl Contact {
         self.stick_zones().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
     }
 
-    /// The stick zone at a displacement from 0 to that at the onset of gross slip. Not inlined, as above.
-    #[inline(never)]
+    /// The stick zone at a displacement from 0 to that at the onset of gross slip.
     pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
-        let displacement = displacement.min(self.slip_displacement);
+        // A minimum may be evaluated for a point that is known by something else, and raise an exception.
+        let displacement = if le(displacement, self.slip_displacement) { displacement } else { self.slip_displacement };
         self.stick_zones().at_shift(Complement {
             consumed: displacement / unit,
             remaining: (self.slip_displacement - displacement) / unit,
