@@ -34,65 +34,11 @@ use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::TANH_SINH;
-use crate::numerics::sn_midpoint::{FINE_RULE, GAUSS, RULES, Rule};
+use crate::numerics::sn_midpoint::{GAUSS, Quadrature, RULES, Rule};
 use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
 use crate::simd::dispatch;
 use core::array::from_fn;
 use core::f64::consts::PI;
-
-/// How K' is integrated up to gross slip, by the singularities of the curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Quadrature {
-    /// All rules that are adapted to the singularity at gross slip.
-    AllRules,
-    /// The later ones.
-    LaterRules,
-    /// The finest one: a layer bends the curve strongly.
-    Knee,
-    /// The curve has a singularity close to zero displacement, too.
-    General,
-}
-
-impl From<u64> for Quadrature {
-    #[inline(always)]
-    fn from(number: u64) -> Quadrature {
-        match number {
-            0 => Quadrature::AllRules,
-            1 => Quadrature::LaterRules,
-            2 => Quadrature::Knee,
-            _ => Quadrature::General,
-        }
-    }
-}
-
-impl Quadrature {
-    /// That of a contact whose stick zones are known. The curve, continued to negative displacements, has a point of zero compliance, to
-    /// first order at `-Λ²/(2 h'')`. A layer moves it away.
-    pub fn of(contact: &Contact) -> Quadrature {
-        let zones = if contact.is_layered() { contact.layered_zones().contact() } else { contact.stick_zones() };
-        let series = zones.small_load();
-        let is_within = |fraction: f64| {
-            let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
-            series.compliance * series.compliance < distance
-        };
-        match (is_within(0.75), contact.has_knee(), is_within(1.5)) {
-            (true, ..) => Quadrature::General,
-            (false, true, _) => Quadrature::Knee,
-            (false, false, true) => Quadrature::LaterRules,
-            (false, false, false) => Quadrature::AllRules,
-        }
-    }
-
-    #[inline(always)]
-    fn rules(self) -> &'static [Rule] {
-        match self {
-            Quadrature::AllRules => &RULES,
-            Quadrature::LaterRules => RULES.get(1..).unwrap_or(&RULES),
-            Quadrature::Knee => core::slice::from_ref(&FINE_RULE),
-            Quadrature::General => &[],
-        }
-    }
-}
 
 /// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]

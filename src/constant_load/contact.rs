@@ -1,12 +1,12 @@
 //! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
 //! that convert their nondimensional quantities into forces and displacements.
 
-use crate::constant_load::complex_stiffness::Quadrature;
 use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
+use crate::numerics::sn_midpoint::Quadrature;
 use crate::parameters::{self, EllipticParameters, Pair, Parameters, Sensitivity, check_moduli};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
@@ -185,7 +185,7 @@ impl Contact {
             outer_scale: 1.0 / (outer * slip_displacement),
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
-            quadrature: Quadrature::of(&self) as u64,
+            quadrature: self.quadrature_of_curve() as u64,
             gross_slip_quadrature: gross_slip_quadrature(zones),
             sensitivity_scales: [
                 self.friction_coefficient,
@@ -212,6 +212,23 @@ impl Contact {
             self.interpolant = if self.is_layered() { alone.without_layer() } else { alone };
         }
         self
+    }
+
+    /// The quadrature of K', from the stick zones. The curve, continued to negative displacements, has a point of zero compliance, to
+    /// first order at `-Λ²/(2 h'')`. A layer moves it away.
+    fn quadrature_of_curve(&self) -> Quadrature {
+        let zones = if self.is_layered() { self.zones.contact() } else { self.stick_zones() };
+        let series = zones.small_load();
+        let is_within = |fraction: f64| {
+            let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
+            series.compliance * series.compliance < distance
+        };
+        match (is_within(0.75), self.has_knee(), is_within(1.5)) {
+            (true, ..) => Quadrature::General,
+            (false, true, _) => Quadrature::Knee,
+            (false, false, true) => Quadrature::LaterRules,
+            (false, false, false) => Quadrature::AllRules,
+        }
     }
 
     #[inline(always)]

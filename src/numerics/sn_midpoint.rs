@@ -88,6 +88,43 @@ pub(crate) static FINE_RULE: Rule = Rule {
     ],
 };
 
+/// How K' is integrated up to gross slip, by the singularities of the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Quadrature {
+    /// All rules that are adapted to the singularity at gross slip.
+    AllRules,
+    /// The later ones.
+    LaterRules,
+    /// The finest one: a layer bends the curve strongly.
+    Knee,
+    /// The curve has a singularity close to zero displacement, too.
+    General,
+}
+
+impl From<u64> for Quadrature {
+    #[inline(always)]
+    fn from(number: u64) -> Quadrature {
+        match number {
+            0 => Quadrature::AllRules,
+            1 => Quadrature::LaterRules,
+            2 => Quadrature::Knee,
+            _ => Quadrature::General,
+        }
+    }
+}
+
+impl Quadrature {
+    #[inline(always)]
+    pub fn rules(self) -> &'static [Rule] {
+        match self {
+            Quadrature::AllRules => &RULES,
+            Quadrature::LaterRules => RULES.get(1..).unwrap_or(&RULES),
+            Quadrature::Knee => core::slice::from_ref(&FINE_RULE),
+            Quadrature::General => &[],
+        }
+    }
+}
+
 /// Nodes and weights of 40-point Gauss-Legendre on (0, 1).
 pub(crate) static GAUSS: [(f64, f64); 40] = include!("sn_midpoint/gauss.in");
 
