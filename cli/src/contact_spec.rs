@@ -7,7 +7,7 @@ use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use serde::Deserialize;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -46,6 +46,15 @@ pub struct ContactArgs {
     #[arg(long, value_name = "NUMBER", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
     #[serde(skip)]
     poisson_ratio: Vec<f64>,
+    /// Layer in series with the contact: compliance c_n >= 0 under the normal force [default: 0, none]
+    #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
+    normal_compliance: Option<f64>,
+    /// Layer: compliance c_t >= 0 along the tangential force, under the normal force [default: 0, none]
+    #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
+    tangential_compliance: Option<f64>,
+    /// Layer: N_c, its stiffness grows in proportion to N + N_c [default: 0, constant stiffness]
+    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    stiffening_load: Option<f64>,
     /// Reference of the displacement [default: centre_point]
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
@@ -164,7 +173,7 @@ impl ContactArgs {
         self.semi_axis_x.is_some() || self.semi_axis_y.is_some()
     }
 
-    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 7] {
+    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 10] {
         [
             ("flat_half_width", &mut self.flat_half_width),
             ("edge_radius", &mut self.edge_radius),
@@ -173,10 +182,14 @@ impl ContactArgs {
             ("semi_axis_y", &mut self.semi_axis_y),
             ("normal_force", &mut self.normal_force),
             ("friction_coefficient", &mut self.friction_coefficient),
+            ("normal_compliance", &mut self.normal_compliance),
+            ("tangential_compliance", &mut self.tangential_compliance),
+            ("stiffening_load", &mut self.stiffening_load),
         ]
     }
 
-    /// Values of the parameters by name: those of a rounded flat (3), of an ellipse (2), and common ones.
+    /// Values of the parameters by name: those of a rounded flat (3), of an ellipse (2), common ones, and
+    /// those of a layer (3).
     fn numbers(&self) -> Vec<(&'static str, Vec<f64>)> {
         let scalars = self.clone().scalars().map(|(name, value)| (name, Vec::from_iter(*value)));
         let lists = [("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())];
@@ -252,6 +265,11 @@ impl ContactArgs {
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
         let springs = self.springs.unwrap_or(0);
+        let layer = Layer {
+            normal_compliance: self.normal_compliance.unwrap_or(0.0),
+            tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
+            stiffening_load: self.stiffening_load.unwrap_or(0.0),
+        };
         Ok(if self.is_elliptic() {
             let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
             ShapeParameters::Ellipse(EllipticParameters {
@@ -260,6 +278,7 @@ impl ContactArgs {
                 normal_force,
                 friction_coefficient,
                 material,
+                layer,
                 springs,
                 ..EllipticParameters::default()
             })
@@ -275,8 +294,8 @@ impl ContactArgs {
                     Some(Reference::RigidStrip) => RIGID_STRIP,
                     Some(Reference::CentrePoint) | None => CENTRE_POINT,
                 },
+                layer,
                 springs,
-                ..Parameters::default()
             })
         })
     }

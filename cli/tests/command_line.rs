@@ -569,6 +569,34 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         fitted.iter().zip(&expected).all(|(one, other)| (one / other - 1.0).abs() < 1e-2),
         "{fitted:?} {expected:?}"
     );
+    // Loops of a contact with a layer: the fitted one lies on them.
+    let layer = "--tangential-compliance 4e-9";
+    shell.stdout(&format!("for a in 0.7 1.5; do microslip loop flat.toml {layer} --amplitude $(awk \"BEGIN{{print 2e-6*$a}}\") --out l$a.csv; done"));
+    shell.stdout(
+        "microslip fit flat.toml --measured l0.7.csv,l1.5.csv --fix shape --fix contact_compliance --fitted layer.toml",
+    );
+    let line = shell
+        .read("layer.toml")
+        .lines()
+        .find_map(|line| Some(line.strip_prefix("tangential_compliance = ")?.to_owned()));
+    assert!((line.unwrap().parse::<f64>().unwrap() / 4e-9 - 1.0).abs() < 1e-4);
+    let forces = |command: &str| -> Vec<f64> {
+        cells(&shell.stdout(command)).1.iter().map(|row| row[2].parse().unwrap()).collect()
+    };
+    let [fitted, measured] = ["layer.toml", &format!("flat.toml {layer}")]
+        .map(|contact| forces(&format!("microslip loop {contact} --amplitude 1.4e-6")));
+    // The friction force is 60 N.
+    assert!(fitted.iter().zip(&measured).all(|(one, other)| (one - other).abs() < 1e-3), "{fitted:?}");
+    shell.check_error(
+        "microslip contact flat.toml --stiffening-load 0.1 --tangential-compliance 1e-9",
+        1,
+        "out of range",
+    );
+    shell.check_error(
+        "microslip contact flat.toml --normal-compliance=-1",
+        1,
+        "normal_compliance of a layer must be finite and >= 0, not -1",
+    );
     let json: serde_json::Value = serde_json::from_str(&shell.read("new.json")).unwrap();
     assert_eq!(json["friction_coefficient"]["value"].as_f64(), Some(quantity(&table, "friction_coefficient").0));
 

@@ -219,8 +219,9 @@ impl FittedLoop {
 /// the contact has the same width.
 pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; 4]) -> String {
     let [friction, series, factor, _] = parameters;
-    let mut text =
-        format!("# Fitted to measured loops. Series compliance of rig and bodies, not in the contact: {series:e}\n");
+    let mut text = format!(
+        "# Fitted to measured loops. tangential_compliance is that of all in series with the contact: rig, bodies, roughness.\n"
+    );
     if *factor != 1.0 {
         text += &format!(
             "# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n",
@@ -247,6 +248,9 @@ pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &
         }
     }
     text += &format!("normal_force = {:e}\nfriction_coefficient = {friction:e}\n", contact.normal_force);
+    if *series > 0.0 {
+        text += &format!("tangential_compliance = {series:e}\n");
+    }
     for body in &contact.material {
         let (modulus, ratio) = (body.young_modulus / factor, body.poisson_ratio);
         text += &format!("\n[[material]]\nyoung_modulus = {modulus:e}\npoisson_ratio = {ratio:e}\n");
