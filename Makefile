@@ -128,6 +128,7 @@ figures:
 	$(CARGO) run --quiet --locked --package validation
 	verification/validation/draw.sh
 	tools/identification.sh
+	tools/layer.sh
 
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all

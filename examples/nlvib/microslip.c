@@ -57,14 +57,17 @@ typedef struct field {
 } field;
 
 #define FIELD(type, name) { #name, offsetof(type, name) }
+#define OF_LAYER(type, name) { #name, offsetof(type, layer.name) }
+#define LAYER(type) OF_LAYER(type, normal_compliance), OF_LAYER(type, tangential_compliance), OF_LAYER(type, stiffening_load)
 
 static const field line_fields[] = {
     FIELD(mslip_parameters, flat_half_width), FIELD(mslip_parameters, edge_radius), FIELD(mslip_parameters, length),
-    FIELD(mslip_parameters, normal_force), FIELD(mslip_parameters, friction_coefficient), { NULL, 0 }
+    FIELD(mslip_parameters, normal_force), FIELD(mslip_parameters, friction_coefficient), LAYER(mslip_parameters), { NULL, 0 }
 };
 static const field elliptic_fields[] = {
     FIELD(mslip_elliptic_parameters, semi_axis_x), FIELD(mslip_elliptic_parameters, semi_axis_y),
-    FIELD(mslip_elliptic_parameters, normal_force), FIELD(mslip_elliptic_parameters, friction_coefficient), { NULL, 0 }
+    FIELD(mslip_elliptic_parameters, normal_force), FIELD(mslip_elliptic_parameters, friction_coefficient),
+    LAYER(mslip_elliptic_parameters), { NULL, 0 }
 };
 
 static void read_material(const mxArray *values, double *first, double *second)

@@ -27,7 +27,7 @@ from ._contact import (
     Tractions,
 )
 from ._core import Error, Parameter, Status, ffi, lib, status_text
-from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce
+from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce, StaticDisplacement
 from ._fit import FitError, fit
 from ._memory import ElementState, ElementWorkspace, State, Workspace
 
@@ -71,6 +71,7 @@ __all__ = [
     "Sensitivity",
     "Slip",
     "State",
+    "StaticDisplacement",
     "Status",
     "Step",
     "StiffnessTable",

@@ -108,6 +108,9 @@ class Contact(_Law):
     `poisson_ratio` are one number for both bodies or a pair. `displacement_reference` is `CENTRE_POINT`, as in the paper, or
     `RIGID_STRIP`, corrected to three-dimensional contact mechanics; the words "centre_point" and "rigid_strip" will do too. An
     elliptical contact is made by `Contact.elliptic`. Contacts are equal if their results are.
+
+    `normal_compliance` and `tangential_compliance` [m/N], under `normal_force`, are those of a layer in series with the contact, whose
+    stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
     """
 
     _type = "mslip_contact"
@@ -131,6 +134,9 @@ class Contact(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        normal_compliance: float = 0.0,
+        tangential_compliance: float = 0.0,
+        stiffening_load: float = 0.0,
         displacement_reference: Constant = 0,
     ) -> None:
         self._initialise("", locals())
@@ -145,6 +151,9 @@ class Contact(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        normal_compliance: float = 0.0,
+        tangential_compliance: float = 0.0,
+        stiffening_load: float = 0.0,
     ) -> Contact:
         """An elliptical Hertz contact, of these semi-axes [m] along and across the tangential force; a sphere if they are equal."""
         return cls._new()._initialise("_elliptic", locals())

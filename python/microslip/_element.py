@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ._core import (
@@ -16,11 +17,14 @@ from ._core import (
     Pair,
     Status,
     Values,
+    check,
     choice,
+    doubles,
     elementwise,
     instance,
     integer,
     lib,
+    pointer,
     transposed,
 )
 from ._law import HarmonicForce, Tractions, _Law, _LawArray
@@ -42,6 +46,13 @@ class NormalForce(NamedTuple):
     normal_force: Values
     stiffness: Values
     half_width: Values
+
+
+class StaticDisplacement(NamedTuple):
+    """Displacement [m] and compliance [m/N] at a constant normal force."""
+
+    displacement: Values
+    compliance: Values
 
 
 class NormalApproach(NamedTuple):
@@ -86,6 +97,9 @@ class Element(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        normal_compliance: float = 0.0,
+        tangential_compliance: float = 0.0,
+        stiffening_load: float = 0.0,
         displacement_reference: Constant = 0,
         springs: int = 0,
         directions: int = 1,
@@ -108,6 +122,9 @@ class Element(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        normal_compliance: float = 0.0,
+        tangential_compliance: float = 0.0,
+        stiffening_load: float = 0.0,
         springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 0,
@@ -126,6 +143,21 @@ class Element(_Law):
     def approach_at(self, normal_force: ArrayLike) -> NormalApproach:
         """The inverse normal law at normal forces >= 0 [N]: approach [m], compliance [m/N], half-width [m]."""
         return elementwise(NormalApproach, lib.mslip_normal_approach, (self._c,), normal_force, "normal_force")
+
+    def displacement_at(self, force: ArrayLike, normal_force: ArrayLike, direction: int = 0) -> StaticDisplacement:
+        """The monotonic curve at constant normal forces [N]: the displacement [m] that carries each force [N], at most mu N, in
+        the direction x (0) or y (1), and the compliance [m/N]. `force` and `normal_force` are broadcast.
+        """
+        given = doubles(force, "force"), doubles(normal_force, "normal_force")
+        try:
+            shape = np.broadcast_shapes(*(one.shape for one in given))
+        except ValueError:
+            raise ValueError(f"force of shape {given[0].shape} and normal_force of {given[1].shape} do not broadcast") from None
+        both = [np.broadcast_to(one, shape).copy() for one in given]
+        out = [np.empty(shape), np.empty(shape)]
+        head = self._c, integer(direction, "direction"), out[0].size
+        check(lib.mslip_element_displacement(*head, *map(pointer, (*both, *out))))
+        return StaticDisplacement(*(one[()] for one in out))
 
     def update(self, state: ElementState, displacement: ArrayLike, out: ElementState | None = None) -> ElementStep:
         """Advances a load history to displacement[m], or through displacement[n, m]: force [N], tangent [N/m] and dissipated

@@ -94,6 +94,8 @@ class _Law(Value):
             else:
                 checked = integer(value, name) if name == "springs" else number(value, name)
             setattr(parameters, name, checked)
+        for name, _ in ffi.typeof("mslip_layer").fields:
+            setattr(parameters.layer, name, number(given[name], name))
         parameters.material = list(zip(*(pair(given[name], name) for name in ("young_modulus", "poisson_ratio"))))
         self._c = ffi.new(f"{self._type} *")
         check(getattr(lib, f"{self._type}_init{shape}")(parameters, *more, self._c))

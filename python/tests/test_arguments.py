@@ -31,6 +31,7 @@ element_state = microslip.ElementState()
 SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
+LAYER = {"normal_compliance": 0.0, "tangential_compliance": 0.0, "stiffening_load": 100.0}
 REFERENCE = {"displacement_reference": 1}
 DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
 MANY = {"index": [0, 1], "active": [1, 1]}
@@ -42,8 +43,8 @@ def valid():
     return {
         "status_text": {"status": 1},
         "fit": {"loops": [LOOP], "contact": FLAT, "fixed": {"contact_compliance": 1.0}, "shape": "fixed"},
-        "Contact": {**FLAT, **REFERENCE},
-        "Contact.elliptic": ELLIPSE,
+        "Contact": {**FLAT, **LAYER, **REFERENCE},
+        "Contact.elliptic": {**ELLIPSE, **LAYER},
         "Contact.from_bytes": {"data": bytes(contact)},
         "Contact.tractions": {"load": 100.0, "x": [0.0]},
         "Contact.slip": {"force": 100.0, "x": [0.0]},
@@ -68,11 +69,12 @@ def valid():
         "ContactArray.complex_stiffness": {"amplitude": [1e-7, 1e-7], **MANY},
         "ContactArray.update": {"states": contacts.states(), "displacement": [0, 0], **MANY, "out": contacts.states()},
         "ContactArray.harmonic_force": {"workspace": workspace, "displacement": np.zeros((2, 3)), "jacobian": True, **MANY},
-        "Element": {**FLAT, **REFERENCE, **DIRECTIONS},
-        "Element.elliptic": {**ELLIPSE, **DIRECTIONS},
+        "Element": {**FLAT, **LAYER, **REFERENCE, **DIRECTIONS},
+        "Element.elliptic": {**ELLIPSE, **LAYER, **DIRECTIONS},
         "Element.from_bytes": {"data": bytes(element)},
         "Element.normal_force_at": {"approach": [1e-6]},
         "Element.approach_at": {"normal_force": [100.0]},
+        "Element.displacement_at": {"force": [10.0], "normal_force": [100.0], "direction": 0},
         "Element.update": {"state": element_state, "displacement": [[0, 1e-6]], "out": element_out},
         "Element.tractions": {"state": element_state, "x": [0.0]},
         "Element.harmonic_force": {"workspace": element_workspace, "displacement": np.zeros((2, 3)), "jacobian": False},

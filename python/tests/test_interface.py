@@ -95,6 +95,22 @@ def test_errors():
     assert bytes(state) == before
 
 
+def test_layers_are_in_series():
+    layer = {"tangential_compliance": 2 / contact.initial_stiffness, "normal_compliance": 1 / element.normal_stiffness}
+    soft, pressed_softly = microslip.Contact(**FLAT, **layer), microslip.Element(**FLAT, **layer)
+    assert_allclose(soft.initial_stiffness, contact.initial_stiffness / 3, rtol=1e-14)
+    assert_allclose(pressed_softly.normal_stiffness, element.normal_stiffness / 2, rtol=1e-14)
+    force = np.array([[0.3], [-0.9]]) * contact.slip_force
+    found = pressed_softly.displacement_at(force, FLAT["normal_force"])
+    assert_allclose(found.displacement, soft.monotonic_displacement(force).displacement, rtol=1e-12)
+    assert found.compliance.shape == (2, 1)
+    assert np.isscalar(element.displacement_at(0, 1.0).displacement)
+    with pytest.raises(microslip.Error, match="BAD_DIRECTIONS"):
+        element.displacement_at(1.0, 100.0, direction=1)
+    with pytest.raises(microslip.Error, match="tangential_compliance of a layer"):
+        microslip.Contact(**FLAT, tangential_compliance=-1)
+
+
 def test_arrays_are_used_as_they_are_or_converted():
     exact = np.linspace(-2, 2, 7) * SLIP
     assert _core.doubles(exact, "x") is exact
@@ -198,21 +214,24 @@ def test_tangents_are_not_transposed(directions):
 
 @pytest.mark.parametrize("parameter", microslip.Parameter)
 def test_sensitivities_are_derivatives(parameter):
-    name = "young_modulus" if parameter == microslip.Parameter.COMPOSITE_MODULUS else parameter.name.lower()
+    others = {"COMPOSITE_MODULUS": "young_modulus", "LAYER_COMPLIANCE": "tangential_compliance"}
+    name = others.get(parameter.name, parameter.name.lower())
+    given = FLAT | {"tangential_compliance": 0.5 / contact.initial_stiffness}
+    layered = microslip.Contact(**given)
 
     def changed(factor):
-        return microslip.Contact(**(FLAT | {name: np.multiply(FLAT[name], factor)}))
+        return microslip.Contact(**(given | {name: np.multiply(given[name], factor)}))
 
     step = 1e-5
-    value = contact.composite_modulus if name == "young_modulus" else FLAT[name]
+    value = contact.composite_modulus if name == "young_modulus" else given[name]
     displacement = np.array([[0.3, 0.9], [-0.7, 1.5]]) * SLIP
     for found, evaluate in [
-        (contact.monotonic_sensitivity(displacement), lambda one: one.monotonic_force(displacement).force),
-        (contact.harmonic_sensitivity(workspace, HARMONICS), lambda one: one.harmonic_force(workspace, HARMONICS).force),
+        (layered.monotonic_sensitivity(displacement), lambda one: one.monotonic_force(displacement).force),
+        (layered.harmonic_sensitivity(workspace, HARMONICS), lambda one: one.harmonic_force(workspace, HARMONICS).force),
     ]:
-        assert_allclose(found.force, evaluate(contact), rtol=0, atol=1e-13 * contact.slip_force)
+        assert_allclose(found.force, evaluate(layered), rtol=0, atol=1e-13 * contact.slip_force)
         expected = (evaluate(changed(1 + step)) - evaluate(changed(1 - step))) / (2 * step * value)
-        assert found.sensitivity.shape == (*expected.shape, 6)
+        assert found.sensitivity.shape == (*expected.shape, 7)
         # Differences of second order, and roundings of the force over the step.
         assert_allclose(found.sensitivity[..., parameter], expected, rtol=1e-6, atol=1e-8 * contact.slip_force / value)
 
