@@ -109,8 +109,8 @@ class Contact(_Law):
     `RIGID_STRIP`, corrected to three-dimensional contact mechanics; the words "centre_point" and "rigid_strip" will do too. An
     elliptical contact is made by `Contact.elliptic`. Contacts are equal if their results are.
 
-    `normal_compliance` and `tangential_compliance` [m/N], under `normal_force`, are those of a layer in series with the contact, whose
-    stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
+    `normal_compliance` and `tangential_compliance` [m/N], under `normal_force`, are those of a layer in series with the contact,
+    whose stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
     """
 
     _type = "mslip_contact"
