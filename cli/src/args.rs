@@ -123,6 +123,14 @@ pub enum Command {
   microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
     ))]
     Fit(ContactCommand<Fit>),
+    /// Layer of a rough surface in series with the contact, from the rms height of the roughness (Persson) or the asperities (Greenwood
+    /// and Williamson, normally distributed heights)
+    #[command(after_help = help!(
+        "quantity, value, lower, upper (of the literature), unit; for the parameter file",
+        "layer contact.toml --rms-height 0.8e-6
+  microslip layer contact.toml --asperity-radius 50e-6 --asperity-density 1e9 --height-deviation 0.5e-6"
+    ))]
+    Layer(ContactCommand<RoughLayer>),
     /// Print a parameter file with comments
     #[command(after_help = "Example:\n  microslip example > contact.toml")]
     Example {
@@ -176,6 +184,22 @@ pub struct Tractions {
     pub points: u32,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct RoughLayer {
+    /// Root mean square of the heights of both surfaces
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub rms_height: Option<f64>,
+    /// Radius of the asperities
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub asperity_radius: Option<f64>,
+    /// Number of asperities per area
+    #[arg(long, value_name = "1/m^2", value_parser = parse_number, allow_hyphen_values = true)]
+    pub asperity_density: Option<f64>,
+    /// Standard deviation of the heights of the asperities
+    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    pub height_deviation: Option<f64>,
 }
 
 #[derive(Debug, Args)]

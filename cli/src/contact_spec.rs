@@ -300,6 +300,18 @@ impl ContactArgs {
         })
     }
 
+    /// Tangential over normal compliance of a rough surface: (2-ν)/(2(1-ν)), the mean of both bodies by their shares of 1/E*.
+    pub fn tangential_ratio(&self) -> Result<f64> {
+        let material = match self.shape(1.0)? {
+            ShapeParameters::Flat(parameters) => parameters.material,
+            ShapeParameters::Ellipse(parameters) => parameters.material,
+        };
+        let [first, second] = material.map(|Material { young_modulus, poisson_ratio: nu }| {
+            ((1.0 - nu * nu) / young_modulus, 0.5 * (2.0 - nu) / (1.0 - nu))
+        });
+        Ok((first.0 * first.1 + second.0 * second.1) / (first.0 + second.0))
+    }
+
     /// The contact as the start of a fit.
     pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
         let bodies = |material: [Material; 2]| {

@@ -1,6 +1,6 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load` and `fit` compute, `plot`
+//! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load`, `fit` and `layer` compute, `plot`
 //! draws, and `files` reads and writes.
 
 mod allocator;
@@ -11,6 +11,7 @@ mod contact_spec;
 mod error;
 mod files;
 mod fit;
+mod layer;
 mod number;
 mod plot;
 mod table;
@@ -69,6 +70,7 @@ fn run(command: &Command) -> Result<u8> {
             let measured: Vec<_> = command.options.measured.iter().map(PathBuf::as_path).collect();
             execute(command, &measured, fit::fit)
         }
+        Command::Layer(command) => execute(command, &[], layer::layer),
         Command::Example { elliptic: false } => files::write_stdout(include_bytes!("../example.toml")).map(|()| 0),
         Command::Example { elliptic: true } => {
             files::write_stdout(include_bytes!("../example_elliptic.toml")).map(|()| 0)

@@ -658,6 +658,37 @@ fn a_fit_recovers_the_contact_of_its_loops() {
 }
 
 #[test]
+fn layers_follow_from_the_roughness() {
+    let shell = Shell::new("layer");
+    // N/(0.45 h), with N_c = N/100.
+    let table = shell.stdout("microslip layer flat.toml --rms-height 1e-6");
+    assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+    let values: Vec<f64> = cells(&table).1.iter().map(|row| row[1].parse().unwrap()).collect();
+    assert!((values[0] * 150.0 * 1.01 / 0.45e-6 - 1.0).abs() < 1e-14 && values[2] == 1.5, "{values:?}");
+    assert!((values[1] / values[0] - 1.22).abs() < 0.02, "{values:?}");
+    shell.stdout("(cat flat.toml | sed '/material/,$d'; microslip layer flat.toml --rms-height 1e-6 | \
+                  awk -F, '/^[ns].*_[cl]o|^tangential_compliance,/ { print $1 \" = \" $2 }'; sed -n '/material/,$p' flat.toml) > rough.toml");
+    let stiffness = |contact: &str| -> f64 {
+        let table = shell.stdout(&format!("microslip contact {contact}"));
+        cells(&table).1.iter().find(|row| row[0] == "initial_stiffness").unwrap()[1].parse().unwrap()
+    };
+    assert!(
+        (1.0 / stiffness("rough.toml") - 1.0 / stiffness("flat.toml") - values[1]).abs() < 1e-13 * values[1] + 1e-22
+    );
+    let asperities = "--asperity-radius 5e-5 --asperity-density 1e9 --height-deviation 5e-7";
+    assert!(shell.stdout(&format!("microslip layer flat.toml {asperities}")).contains("stiffening_load"));
+    for (arguments, status, text) in [
+        ("", 2, "--rms-height, or --asperity-radius"),
+        ("--rms-height -1", 2, "--rms-height must be finite and > 0"),
+        ("--rms-height 1e-6 --asperity-radius 1", 2, "--rms-height, or"),
+        ("--rms-height 1e-6 --normal-force 0", 1, "normal_force must be > 0"),
+        ("--asperity-radius 5e-5 --asperity-density 1 --height-deviation 5e-7", 1, "outside the model"),
+    ] {
+        shell.check_error(&format!("microslip layer flat.toml {arguments}"), status, text);
+    }
+}
+
+#[test]
 fn the_command_in_a_result_repeats_it() {
     let shell = Shell::new("repeat");
     shell.write("path's.csv", "0.5\n-1\n2");
