@@ -219,9 +219,9 @@ impl FittedLoop {
 /// the contact has the same width.
 pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; 4]) -> String {
     let [friction, series, factor, _] = parameters;
-    let mut text = format!(
+    let mut text =
         "# Fitted to measured loops. tangential_compliance is that of all in series with the contact: rig, bodies, roughness.\n"
-    );
+            .to_owned();
     if *factor != 1.0 {
         text += &format!(
             "# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n",

@@ -195,13 +195,15 @@ const FLAT: Parameters = Parameters {
     springs: 0,
 };
 
-/// Contacts from the cylinder to the nearly flat, short, long, open, without friction, and in extreme units, initialised once.
+/// Contacts from the cylinder to the nearly flat, short, long, open, without friction, with layers, and in extreme units, initialised
+/// once.
 fn listed() -> &'static [(AnyParameters, Contact)] {
     static LISTED: OnceLock<Vec<(AnyParameters, Contact)>> = OnceLock::new();
     LISTED.get_or_init(|| {
         let flat = |flat_half_width| Parameters { flat_half_width, ..FLAT };
         let unlike = [STEEL, Material { young_modulus: 7e10, poisson_ratio: 0.5 }];
         let rubber = [Material { young_modulus: 1e6, poisson_ratio: 0.0 }; 2];
+        let layer = |stiffening_load| Layer { normal_compliance: 1e-9, tangential_compliance: 2e-9, stiffening_load };
         let flats = [
             flat(0.0),
             flat(1e-9),
@@ -218,6 +220,9 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
             Parameters { normal_force: 0.0, ..FLAT },
             Parameters { friction_coefficient: 0.0, ..FLAT },
             Parameters { friction_coefficient: 1e30, ..flat(50e-6) },
+            Parameters { layer: layer(0.0), ..flat(50e-6) },
+            Parameters { layer: layer(200.0), ..flat(0.0) },
+            Parameters { layer: layer(0.1), ..FLAT },
         ];
         let axes =
             [(1e-4, 1e-4, 100.0), (1e-5, 1e-3, 100.0), (1e-2, 1e-4, 100.0), (1e45, 1e46, 100.0), (1e-4, 1e-4, 0.0)];
