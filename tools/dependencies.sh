@@ -33,6 +33,10 @@ libopenmpi-dev  check parallel                                        : command 
 dpkg-dev        host                                                  : command dpkg-source
 libspooles-dev  host                                                  : library spooles
 libarpack2-dev  host                                                  : library arpack
+gcc-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-gcc
+g++-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-g++
+gfortran-aarch64-linux-gnu release                                    : command aarch64-linux-gnu-gfortran
+qemu-user                  release                                    : command qemu-aarch64
 '
 
 # found KIND NAME [ARGUMENT...]
