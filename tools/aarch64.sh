@@ -87,10 +87,8 @@ differences() {
                 if (!(output in largest)) order[++outputs] = output
                 largest[output] += 0
                 if (native[1] " " native[2] != output) exit status = 1
-                for (i = 3; i <= NF; ++i) {
-                    if (size($i) > largest[output]) largest[output] = size($i)
-                    if (size($i - native[i]) > difference[output]) difference[output] = size($i - native[i])
-                }
+                if (size($3) > largest[output]) largest[output] = size($3)
+                if (size($3 - native[3]) > difference[output]) difference[output] = size($3 - native[3])
             }
             END {
                 if (status || !outputs) exit 1

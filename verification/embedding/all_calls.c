@@ -236,9 +236,8 @@ static void print_outputs(const struct sequence *s, const function *f, const arg
                                                     : 0;
         const double *values;
         memcpy(&values, (const char *)call + a->field, sizeof values);
-        fprintf(s->values, extent > 0 ? "%s %s" : "", f->name, a->name);
         for (size_t i = 0; i < extent; ++i) {
-            fprintf(s->values, i + 1 < extent ? " %.17g" : " %.17g\n", values[i]);
+            fprintf(s->values, "%s %s %.17g\n", f->name, a->name, values[i]);
         }
     }
 }

@@ -36,7 +36,7 @@ void make_call(struct sequence *sequence, size_t call);
 uint64_t hash_of_one(struct sequence *sequence, const mslip_contact *contact, const mslip_element *element);
 uint64_t hash_of_all(void);
 
-/* Prints all outputs but states and workspaces, a line for each: function, argument, values. */
+/* Prints all outputs but states and workspaces, a line for each value: function, argument, value. */
 void print_all(FILE *values);
 
 #ifdef __cplusplus
