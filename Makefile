@@ -30,7 +30,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix $(tree)/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header python docs dist recipes clean help
+	figures host stress fuzz check parallel header python docs dist recipes release clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default); TARGET=aarch64-unknown-linux-gnu for another processor
@@ -176,6 +176,10 @@ dist:
 ## recipes: recipes of conda-forge and Spack for the tarball, published at URL=; BUILD=1 builds and tests the conda package
 recipes:
 	tools/recipes.sh $(URL)
+
+## release: build all artefacts into target/publish, each tested as it is installed; URL= of the tarball; an hour or more
+release:
+	tools/release.sh $(URL)
 
 ## clean: remove everything that was built
 clean:

@@ -39,6 +39,10 @@ gcc-aarch64-linux-gnu      release                                    : command 
 g++-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-g++
 gfortran-aarch64-linux-gnu release                                    : command aarch64-linux-gnu-gfortran
 qemu-user                  release                                    : command qemu-aarch64
+gcc-mingw-w64-x86-64       release                                    : command x86_64-w64-mingw32-gcc
+gfortran-mingw-w64-x86-64  release                                    : command x86_64-w64-mingw32-gfortran
+wine                       release                                    : command wine
+wine64                     release                                    : file /usr/lib/wine/wine64
 '
 
 # found KIND NAME [ARGUMENT...]

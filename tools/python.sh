@@ -1,7 +1,7 @@
 #!/bin/sh
-# python.sh [all]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel to be
+# python.sh [all [every]]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel to be
 # published, tests it also by the oldest and the newest other Python that are found, and tests types, format, adapters, examples
-# and the programs of the documents.
+# and the programs of the documents; `every` tests it by every Python that is found.
 # PYTHON= is the interpreter. With TARGET=aarch64-unknown-linux-gnu the wheel is that to be published for this processor, tested
 # by QEMU and Debian's Python for it, without the rights of root. Build and test tools come from PyPI, into target/tools: among them Zig, whose linker makes wheels for
 # any Linux with glibc 2.17 or later (manylinux2014).
@@ -117,7 +117,8 @@ core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
 check 'the wheel needs glibc 2.17 at most' glibc
 
-# The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
+# others [every]: the oldest and the newest interpreter, or every one, of pyenv or on PATH, that can make environments
+# and is another than PYTHON.
 others() {
     for minor in 9 10 11 12 13 14; do
         for candidate in $(command -v python3.$minor) "${PYENV_ROOT:-$HOME/.pyenv}/versions/3.$minor".*/bin/python3; do
@@ -126,9 +127,9 @@ others() {
                 break
             fi
         done
-    done | sed -n '1p; $p' | uniq
+    done | if [ "${1:-}" = every ]; then cat; else sed -n '1p; $p' | uniq; fi
 }
-for other in $(others); do
+for other in $(others "${2:-}"); do
     check "clean environment, $("$other" --version)" environment "$work/other" "$other"
     core "$work/other"
     rm -rf "$work/other"
