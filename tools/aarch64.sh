@@ -1,5 +1,5 @@
 #!/bin/sh
-# aarch64.sh PREFIX: the library for Linux on aarch64, built by Debian's cross compilers and run by QEMU: symbols, clients of archive
+# aarch64.sh PREFIX: the library for Linux on aarch64, built by cross compilers and run by QEMU: symbols, clients of archive
 # and shared library, the tests in Rust, C, C++ and Fortran, and the wheel. Its results are compared with those of the library that
 # is installed at PREFIX for this machine. It takes twenty minutes.
 set -eu
@@ -68,8 +68,8 @@ same_bits() {
     "$CARGO" build --quiet --release --locked --package mathematics &&
         "$CARGO" build --quiet --release --locked --package mathematics --target $triple &&
         application "$CC" "$prefix" native $(printf -- '-Wl,--wrap=%s ' $wrapped) target/release/libmathematics.a -lpthread -ldl &&
-        application ${cross}gcc "$installed" emulated $(printf -- '-Wl,--wrap=%s ' $wrapped) target/$triple/release/libmathematics.a \
-            -lpthread -ldl &&
+        application ${cross}gcc "$installed" emulated $(printf -- '-Wl,--wrap=%s ' $wrapped) \
+            target/$triple/release/libmathematics.a -lpthread -ldl &&
         "$work/native" > "$work/native.hash" && $emulator "$work/emulated" > "$work/emulated.hash" &&
         cat "$work/native.hash" "$work/emulated.hash" && cmp "$work/native.hash" "$work/emulated.hash"
 }

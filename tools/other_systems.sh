@@ -53,7 +53,8 @@ windows() {
     check 'Windows: Wine' wine_has_libraries
     # The others need memory protection or other calls of Unix.
     for driver in layout interface golden masing harmonic element batch environment bad_arguments; do
-        check "Windows: $driver.c" windows_program ${mingw}gcc -std=c99 -O1 -Wall -Wextra -Wpedantic -Werror -Iinclude c_tests/$driver.c
+        check "Windows: $driver.c" windows_program ${mingw}gcc -std=c99 -O1 -Wall -Wextra -Wpedantic -Werror -Iinclude \
+            c_tests/$driver.c
     done
     check 'Windows: Fortran' windows_program ${mingw}gfortran -J "$work" -static include/microslip.f90 tests/fortran/checks.f90 \
         tests/fortran/test_microslip.f90

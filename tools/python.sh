@@ -1,10 +1,10 @@
 #!/bin/sh
-# python.sh [all [every]]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel to be
-# published, tests it also by the oldest and the newest other Python that are found, and tests types, format, adapters, examples
-# and the programs of the documents; `every` tests it by every Python that is found.
+# python.sh [all [every]]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel
+# to be published, tests it also by the oldest and the newest other Python that are found (`every`: by all of them), and tests
+# types, format, adapters, examples and the programs of the documents.
 # PYTHON= is the interpreter. With TARGET=aarch64-unknown-linux-gnu the wheel is that to be published for this processor, tested
-# by QEMU and Debian's Python for it, without the rights of root. Build and test tools come from PyPI, into target/tools: among them Zig, whose linker makes wheels for
-# any Linux with glibc 2.17 or later (manylinux2014).
+# by QEMU and Debian's Python for it, without the rights of root. Build and test tools come from PyPI, into target/tools: among them
+# Zig, whose linker makes wheels for any Linux with glibc 2.17 or later (manylinux2014).
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -75,8 +75,8 @@ emulated_environment() {
         for program in python pytest; do
             module=
             [ $program = python ] || module='-m pytest'
-            printf '#!/bin/sh\nexport PYTHONPATH=%s PYTHONHOME=%s\nexec qemu-%s -L %s %s %s "$@"\n' "$1/site" "$root/usr" "${target%%-*}" \
-                "$root" "$root/usr/bin/python3" "$module" > "$1/bin/$program" && chmod +x "$1/bin/$program" || return
+            printf '#!/bin/sh\nexport PYTHONPATH=%s PYTHONHOME=%s\nexec qemu-%s -L %s %s %s "$@"\n' "$1/site" "$root/usr" \
+                "${target%%-*}" "$root" "$root/usr/bin/python3" "$module" > "$1/bin/$program" && chmod +x "$1/bin/$program" || return
         done
 }
 # tests NAME DIRECTORY ARGUMENT...: counts the tests of pytest.

@@ -1,6 +1,6 @@
 #!/bin/sh
-# release.sh [URL]: build all artefacts of a release from the last commit, each tested as it is installed in a clean environment, into
-# target/publish with their SHA-256 sums. URL is the address that the source tarball will have. It takes an hour or more.
+# release.sh [URL]: build all artefacts of a release from the last commit into target/publish, each tested as it is installed in a
+# clean environment, with their SHA-256 sums. URL is the address that the source tarball will have. It takes an hour or more.
 set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
@@ -14,12 +14,14 @@ committed() {
 }
 # The reference is tested where it is unpacked.
 reference() {
-    tools/docs.sh && tar --create --directory target --transform "s,^docs,microslip-$version-reference," --sort=name docs |
-        gzip -9n > "$publish/microslip-$version-reference.tar.gz" && tar -xzf "$publish/microslip-$version-reference.tar.gz" -C "$work" &&
-        python3 docs/reference/site.py "$work/microslip-$version-reference"
+    site=microslip-$version-reference
+    tools/docs.sh &&
+        tar --create --directory target --transform "s,^docs,$site," --sort=name docs | gzip -9n > "$publish/$site.tar.gz" &&
+        tar -xzf "$publish/$site.tar.gz" -C "$work" && python3 docs/reference/site.py "$work/$site"
 }
 collect() {
-    cp "target/microslip-$version.tar.gz" "target/microslip-$version-windows-x86_64.zip" target/python/*.whl target/aarch64-unknown-linux-gnu/python/*.whl "$publish" &&
+    cp "target/microslip-$version.tar.gz" "target/microslip-$version-windows-x86_64.zip" target/python/*.whl \
+        target/aarch64-unknown-linux-gnu/python/*.whl "$publish" &&
         cp -R target/recipes "$publish" && (cd "$publish" && sha256sum ./*.* > SHA256SUMS && cat SHA256SUMS)
 }
 
