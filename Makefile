@@ -5,10 +5,21 @@ DESTDIR ?=
 CARGO ?= cargo
 INSTALL ?= install
 SHARED ?=
+TARGET ?=
 
 version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 sources := $(shell find src -type f) Cargo.toml Cargo.lock
-archive := target/release/libmicroslip.a
+# What is built for another processor with Linux is beside what is built for this one.
+tree := $(if $(TARGET),target/$(TARGET)/)dist
+archive := $(if $(TARGET),target/$(TARGET),target)/release/libmicroslip.a
+ifneq ($(TARGET),)
+cross := $(subst -unknown,,$(TARGET))-
+export AR := $(cross)ar
+export CC := $(cross)gcc
+export LD := $(cross)ld
+export NM := $(cross)nm
+export OBJCOPY := $(cross)objcopy
+endif
 shared := lib/libmicroslip.so.$(shell sed -n 's/^\#define MSLIP_ABI_VERSION //p' include/microslip.h)
 pcdir := lib/pkgconfig
 cmakedir := lib/cmake/microslip
@@ -16,53 +27,53 @@ docdir := share/doc/microslip
 files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/microslip.pc \
 	$(cmakedir)/microslip-config.cmake $(cmakedir)/microslip-config-version.cmake \
 	$(addprefix $(docdir)/,LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md)
-products := $(addprefix dist/,$(files))
+products := $(addprefix $(tree)/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header python docs dist recipes clean help
+	figures host stress fuzz check parallel header python docs dist recipes release clean help
 .DELETE_ON_ERROR:
 
-## all: build dist/, the tree that `install` copies (the default)
+## all: build dist/, the tree that `install` copies (the default); TARGET=aarch64-unknown-linux-gnu for another processor
 all: $(products)
 
 # The sources are named here so that `make install`, as another user, need not run cargo again.
 $(archive): $(sources)
-	$(CARGO) build --release --locked --package microslip --target-dir target
+	$(CARGO) build --release --locked --package microslip --target-dir target $(if $(TARGET),--target $(TARGET))
 	@touch $@
 
-dist/lib/libmicroslip.a: $(archive) tools/localise.sh
+$(tree)/lib/libmicroslip.a: $(archive) tools/localise.sh
 	tools/localise.sh $< $@
 
 ## shared: build the shared library besides
-shared: dist/$(shared)
+shared: $(tree)/$(shared)
 
-dist/$(shared): dist/lib/libmicroslip.a include/microslip.h tools/shared.sh
+$(tree)/$(shared): $(tree)/lib/libmicroslip.a include/microslip.h tools/shared.sh
 	tools/shared.sh $< include/microslip.h $@
 
-dist/include/%: include/%
+$(tree)/include/%: include/%
 	@mkdir -p $(@D)
 	cp $< $@
 
-dist/$(docdir)/%: %
+$(tree)/$(docdir)/%: %
 	@mkdir -p $(@D)
 	cp $< $@
 
-dist/$(pcdir)/%: packaging/%.in Cargo.toml
+$(tree)/$(pcdir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@
 
-dist/$(cmakedir)/%: packaging/%
+$(tree)/$(cmakedir)/%: packaging/%
 	@mkdir -p $(@D)
 	cp $< $@
 
-dist/$(cmakedir)/%: packaging/%.in Cargo.toml
+$(tree)/$(cmakedir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@
 
 ## install: copy dist/ to $(DESTDIR)$(PREFIX); SHARED=1 with the shared library
 install: all $(if $(SHARED),shared)
 	@for file in $(files) $(if $(SHARED),$(shared)); do \
-		$(INSTALL) -D -m 644 "dist/$$file" "$(DESTDIR)$(PREFIX)/$$file" || exit 1; \
+		$(INSTALL) -D -m 644 "$(tree)/$$file" "$(DESTDIR)$(PREFIX)/$$file" || exit 1; \
 	done
 	@$(if $(SHARED),ln -sf $(notdir $(shared)) "$(DESTDIR)$(PREFIX)/lib/libmicroslip.so")
 	@echo "microslip $(version) is in $(DESTDIR)$(PREFIX)"
@@ -166,6 +177,10 @@ dist:
 ## recipes: recipes of conda-forge and Spack for the tarball, published at URL=; BUILD=1 builds and tests the conda package
 recipes:
 	tools/recipes.sh $(URL)
+
+## release: build all artefacts into target/publish, each tested as it is installed; URL= of the tarball; an hour or more
+release:
+	tools/release.sh $(URL)
 
 ## clean: remove everything that was built
 clean:

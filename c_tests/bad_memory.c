@@ -489,10 +489,10 @@ int main(int argc, char **argv)
 #ifdef __GLIBC__
     fedisableexcept(FE_ALL_EXCEPT);
 #endif
-#ifdef __unix__
-    alarm(600); /* a call that hangs is a failure */
-#endif
     for (int i = 0; i < FUNCTIONS; ++i) {
+#ifdef __unix__
+        alarm(600); /* a call that hangs is a failure */
+#endif
         /* A batch makes the steps and forces of a single call, for five items; a slider takes a search. */
         test_arbitrary_bytes(&functions[i], functions[i].takes & (IS_IWAN | IS_BATCH) ? 200 : 2000);
     }

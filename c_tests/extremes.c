@@ -249,7 +249,11 @@ static void make_calls(int which)
     }
     set_up(f);
     for (size_t i = 0; i < items; ++i) {
-        memcpy(law_at(f, i), is_element ? (const void *)element : (const void *)&contact, law_size(f));
+        if (is_element) {
+            memcpy(law_at(f, i), element, sizeof *element);
+        } else {
+            memcpy(law_at(f, i), &contact, sizeof contact);
+        }
         if (f->takes & TAKES_STATE) {
             double *state = STATES + i * STATE;
             CHECK((is_element ? mslip_element_state_init(directions, STATE, state) : mslip_state_init(STATE, state)) == MSLIP_OK);

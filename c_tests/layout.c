@@ -1,66 +1,34 @@
-/* Sizes and offsets of the structures, on which the Fortran module and stored contacts depend. */
+/* The recorded interface: constants, sizes and offsets of the structures, on which the Fortran module and stored contacts depend,
+   functions and lengths. */
 #include "check.h"
 
 #include <microslip.h>
 #include <stddef.h>
 
-/* An array of negative length does not compile, in C99 and in C++. */
-#define AT_COMPILE_TIME(name, condition) typedef char name[(condition) ? 1 : -1]
-#define OFFSET(type, field, bytes) AT_COMPILE_TIME(type##_##field, offsetof(type, field) == (bytes))
-#define SIZE(type, bytes) AT_COMPILE_TIME(type##_size, sizeof(type) == (bytes))
+/* An array of negative length does not compile, nor does a function that was declared otherwise. */
+#define AT_COMPILE_TIME(name, condition) typedef char name[(condition) ? 1 : -1];
+#define CONSTANT(name, value) AT_COMPILE_TIME(name##_value, name == (value))
+#define STRUCTURE(type, bytes) AT_COMPILE_TIME(type##_size, sizeof(type) == (bytes))
+#define FIELD(type, field, bytes, kind, count) \
+    AT_COMPILE_TIME(type##_##field, offsetof(type, field) == (bytes) && sizeof(((type *)0)->field) == (count) * sizeof(kind))
+#define FUNCTION(result, name, arguments) result name arguments;
+#define LENGTH(call, doubles)
+#include "abi.h"
+#undef CONSTANT
+#undef STRUCTURE
+#undef FIELD
+#undef FUNCTION
+#undef LENGTH
 
-OFFSET(mslip_material, young_modulus, 0);
-OFFSET(mslip_material, poisson_ratio, 8);
-SIZE(mslip_material, 16);
-
-OFFSET(mslip_layer, normal_compliance, 0);
-OFFSET(mslip_layer, tangential_compliance, 8);
-OFFSET(mslip_layer, stiffening_load, 16);
-SIZE(mslip_layer, 24);
-
-OFFSET(mslip_parameters, flat_half_width, 0);
-OFFSET(mslip_parameters, edge_radius, 8);
-OFFSET(mslip_parameters, length, 16);
-OFFSET(mslip_parameters, normal_force, 24);
-OFFSET(mslip_parameters, friction_coefficient, 32);
-OFFSET(mslip_parameters, material, 40);
-OFFSET(mslip_parameters, layer, 72);
-OFFSET(mslip_parameters, displacement_reference, 96);
-OFFSET(mslip_parameters, springs, 100);
-SIZE(mslip_parameters, 104);
-
-OFFSET(mslip_elliptic_parameters, semi_axis_x, 0);
-OFFSET(mslip_elliptic_parameters, semi_axis_y, 8);
-OFFSET(mslip_elliptic_parameters, normal_force, 16);
-OFFSET(mslip_elliptic_parameters, friction_coefficient, 24);
-OFFSET(mslip_elliptic_parameters, material, 32);
-OFFSET(mslip_elliptic_parameters, layer, 64);
-OFFSET(mslip_elliptic_parameters, springs, 88);
-OFFSET(mslip_elliptic_parameters, reserved, 92);
-SIZE(mslip_elliptic_parameters, 96);
-
-OFFSET(mslip_contact, composite_modulus, 0);
-OFFSET(mslip_contact, half_width, 8);
-OFFSET(mslip_contact, slip_force, 16);
-OFFSET(mslip_contact, slip_displacement, 24);
-OFFSET(mslip_contact, initial_stiffness, 32);
-OFFSET(mslip_contact, slip_energy, 40);
-OFFSET(mslip_contact, reserved, 48);
-SIZE(mslip_contact, 2264);
-
-OFFSET(mslip_element, composite_modulus, 0);
-OFFSET(mslip_element, friction_coefficient, 8);
-OFFSET(mslip_element, normal_force, 16);
-OFFSET(mslip_element, half_width, 24);
-OFFSET(mslip_element, approach, 32);
-OFFSET(mslip_element, normal_stiffness, 40);
-OFFSET(mslip_element, tangential_stiffness, 48);
-OFFSET(mslip_element, directions, 56);
-OFFSET(mslip_element, normal_input, 60);
-OFFSET(mslip_element, reserved, 64);
-AT_COMPILE_TIME(mslip_element_directions_size, sizeof(((mslip_element *)0)->directions) == 4);
-AT_COMPILE_TIME(mslip_element_normal_input_size, sizeof(((mslip_element *)0)->normal_input) == 4);
-SIZE(mslip_element, 52560);
+static void check_lengths(void)
+{
+#define CONSTANT(name, value)
+#define STRUCTURE(type, bytes)
+#define FIELD(type, field, bytes, kind, count)
+#define FUNCTION(result, name, arguments)
+#define LENGTH(call, doubles) CHECK((call) == (doubles));
+#include "abi.h"
+}
 
 /* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)
@@ -80,6 +48,7 @@ int main(int argc, char **argv)
     int body;
 
     check_arguments(argc, argv);
+    check_lengths();
     memset(&memory, 0x5a, sizeof memory);
     memset(guard, 0x5a, sizeof guard);
 

@@ -16,6 +16,9 @@ fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
     let build = out.ancestors().find(|path| path.ends_with("build")).expect("OUT_DIR is below build/");
     let target = build.ancestors().nth(2).expect("build/ is in the directory of a profile");
+    // With the option --target the profile is in the directory of the platform.
+    let platform = env::var("TARGET").expect("set by cargo");
+    let target = target.parent().filter(|_| target.ends_with(platform)).unwrap_or(target);
     let header = target.join("header.h");
     let text = declarations(&fs::read_to_string(HEADER).expect("include/microslip.h is beside python/")) + OWN;
     // Written only if it differs: a newer file causes another build.

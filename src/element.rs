@@ -9,7 +9,7 @@ use crate::limits::{check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, is_finite, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
-use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape};
+use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 use springs::{Pressed, PressedSlopes, Springs};
@@ -251,7 +251,7 @@ impl Element {
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
-        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient } else { 0.0 };
+        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
         self.approach = approach;

@@ -1,7 +1,8 @@
 #!/bin/sh
 # dependencies.sh GROUP...: install the packages that a group of commands needs (as root on Debian or a derivative), or list those missing.
 #
-# A line of the table: package, groups, and how to recognise it (command NAME, library NAME for the linker, header NAME, clang OPTION).
+# A line of the table: package, groups, and how to recognise it (command NAME, file NAME, library NAME for the linker, header NAME,
+# clang OPTION).
 set -eu
 
 table='
@@ -25,6 +26,7 @@ cmake           check                                                 : command 
 meson           check                                                 : command meson
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
+libjs-bootstrap5 check docs                                           : file /usr/share/javascript/bootstrap5
 python3-venv    test check docs python                                : command python3 -c "import ensurepip"
 octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile
@@ -33,12 +35,21 @@ libopenmpi-dev  check parallel                                        : command 
 dpkg-dev        host                                                  : command dpkg-source
 libspooles-dev  host                                                  : library spooles
 libarpack2-dev  host                                                  : library arpack
+gcc-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-gcc
+g++-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-g++
+gfortran-aarch64-linux-gnu release                                    : command aarch64-linux-gnu-gfortran
+qemu-user                  release                                    : command qemu-aarch64
+gcc-mingw-w64-x86-64       release                                    : command x86_64-w64-mingw32-gcc
+gfortran-mingw-w64-x86-64  release                                    : command x86_64-w64-mingw32-gfortran
+wine                       release                                    : command wine
+wine64                     release                                    : file /usr/lib/wine/wine64
 '
 
 # found KIND NAME [ARGUMENT...]
 found() {
     case $1 in
         command) command -v "$2" && { [ $# -eq 2 ] || { shift; "$@"; }; } ;;
+        file) [ -e "$2" ] ;;
         header) echo "#include <$2>" | gcc -E - ;;
         # A compiler prints the bare name of a library that it does not find.
         library) [ "$(gcc -print-file-name="lib$2.so")" != "lib$2.so" ] || [ "$(gcc -print-file-name="lib$2.a")" != "lib$2.a" ] ;;

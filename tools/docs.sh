@@ -1,6 +1,7 @@
 #!/bin/sh
-# docs.sh: the references of the C interface, the Fortran module and the Rust functions, into target/docs. What has no
-# comment, and what is not understood, is an error. FORD comes from PyPI, into target/tools.
+# docs.sh: the references of the C interface, the Fortran module and the Rust functions, into target/docs, a site that opens from
+# its index.html without a network. What has no comment, and what is not understood, is an error. FORD comes from PyPI, into
+# target/tools.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -29,6 +30,8 @@ check 'C: every function has its reference' doxygen docs/reference/Doxyfile
 check 'Fortran: every procedure has its reference' fortran
 check 'Rust: every item has its reference' rust
 rm -rf $out/rust-build
+cp docs/cluster.md $out # to which the C reference refers
+echo '<meta http-equiv="refresh" content="0; url=microslip/index.html">' > $out/rust/index.html # to which its pages refer
 
 cat > $out/index.html << END
 <!DOCTYPE html>
@@ -45,4 +48,5 @@ cat > $out/index.html << END
 </html>
 END
 
+check 'all links lead to files, of the site or of others' python3 docs/reference/site.py $out
 counts

@@ -1,16 +1,18 @@
 #!/bin/sh
-# python.sh [all]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel to be
-# published, tests it also by the oldest and the newest other Python that are found, and tests types, format, adapters, examples
-# and the programs of the documents.
-# PYTHON= is the interpreter. Build and test tools come from PyPI, into target/tools: among them Zig, whose linker makes wheels for
-# any Linux with glibc 2.17 or later (manylinux2014).
+# python.sh [all [every]]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel
+# to be published, tests it also by the oldest and the newest other Python that are found (`every`: by all of them), and tests
+# types, format, adapters, examples and the programs of the documents.
+# PYTHON= is the interpreter. With TARGET=aarch64-unknown-linux-gnu the wheel is that to be published for this processor, tested
+# by QEMU and Debian's Python for it, without the rights of root. Build and test tools come from PyPI, into target/tools: among them
+# Zig, whose linker makes wheels for any Linux with glibc 2.17 or later (manylinux2014).
 set -eu
 
 cd "$(dirname "$0")/.."
 : "${PYTHON:=python3}" "${CARGO:=cargo}"
 export CARGO
 tools=$PWD/target/tools/python
-wheels=$PWD/target/python
+target=${TARGET:-}
+wheels=$PWD/target${target:+/$target}/python
 package=$PWD/python
 PIP_DISABLE_PIP_VERSION_CHECK=1
 PIP_QUIET=1
@@ -24,7 +26,7 @@ isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 # The daily tests share the compilation of the other ones; the wheel to be published is the one of `all`.
 build='--profile dev'
-[ "${1:-}" != all ] || build='--release --zig --compatibility manylinux2014'
+[ "${1:-}$target" = '' ] || build="--release --zig --compatibility manylinux2014 ${target:+--target $target}"
 tools() {
     "$tools/bin/python" -c 'import ziglang' 2> /dev/null ||
         { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
@@ -38,7 +40,7 @@ wheel() {
 }
 # The newest symbol version of glibc that the library needs.
 glibc() {
-    newest=$(objdump -T "$work/wheel/microslip/_native/"*.so | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -n 1)
+    newest=$(readelf --wide --dyn-syms "$work/wheel/microslip/_native/"*.so | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -n 1)
     [ "$(printf '%s\n' "$newest" GLIBC_2.17 | sort -V | tail -n 1)" = GLIBC_2.17 ]
 }
 licences() {
@@ -54,6 +56,28 @@ without_cargo() {
 environment() {
     directory=$1
     "$2" -m venv "$directory" && shift 2 && "$directory/bin/pip" install "$wheels"/*.whl pytest "$@"
+}
+# emulated_environment DIRECTORY: the same for TARGET. Debian's packages are unpacked, not installed.
+emulated_environment() {
+    root=$PWD/target/tools/python-$target
+    apt=$work/apt
+    [ -x "$root/usr/bin/python3" ] || {
+        mkdir -p "$root" "$apt/state/lists/partial" "$apt/cache/archives/partial" &&
+            printf '%s;\n' 'APT::Architecture "arm64"' 'APT::Architectures { "arm64"; }' "Dir::State \"$apt/state\"" \
+                "Dir::Cache \"$apt/cache\"" 'Dir::State::status "/dev/null"' 'Debug::NoLocking "true"' > "$apt/apt.conf" &&
+            APT_CONFIG="$apt/apt.conf" apt-get -q update && APT_CONFIG="$apt/apt.conf" apt-get -q install -y --download-only \
+                --no-install-recommends python3-minimal libpython3-stdlib libstdc++6 &&
+            for archive in "$apt"/cache/archives/*.deb; do dpkg -x "$archive" "$root" || return; done
+    } || return
+    version_of_python=$(readlink "$root/usr/bin/python3") && version_of_python=${version_of_python#python}
+    "$tools/bin/pip" install --target "$1/site" --only-binary :all: --python-version "$version_of_python" --implementation cp \
+        --platform manylinux_2_28_aarch64 --platform manylinux2014_aarch64 "$wheels"/*.whl cffi numpy pytest && mkdir -p "$1/bin" &&
+        for program in python pytest; do
+            module=
+            [ $program = python ] || module='-m pytest'
+            printf '#!/bin/sh\nexport PYTHONPATH=%s PYTHONHOME=%s\nexec qemu-%s -L %s %s %s "$@"\n' "$1/site" "$root/usr" \
+                "${target%%-*}" "$root" "$root/usr/bin/python3" "$module" > "$1/bin/$program" && chmod +x "$1/bin/$program" || return
+        done
 }
 # tests NAME DIRECTORY ARGUMENT...: counts the tests of pytest.
 tests() {
@@ -80,13 +104,21 @@ check 'build tools' tools
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }
 check 'licences in the wheel' licences
+if [ -n "$target" ]; then
+    check 'the wheel needs glibc 2.17 at most' glibc
+    check "environment of $target" emulated_environment "$work/python"
+    core "$work/python"
+    counts
+    exit
+fi
 check "clean environment" environment "$work/python" "$PYTHON"
 check 'pip install ./python without cargo' without_cargo
 core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
 check 'the wheel needs glibc 2.17 at most' glibc
 
-# The oldest and the newest interpreter, of pyenv or on PATH, that can make environments and is another than PYTHON.
+# others [every]: the oldest and the newest interpreter, or every one, of pyenv or on PATH, that can make environments
+# and is another than PYTHON.
 others() {
     for minor in 9 10 11 12 13 14; do
         for candidate in $(command -v python3.$minor) "${PYENV_ROOT:-$HOME/.pyenv}/versions/3.$minor".*/bin/python3; do
@@ -95,9 +127,9 @@ others() {
                 break
             fi
         done
-    done | sed -n '1p; $p' | uniq
+    done | if [ "${1:-}" = every ]; then cat; else sed -n '1p; $p' | uniq; fi
 }
-for other in $(others); do
+for other in $(others "${2:-}"); do
     check "clean environment, $("$other" --version)" environment "$work/other" "$other"
     core "$work/other"
     rm -rf "$work/other"

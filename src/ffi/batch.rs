@@ -238,8 +238,9 @@ const AHEAD: usize = 16;
 const CHECKED_AHEAD: usize = 32;
 
 /// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states
-/// are read in part only.
+/// are read in part only. Other processors than x86-64 have no stable intrinsic for it.
 #[inline(always)]
+#[cfg_attr(not(target_arch = "x86_64"), expect(unused_variables))]
 fn prefetch<const LINES: usize>(state: *const f64) {
     #[cfg(target_arch = "x86_64")]
     for line in 0..LINES {

@@ -270,7 +270,7 @@ fn slip(
     let pressure = &recorded.record.edge.pressure;
     let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
     let SlipRecord { slip, start, overshoot, end, .. } = slipped;
-    let slipping = || (0..SPRINGS).filter(|i| slip.slips[*i]);
+    let slipping = || (0..SPRINGS).filter(|i| slip.slips[*i]).map(|i| i.min(SPRINGS - 1));
     for k in 0..2 {
         // z* - dB'σ.
         for i in slipping() {

@@ -63,6 +63,11 @@ impl Header {
         Ok(Header { lines })
     }
 
+    /// The functions without their comments.
+    pub fn declarations(&self) -> impl Iterator<Item = &str> {
+        self.lines.iter().filter(|line| !line.starts_with("//")).filter_map(|line| line.strip_suffix(';'))
+    }
+
     pub fn prototypes(&self) -> Result<Vec<Prototype<'_>>, String> {
         let (mut prototypes, mut comment) = (Vec::new(), vec![String::new()]);
         for line in &self.lines {

@@ -2,6 +2,7 @@
 
 mod fortran;
 mod interface;
+mod record;
 mod tables;
 mod wrappers;
 
@@ -17,6 +18,8 @@ const TEST_OF_FORTRAN: &str = "tests/fortran/bad_input.f90";
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const CALLS_OF_C: &str = "c_tests/functions.h";
 const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
+const RECORD: &str = "c_tests/abi.h";
+const CHANGELOG: &str = "CHANGELOG.md";
 const INCLUDE_GUARD: &str = "MICROSLIP_H";
 
 /// The directory of the library's package.
@@ -45,7 +48,7 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 7], String> {
+fn generated() -> Result<[(&'static str, String); 8], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
@@ -57,7 +60,9 @@ fn generated() -> Result<[(&'static str, String); 7], String> {
     let rust = (CALLS_OF_RUST, tables::rust(&functions));
     let c = (CALLS_OF_C, tables::c(&functions));
     let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
-    Ok([(HEADER, header), (MODULE, module), (PYTHON, python), rust, c, outputs, test])
+    let record = record::record(&header)?;
+    record::is_compatible(&read(RECORD).unwrap_or_default(), &record, &read(CHANGELOG)?)?;
+    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, test])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.

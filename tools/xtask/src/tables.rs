@@ -140,7 +140,7 @@ fn screaming(kind: &str) -> String {
 }
 
 /// A macro, continued if it is too long.
-fn wrapped(line: &str) -> String {
+pub fn wrapped(line: &str) -> String {
     let (mut text, mut length) = (String::new(), 0);
     for part in line.split_inclusive(", ") {
         if length + part.len() > 125 {

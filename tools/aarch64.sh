@@ -1,0 +1,128 @@
+#!/bin/sh
+# aarch64.sh PREFIX: the library for Linux on aarch64, built by cross compilers and run by QEMU: symbols, clients of archive
+# and shared library, the tests in Rust, C, C++ and Fortran, and the wheel. Its results are compared with those of the library that
+# is installed at PREFIX for this machine. It takes twenty minutes.
+set -eu
+
+prefix=$(cd "$1" && pwd)
+cd "$(dirname "$0")/.."
+: "${CARGO:=cargo}" "${CC:=gcc}"
+unset MAKEFLAGS MFLAGS MAKELEVEL # not those of a make that runs this script
+. tools/checks.sh
+abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
+triple=aarch64-unknown-linux-gnu
+cross=aarch64-linux-gnu-
+emulator="qemu-aarch64 -L /usr/aarch64-linux-gnu"
+installed=$work/installed
+CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=${cross}gcc
+CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER=$emulator
+export CARGO CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER
+
+# Of the toolchain that this directory uses.
+standard_library() {
+    [ -d "$(rustc --print sysroot)/lib/rustlib/$triple" ] || rustup target add $triple
+}
+symbols() {
+    CC=${cross}gcc NM=${cross}nm OBJDUMP=${cross}objdump tools/symbols.sh "$installed"
+}
+# One product and sum is fused on purpose, by its name: a rounding error is computed.
+fused() {
+    [ "$(${cross}objdump -d --no-show-raw-insn "$installed/lib/libmicroslip.a" | grep -cE '\<fn?m(add|sub|la|ls)\>')" -eq 1 ]
+}
+# clients [SHARED-LIBRARY]: in C and in Fortran, with the flags of pkg-config.
+# shellcheck disable=SC2046  # flags are a list
+clients() {
+    export PKG_CONFIG_PATH="$installed/lib/pkgconfig" && for language in c f90; do
+        source=packaging/clients/client.$language
+        case $language in
+            c) ${cross}gcc $source -o "$work/client" $(pkg-config --cflags --libs --static microslip) ;;
+            f90)
+                ${cross}gfortran -J "$work" "$installed/include/microslip.f90" $source -o "$work/client" \
+                    $(pkg-config --libs --static microslip)
+                ;;
+        esac && [ "$(readelf -d "$work/client" | sed -n 's/.*(NEEDED).*\[\(libmicroslip.*\)\]/\1/p')" = "${1:-}" ] &&
+            $emulator -E LD_LIBRARY_PATH="$installed/lib" "$work/client" || return
+    done
+}
+drivers() {
+    MICROSLIP_PREFIX="$installed" MICROSLIP_TARGET=$triple MICROSLIP_RUNNER="$emulator" FC=${cross}gfortran \
+        "$CARGO" test --locked --test c_drivers
+}
+# The bounded memory is a matter of time, not of the processor.
+rust() {
+    "$CARGO" test --locked --package microslip --target $triple --lib --test harmonic_balance --test imports --test properties \
+        --test shapes --test two_directions --test varying_load
+}
+
+# application COMPILER PREFIX PROGRAM FLAG...: the program that makes all calls.
+application() {
+    compiler=$1 library=$2 program=$3
+    shift 3
+    "$compiler" -O1 -ffp-contract=off -I"$library/include" -Iverification/embedding verification/embedding/all_calls.c \
+        verification/embedding/application.c "$library/lib/libmicroslip.a" "$@" -lm -o "$work/$program"
+}
+# With the same mathematical functions for both the results are the same.
+same_bits() {
+    wrapped=$(grep -o '__wrap_[a-z0-9]*' verification/mathematics/src/lib.rs | sed 's/__wrap_//')
+    # shellcheck disable=SC2086,SC2046  # lists
+    "$CARGO" build --quiet --release --locked --package mathematics &&
+        "$CARGO" build --quiet --release --locked --package mathematics --target $triple &&
+        application "$CC" "$prefix" native $(printf -- '-Wl,--wrap=%s ' $wrapped) target/release/libmathematics.a -lpthread -ldl &&
+        application ${cross}gcc "$installed" emulated $(printf -- '-Wl,--wrap=%s ' $wrapped) \
+            target/$triple/release/libmathematics.a -lpthread -ldl &&
+        "$work/native" > "$work/native.hash" && $emulator "$work/emulated" > "$work/emulated.hash" &&
+        cat "$work/native.hash" "$work/emulated.hash" && cmp "$work/native.hash" "$work/emulated.hash"
+}
+# The largest differences with each platform's own functions, over the largest value of the output, as the next power of ten. Each
+# result is within 1e-13 of the exact one, as the reference tables show.
+differences() {
+    application "$CC" "$prefix" native && application ${cross}gcc "$installed" emulated &&
+        "$work/native" values > "$work/native.txt" && $emulator "$work/emulated" values > "$work/emulated.txt" &&
+        paste -d '\n' "$work/native.txt" "$work/emulated.txt" | awk '
+            function size(x) { return x < 0 ? -x : x }
+            BEGIN { all = split("1e-15 1e-14 1e-13 2e-13", bounds, " "); bounds[0] = 0 }
+            NR % 2 { split($0, native); next }
+            {
+                output = $1 " " $2
+                if (!(output in largest)) order[++outputs] = output
+                largest[output] += 0
+                if (native[1] " " native[2] != output) exit status = 1
+                if (size($3) > largest[output]) largest[output] = size($3)
+                if (size($3 - native[3]) > difference[output]) difference[output] = size($3 - native[3])
+            }
+            END {
+                if (status || !outputs) exit 1
+                for (i = 1; i <= outputs; ++i) {
+                    if (difference[order[i]] > 2e-13 * largest[order[i]]) exit 1
+                    for (bound = 0; difference[order[i]] > bounds[bound] * largest[order[i]]; ++bound);
+                    ++count[bound]
+                    split(order[i], name, " ")
+                    names[bound] = names[bound] (count[bound] > 1 ? ", " : "") "`" name[2] "` of `mslip_" name[1] "`"
+                }
+                print "| largest difference | outputs |\n|---:|---|"
+                for (bound = 0; bound <= all; ++bound) {
+                    if (!count[bound]) continue
+                    printf "| %g | %s |\n", bounds[bound], count[bound] < 5 ? names[bound] : count[bound] " outputs"
+                }
+            }' > target/aarch64.md && cat target/aarch64.md
+}
+documented() {
+    sed '/<!-- aarch64: begin -->/,/<!-- aarch64: end -->/!d; /<!--/d' docs/guide.md | diff - target/aarch64.md
+}
+
+check 'Rust for aarch64' standard_library
+check 'library: build, install' make install TARGET=$triple SHARED=1 PREFIX="$installed"
+[ "$failed" -eq 0 ] || { counts; exit; }
+check 'archive: symbols and sections' symbols
+check 'archive: no fused multiplication and addition but one' fused
+check 'shared library: clients' clients "libmicroslip.so.$abi"
+rm "$installed"/lib/libmicroslip.so*
+check 'archive: clients' clients
+check 'with the same mathematical functions: the bits of this machine' same_bits
+check 'with each its own: differences within the accuracy' differences
+check 'the guide has these differences' documented
+check 'drivers in C, C++ and Fortran, with the reference tables' drivers
+check 'tests in Rust' rust
+# Zig links it.
+check 'wheel' env -u CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER TARGET=$triple tools/python.sh
+counts
