@@ -95,8 +95,8 @@ const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
 
-/// 2^200: loads of an element with a layer are at most this many times the normal force of the parameters.
-const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 200) << 52);
+/// 2^40: loads of an element with a layer are at most this many times the normal force of the parameters.
+const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
