@@ -140,6 +140,25 @@ static void shorten(int32_t directions)
     line.normal_force = load * line.length;
 }
 
+/* About as compliant as the contact, or of any magnitude. */
+static double compliance(double stiffness)
+{
+    return one_in(8) ? 0.0 : (one_in(8) ? log_uniform(1e-200, 1e200) : log_uniform(1e-4, 1e4)) / stiffness;
+}
+
+/* A layer for every fourth contact that has a stiffness. */
+static void draw_layer(void)
+{
+    mslip_layer layer;
+    const double normal_force = is_elliptic ? ellipse.normal_force : line.normal_force;
+    const int32_t alone = is_elliptic ? mslip_contact_init_elliptic(&ellipse, &contact) : mslip_contact_init(&line, &contact);
+    if (alone != MSLIP_OK || contact.initial_stiffness <= 0.0) return;
+    layer.normal_compliance = compliance(contact.initial_stiffness);
+    layer.tangential_compliance = compliance(contact.initial_stiffness);
+    layer.stiffening_load = one_in(3) ? 0.0 : normal_force * (one_in(8) ? log_uniform(1e-3, 1e100) : log_uniform(1e-3, 10.0));
+    line.layer = ellipse.layer = layer;
+}
+
 static void draw_parameters(void)
 {
     /* Around usual values. */
@@ -163,6 +182,7 @@ static void draw_parameters(void)
     if (!is_elliptic && line.normal_force > 0.0 && one_in(2)) {
         shorten((int32_t)(bits() % 3));
     }
+    if (one_in(4)) draw_layer();
 }
 
 /* The largest approach or force that is allowed, at least `from`. */

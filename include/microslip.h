@@ -217,7 +217,8 @@ typedef struct mslip_material {
 } mslip_material;
 
 // A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
-// the contact.
+// the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40 times the
+// normal force of the parameters.
 typedef struct mslip_layer {
     // Normal compliance c_n >= 0 under the normal force of the parameters [m/N]; 0: none. A contact under a constant normal force
     // does not use it.

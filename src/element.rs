@@ -95,6 +95,9 @@ const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
 
+/// 2^40: loads of an element with a layer are at most this many times the normal force of the parameters.
+const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
+
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
@@ -230,8 +233,16 @@ impl Element {
             return Err(Error::NotAvailable);
         }
         let shape = plane.shape;
-        let largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
+        let mut largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
         let w = shape.at_load(normal_force);
+        if !layer.is_none() {
+            layer.check_share(normal_force, [shape.normal_compliance(w), shape.tangential_compliance(w)])?;
+            // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
+            let most = normal_force * MOST_LOAD_WITH_LAYER;
+            if shape.load(largest) > most {
+                largest = shape.at_load(most);
+            }
+        }
         if w >= largest {
             return Err(Error::LengthTooShort);
         }

@@ -20,7 +20,8 @@ pub struct Material {
 }
 
 /// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
-/// the contact.
+/// the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40 times the
+/// normal force of the parameters.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {

@@ -32,8 +32,8 @@ contains
     integer(mslip_int) :: status
 
     call mslip_element_init(mslip_parameters(constants(1), constants(2), constants(3), constants(4), constants(5), &
-      [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))], MSLIP_RIGID_STRIP, 0), directions, &
-      normal_input, element, status)
+      [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))], &
+      displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
     call check_status('element', status, MSLIP_OK)
   end function element_of
 

@@ -104,7 +104,7 @@ contains
 
     associate (p => properties)
       call mslip_element_init(mslip_parameters(p(1), p(2), p(3), p(4), p(5), [mslip_material(p(6), p(7)), &
-        mslip_material(p(8), p(9))], MSLIP_RIGID_STRIP, 0), directions, normal_input, element, status)
+        mslip_material(p(8), p(9))], displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
     end associate
   end subroutine new_element
 

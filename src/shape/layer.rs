@@ -32,6 +32,9 @@ pub(crate) struct Layer {
     stiffening: f64,
 }
 
+/// 2^40: a layer that is this many times as compliant as the contact hides it.
+const MOST_COMPLIANT: f64 = (1u64 << 40) as f64;
+
 impl Layer {
     pub(crate) const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
 
@@ -57,6 +60,13 @@ impl Layer {
 
     pub fn is_none(&self) -> bool {
         self.normal == 0.0 && self.tangential == 0.0
+    }
+
+    /// # Errors
+    /// `OutOfRange` if the layer hides the contact: given the normal and tangential compliance of both under a load.
+    pub fn check_share(&self, load: f64, [normal, tangential]: [f64; 2]) -> Result<(), Error> {
+        let hides = |layer: f64, both: f64| layer * self.softness(load) > (1.0 - 1.0 / MOST_COMPLIANT) * both;
+        if hides(self.normal, normal) || hides(self.tangential, tangential) { Err(Error::OutOfRange) } else { Ok(()) }
     }
 
     /// S less the U of layer and contact `per_approach` times, over N, from that of the contact alone, if it does not depend on N and is no
@@ -241,7 +251,12 @@ impl Layer {
         }
         let softest = self.softness(normal_force);
         let stiffening = self.stiffening * normal_force * softest;
-        Ok(LayerCurve { compliance: self.tangential * softest * stiffness_scale, stiffening, softest })
+        let compliance = self.tangential * softest * stiffness_scale;
+        if compliance > MOST_COMPLIANT {
+            Err(Error::OutOfRange)
+        } else {
+            Ok(LayerCurve { compliance, stiffening, softest })
+        }
     }
 }
 
