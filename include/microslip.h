@@ -270,7 +270,7 @@ typedef struct mslip_element {
     // MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[5533];
+    double reserved[2159];
 } mslip_element;
 
 #ifdef __cplusplus

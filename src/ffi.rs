@@ -108,7 +108,7 @@ pub struct mslip_element {
     /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 5533],
+    pub reserved: [f64; 2159],
 }
 
 const _: () = {

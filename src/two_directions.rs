@@ -20,13 +20,14 @@
 pub mod harmonic_force;
 
 mod advance;
-mod columns;
 mod edge;
+mod energy;
 mod fine;
 mod from_diagram;
 mod load_path;
 mod slip;
 mod spring_state;
+mod springs;
 mod state;
 mod step;
 mod stick;
@@ -37,6 +38,23 @@ use crate::error::Error;
 use crate::law::{self, ElementLaw, Requested, advance_along};
 use crate::limits::check_displacement;
 use crate::tag::Kind;
+
+#[cfg(test)]
+pub(crate) mod fallbacks {
+    //! Steps whose slip was not found by Newton's method.
+
+    use core::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+    pub fn count() {
+        COUNT.fetch_add(1, Relaxed);
+    }
+
+    pub fn counted() -> usize {
+        COUNT.load(Relaxed)
+    }
+}
 
 pub use crate::law::PathOutput;
 pub use state::{force_error, state_check, state_init, state_length};
@@ -135,7 +153,7 @@ impl ElementLaw for TwoDirections {
         motion: &[f64],
         output: harmonic_force::HarmonicOutput,
     ) -> Result<(), Error> {
-        harmonic_force::harmonic_force(element, workspace, motion, output)
+        harmonic_force::harmonic_force(element, workspace, motion, output).map(|_| ())
     }
 }
 
