@@ -39,23 +39,6 @@ use crate::law::{self, ElementLaw, Requested, advance_along};
 use crate::limits::check_displacement;
 use crate::tag::Kind;
 
-#[cfg(test)]
-pub(crate) mod fallbacks {
-    //! Steps whose slip was not found by Newton's method.
-
-    use core::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-
-    static COUNT: AtomicUsize = AtomicUsize::new(0);
-
-    pub fn count() {
-        COUNT.fetch_add(1, Relaxed);
-    }
-
-    pub fn counted() -> usize {
-        COUNT.load(Relaxed)
-    }
-}
-
 pub use crate::law::PathOutput;
 pub use state::{force_error, state_check, state_init, state_length};
 

@@ -47,8 +47,14 @@ impl<const N: usize> Edge<N> {
 
     #[inline(always)]
     pub fn new(springs: &Springs<N>, now: &Pressed) -> Edge<N> {
-        let last = springs.last_shell(now.shift[0]).min(N - 1);
-        let part = springs.last_part(last, now.shift[0]).min(PARTS - 1);
+        let last = springs.last_shell(now.shift[0]);
+        Edge::of_shell(springs, now, last, springs.last_part(last, now.shift[0]))
+    }
+
+    /// With the edge in a part of a shell.
+    #[inline(always)]
+    pub fn of_shell(springs: &Springs<N>, now: &Pressed, last: usize, part: usize) -> Edge<N> {
+        let (last, part) = (last.min(N - 1), part.min(PARTS - 1));
         let first = last <= springs.under_flat;
         let mut edge = Edge { last, part, ..Edge::NONE };
         [edge.reach, _] = springs.reach(last, now);

@@ -3,8 +3,7 @@
 
 use super::edge::Edge;
 use super::energy;
-use super::springs::{Both, Fine, PARTS, Row, Springs};
-use super::step::Increment;
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs};
 
 /// Limits of a part of the shells; 1 outside.
 #[inline(always)]

@@ -17,7 +17,7 @@ use super::spring_state::SpringState;
 use super::springs::{PressedSlopes, Springs, fill, tables_length};
 use super::state::Header;
 use super::step::StepRecord;
-use super::tangent::{self, Derivatives, IncrementColumns, Taken, inner_after, rows};
+use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Taken, inner_after, rows};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
@@ -118,7 +118,7 @@ impl WorkspaceLayout for Layout {
         HEADER
             + self.tables_length()
             + SAMPLE * self.0.samples
-            + tables_length(MOST)
+            + 3 * tables_length(MOST)
             + (rows(MOST) + 2) * BLOCK * self.blocks()
             + self.sums_length()
             + self.line_length()
@@ -149,7 +149,7 @@ pub struct Workspace<'a> {
     basis: &'a [f64],
     one_direction: one_direction::Workspace<'a>,
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs.
+    /// Tables of the springs, and of those that are aligned with slightly larger and smaller sizes.
     springs: &'a mut [f64],
     /// Derivatives of the state, and those of both forces, block after block of columns.
     derivatives: &'a mut [[f64; BLOCK]],
@@ -175,7 +175,7 @@ impl<'a> Workspace<'a> {
             basis,
             one_direction,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
-            springs: parts.take(tables_length(MOST))?,
+            springs: parts.take(3 * tables_length(MOST))?,
             derivatives: parts.take(rows(MOST) * BLOCK * blocks)?.as_chunks_mut().0,
             forces: parts.take(2 * BLOCK * blocks)?.as_chunks_mut().0,
             sums: parts.take(layout.sums_length())?,
@@ -314,8 +314,20 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
     let (mut energy, mut drift) = (0.0, 0.0f64);
     if slides {
         let memory = core::mem::take(&mut workspace.springs);
-        fill::<N>(memory, element, &from.units, 1.0);
-        if let Some(springs) = Springs::<N>::new(from.under_flat, memory) {
+        let (tables, neighbours) = memory.split_at_mut(memory.len() / 3);
+        let (larger, smaller) = neighbours.split_at_mut(neighbours.len() / 2);
+        fill::<N>(tables, element, &from.units, 1.0);
+        if requested.tangent {
+            fill::<N>(larger, element, &from.units, 1.0 + NEIGHBOUR);
+            fill::<N>(smaller, element, &from.units, 1.0 - NEIGHBOUR);
+        }
+        let at = |tables| Springs::<N>::new(from.under_flat, tables);
+        if let (Some(springs), Some(larger), Some(smaller)) = (at(tables), at(larger), at(smaller)) {
+            let neighbours = [larger, smaller];
+            // Of the logarithm of the reference size by the coefficients of the normal component.
+            let top_normal = element.normal(top);
+            let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
+            let by_top = if top_load >= from.units.load * 0.99 { 0.5 * by_load } else { 0.0 };
             let mut record = StepRecord::NONE;
             let mut state = SpringState::RELAXED;
             let mut slopes = PressedSlopes::default();
@@ -347,9 +359,11 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                         let first = step == 0;
                         let start_slopes = if first { slopes } else { start };
                         let (new, record, motion) = (&state, &record, &path.motion);
-                        let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes };
+                        let neighbours = Some(&neighbours);
+                        let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes, neighbours };
                         inner = inner_after(&taken, inner);
-                        differentiate(workspace, &path, &taken, [if first { None } else { Some(before) }, Some(index)], inner);
+                        let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];
+                        differentiate(workspace, &path, &taken, samples, by_top, inner);
                     } else {
                         workspace.forces.fill([0.0; BLOCK]);
                     }
@@ -450,18 +464,19 @@ fn differentiate<const N: usize>(
     workspace: &mut Workspace,
     path: &LoadPath,
     taken: &Taken<N>,
-    samples: [Option<usize>; 2],
+    samples: [Option<usize>; 3],
+    by_top: f64,
     inner: usize,
 ) {
     let n = workspace.coefficients();
-    let [start, end] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
+    let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
     let (per_distance, per_input) = (path.per_distance(), [path.per_input(0), path.per_input(1)]);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let memories = workspace.derivatives.chunks_exact_mut(rows(MOST));
     for (block, (memory, (x, y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
         let zero = [0.0; BLOCK];
-        let mut columns = IncrementColumns { by: [zero; 2], end: zero, start: zero };
+        let mut columns = IncrementColumns { by: [zero; 2], end: zero, start: zero, alignment: zero };
         let (mut component, mut coefficient) = (block * BLOCK / n, block * BLOCK % n);
         for c in 0..BLOCK {
             let (from, to) = (at(start, coefficient), at(end, coefficient));
@@ -472,6 +487,7 @@ fn differentiate<const N: usize>(
                         columns.by[k][c] = per_input[k][0] * from + per_input[k][1] * to;
                     }
                     (columns.start[c], columns.end[c]) = (from, to);
+                    columns.alignment[c] = by_top * at(top, coefficient);
                 }
                 _ => {}
             }

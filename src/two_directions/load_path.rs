@@ -2,9 +2,9 @@
 
 use crate::element::{Element, Normal};
 use crate::two_directions::spring_state::{LONGEST, SpringState};
-use crate::two_directions::springs::{Both, Pressed, PressedSlopes, Springs};
+use crate::two_directions::springs::{Both, Increment, Pressed, PressedSlopes, Springs};
 use crate::two_directions::state::Header;
-use crate::two_directions::step::{self, Increment, SLIPPED, StepRecord};
+use crate::two_directions::step::{self, SLIPPED, StepRecord};
 use crate::two_directions::tangent::{self, Derivatives, IncrementColumns, Taken, inner_after};
 use crate::two_directions::{Requested, Step, stick};
 
@@ -185,12 +185,13 @@ fn tangent<const N: usize>(
         by: [[per_distance, 0.0, path.per_input(0)[1], 0.0], [0.0, per_distance, path.per_input(1)[1], 0.0]],
         end: [0.0, 0.0, 1.0, 0.0],
         start: [0.0; 4],
+        alignment: [0.0; 4],
     };
     let mut memory = [[0.0; 4]; tangent::rows(16)];
     let Some(mut derivatives) = Derivatives::<N, 4>::new(&mut memory) else { return };
     let slopes = path.to.units.slopes(element, &path.normal, path.to.size);
     let start_slopes = PressedSlopes::default();
-    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes };
+    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes, neighbours: None };
     let inner = inner_after(&taken, N);
     let [x, y] = tangent::tangent(&taken, &columns, &mut derivatives, inner);
     for column in 0..3 {

@@ -69,6 +69,37 @@ pub(crate) struct PressedSlopes {
     pub size: f64,
 }
 
+/// A step, straight in S and in the displacement.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Increment {
+    pub before: Pressed,
+    pub now: Pressed,
+    pub by: Both<f64>,
+    /// 1/ΔS; 0 unless the load rises.
+    pub per_rise: Both<f64>,
+    /// Whether the load is that of the state.
+    pub constant_load: bool,
+}
+
+impl Increment {
+    pub fn new(before: Pressed, now: Pressed, by: Both<f64>, constant_load: bool) -> Increment {
+        let per_rise = [0, 1].map(|k| {
+            let rise = now.shift[k] - before.shift[k];
+            if rise > 0.0 { 1.0 / rise.max(TINY) } else { 0.0 }
+        });
+        Increment { before, now, by, per_rise, constant_load }
+    }
+
+    /// The parts of the motion that springs with these distances S_b - S_j follow: all, unless the load rises to their size within the
+    /// step.
+    #[inline(always)]
+    pub fn share(&self, limit_x: f64, limit_y: f64) -> Both<f64> {
+        let [per_x, per_y] = self.per_rise;
+        let (x, y) = (limit_x * per_x, limit_y * per_y);
+        [if per_x > 0.0 && x < 1.0 { x } else { 1.0 }, if per_y > 0.0 && y < 1.0 { y } else { 1.0 }]
+    }
+}
+
 /// The units of the springs: N, S across the line and w of the reference size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Units {

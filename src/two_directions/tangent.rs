@@ -12,9 +12,11 @@
 //! eliminated with the pivots of the step. What is kept of a spring is its derivative less that of the displacement of the contact, which
 //! does not change as long as the spring sticks.
 
-use super::springs::{Both, PARTS, PressedSlopes, Row, Springs, add, at, dot};
+use super::edge::Edge;
+use super::fine;
+use super::springs::{Both, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
 use super::spring_state::SpringState;
-use super::step::{Increment, StepRecord};
+use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -50,12 +52,14 @@ impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
     }
 }
 
-/// Derivatives of the motion: its displacements, and the normal component at its end and at its start.
+/// Derivatives of the motion: its displacements, the normal component at its end and at its start, and the logarithm of the size that the
+/// springs are aligned with.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct IncrementColumns<const C: usize> {
     pub by: Both<Columns<C>>,
     pub end: Columns<C>,
     pub start: Columns<C>,
+    pub alignment: Columns<C>,
 }
 
 /// A step that was taken.
@@ -68,7 +72,13 @@ pub(crate) struct Taken<'a, const N: usize> {
     /// Derivatives of the normal state at the end and at the start.
     pub slopes: PressedSlopes,
     pub start_slopes: PressedSlopes,
+    /// The springs of slightly larger and smaller sizes, if the alignment has derivatives.
+    pub neighbours: Option<&'a [Springs<'a, N>; 2]>,
 }
+
+/// Relative distance of the sizes of the neighbours: the square of it and a rounding error over it are as small as derivatives of the
+/// alignment need to be, which are some percent of the others.
+pub(crate) const NEIGHBOUR: f64 = 2e-5;
 
 /// y += a x.
 #[inline(always)]
@@ -94,54 +104,128 @@ fn sum_of<const C: usize>(a: &Columns<C>, b: &Columns<C>) -> Columns<C> {
     y
 }
 
-/// Derivatives with respect to the normal component, at fixed angles and springs.
-struct LoadSlopes<const N: usize> {
-    /// dF_i of the last shell, which is dp_i.
+/// A parameter that a step depends on besides the displacement, and the state at its start: the derivatives of the step with respect to
+/// it, at fixed angles of slip and springs at the start.
+struct Parameter<'a, const N: usize, const C: usize> {
+    column: &'a Columns<C>,
+    /// S of both directions by the load; the neighbours for the alignment.
+    shift: Both<f64>,
+    neighbours: Option<&'a [Springs<'a, N>; 2]>,
+    /// Of the pressure; of σ through U and w, and through the pressures.
     pressure: Row<N>,
-    /// dU_jl, from the first slipping point on.
-    column: Both<Row<N>>,
-    /// Of the stiffness of the last spring.
-    stiffness: Both<f64>,
-    /// Of σ_l through U and w, and of σ through the pressures.
-    last: Both<f64>,
     sigma: Both<Row<N>>,
+    sigma_by_pressure: Both<Row<N>>,
+    /// Of the springs, dU q; of the tractions at fixed springs, and of the force.
+    springs: Both<Row<N>>,
+    tractions: Both<Row<N>>,
+    force: Both<f64>,
 }
 
-impl<const N: usize> LoadSlopes<N> {
+impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
     #[inline(always)]
-    fn new(taken: &Taken<N>) -> LoadSlopes<N> {
+    fn new(column: &'a Columns<C>, shift: Both<f64>, neighbours: Option<&'a [Springs<'a, N>; 2]>) -> Self {
+        let rows = [[0.0; N]; 2];
+        Parameter {
+            column,
+            shift,
+            neighbours,
+            pressure: [0.0; N],
+            sigma: rows,
+            sigma_by_pressure: rows,
+            springs: rows,
+            tractions: rows,
+            force: [0.0; 2],
+        }
+    }
+
+    /// The normal component at the end.
+    #[inline(always)]
+    fn load(taken: &Taken<N>, column: &'a Columns<C>) -> Self {
         let Taken { springs, new, motion, record, slopes, .. } = *taken;
         let (edge, slip) = (&new.edge, &record.slip);
         let last = edge.last.min(N - 1);
-        let mut load = LoadSlopes {
-            pressure: [0.0; N],
-            column: [[0.0; N]; 2],
-            stiffness: [0.0; 2],
-            last: [0.0; 2],
-            sigma: [[0.0; N]; 2],
-        };
+        let mut load = Parameter::new(column, slopes.shift, None);
         let [_, by_size] = springs.reach(last, &motion.now);
         for i in 0..N {
             load.pressure[i] = by_size[i] * slopes.size;
         }
         for k in 0..2 {
-            load.stiffness[k] = (slopes.load - edge.secant[k] * slopes.shift[k]) / edge.step[k];
+            let shift = slopes.shift[k];
+            let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
+            let fine_stiffness = (slopes.load - edge.fine_secant[k] * shift) / edge.fine_step[k];
+            load.force[k] = (new.v[k][last] - new.fine[k][0][last]) * stiffness
+                + new.fine[k][edge.part.min(PARTS - 1)][last] * fine_stiffness;
+            let at_edge = new.v[k][last] / edge.step[k];
+            for i in 0..N {
+                load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
+            }
             if record.slipping() == 0 {
                 continue;
             }
-            for i in slip.first..last {
-                if slip.contains(i) {
-                    add(&mut load.sigma[k], -load.pressure[i] * slip.e[k][i], &slip.square[k][i]);
+            let mut corner = edge.step[k] * stiffness * (record.trial[k][last] - new.v[k][last]);
+            for j in slip.first..=last {
+                let column = shift - dot(&springs.displacement[k][j], &load.pressure);
+                corner += column * record.stiffness[k][j] * (record.trial[k][j] - new.v[k][j]);
+                load.springs[k][j] = column * slip.q[k][last];
+            }
+            load.sigma[k][last] = corner;
+        }
+        load.through_pressure(taken);
+        load
+    }
+
+    /// The logarithm of the size of the alignment, by differences.
+    #[inline(always)]
+    fn alignment(taken: &Taken<N>, column: &'a Columns<C>, neighbours: &'a [Springs<'a, N>; 2]) -> Self {
+        let Taken { new, motion, record, .. } = *taken;
+        let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
+        let mut of = Parameter::new(column, [0.0; 2], Some(neighbours));
+        for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
+            let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
+            add(&mut of.pressure, weight, &edge.pressure);
+            for k in 0..2 {
+                let stiffness = edge.stiffnesses(springs, k);
+                add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
+                of.force[k] += weight * dot(&stiffness, &new.v[k]);
+                for r in 0..PARTS {
+                    of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
+                }
+                if record.slipping() == 0 {
+                    continue;
+                }
+                for j in slip.first.min(N - 1)..=last {
+                    let row = edge.displacement(springs, k, j);
+                    of.springs[k][j] += weight * dot(&row, &slip.q[k]);
+                    add(&mut of.sigma[k], weight * stiffness[j] * (record.trial[k][j] - new.v[k][j]), &row);
                 }
             }
-            for j in slip.first..=last {
-                let change = slopes.shift[k] - dot(&springs.displacement[k][j], &load.pressure);
-                load.column[k][j] = change;
-                load.last[k] += change * edge.stiffness_of(springs, k, j) * (record.trial[k][j] - new.v[k][j]);
-            }
-            load.last[k] += edge.step[k] * load.stiffness[k] * (record.trial[k][last] - new.v[k][last]);
         }
-        load
+        of.through_pressure(taken);
+        of
+    }
+
+    #[inline(always)]
+    fn through_pressure(&mut self, taken: &Taken<N>) {
+        let slip = &taken.record.slip;
+        if taken.record.slipping() == 0 {
+            return;
+        }
+        for k in 0..2 {
+            for i in slip.first..N {
+                if slip.contains(i) {
+                    add(&mut self.sigma_by_pressure[k], -self.pressure[i] * slip.e[k][i], &slip.square[k][i]);
+                }
+            }
+        }
+    }
+
+    /// Of the distance from the node of a fine spring to the edge: part 0 is that of the law.
+    #[inline(always)]
+    fn limit(&self, k: usize, r: usize, j: usize) -> f64 {
+        match self.neighbours {
+            Some([up, down]) => (down.fine_shift[k][r][j] - up.fine_shift[k][r][j]) * (0.5 / NEIGHBOUR),
+            None => self.shift[k],
+        }
     }
 }
 
@@ -187,10 +271,14 @@ fn kernel<const N: usize, const C: usize>(
     derivatives: &mut Derivatives<N, C>,
     inner: usize,
 ) -> Both<Columns<C>> {
-    let Taken { new, motion, record, slopes, start_slopes, .. } = *taken;
+    let Taken { new, motion, record, slopes, .. } = *taken;
     let (edge, slip) = (&new.edge, &record.slip);
     let last = edge.last.min(N - 1);
-    let load = LoadSlopes::new(taken);
+    let load = Parameter::load(taken, &columns.end);
+    let parameters = match taken.neighbours {
+        Some(neighbours) => &[load, Parameter::alignment(taken, &columns.alignment, neighbours)][..],
+        None => &[load][..],
+    };
     // The trial state. Springs that are engaged in the step did not follow the displacement before.
     let rises = motion.per_rise[0] > 0.0;
     for k in 0..2 {
@@ -203,7 +291,7 @@ fn kernel<const N: usize, const C: usize>(
             if j > record.last_before {
                 *row = scaled(-1.0, &before);
             }
-            follow(row, k, record.part[k][j], motion, columns, [&slopes, &start_slopes]);
+            follow(row, [k, 0, j], record.part[k][j], taken, columns, parameters);
         }
     }
     for k in 0..2 {
@@ -212,24 +300,28 @@ fn kernel<const N: usize, const C: usize>(
     let mut first = last + 1;
     if record.slipping() != 0 {
         first = slip.first.min(N - 1);
-        slide(taken, &load, columns, derivatives);
+        slide(taken, parameters, derivatives);
     } else if record.slips {
         for j in 0..=last {
-            let limit = at(&record.limit, j);
-            returned(at(&new.v, j), limit, 1.0 + record.overshoot[j], slopes.shift, &columns.end, j, derivatives);
+            let (limit, over) = (at(&record.limit, j), 1.0 + record.overshoot[j]);
+            let displacement = *derivatives.displacement;
+            let [x, y] = &mut derivatives.springs;
+            returned(at(&new.v, j), limit, over, [0, j], parameters, &displacement, [&mut x[j], &mut y[j]]);
         }
     }
-    stuck_tractions(taken, &load, first, columns, derivatives);
+    stuck_tractions(taken, parameters, first, derivatives);
     let mut force = [[0.0; C]; 2];
     for k in 0..2 {
-        let mut sum = scaled(new.v[k][last] * load.stiffness[k], &columns.end);
-        put(&mut sum, edge.secant[k], &derivatives.displacement[k]);
+        let mut sum = scaled(edge.fine_secant[k], &derivatives.displacement[k]);
+        for of in parameters {
+            put(&mut sum, of.force[k], of.column);
+        }
         for j in inner..=last {
             put(&mut sum, record.stiffness[k][j], &derivatives.springs[k][j]);
         }
         force[k] = sum;
     }
-    fine(taken, columns, derivatives, &load, inner, &mut force);
+    fine_correction(taken, columns, parameters, derivatives, inner, &mut force);
     // Coulomb's bound.
     let size = (record.sum[0] * record.sum[0] + record.sum[1] * record.sum[1]).sqrt().max(TINY);
     if size > motion.now.load {
@@ -246,19 +338,22 @@ fn kernel<const N: usize, const C: usize>(
 
 /// The trial state of a spring that follows a part of the motion.
 #[inline(always)]
-fn follow<const C: usize>(
+fn follow<const N: usize, const C: usize>(
     row: &mut Columns<C>,
-    k: usize,
+    [k, r, j]: [usize; 3],
     part: f64,
-    motion: &Increment,
+    taken: &Taken<N>,
     columns: &IncrementColumns<C>,
-    [slopes, start_slopes]: [&PressedSlopes; 2],
+    parameters: &[Parameter<N, C>],
 ) {
     if part < 1.0 {
-        let rate = motion.by[k] * motion.per_rise[k];
+        let rate = taken.motion.by[k] * taken.motion.per_rise[k];
         put(row, part - 1.0, &columns.by[k]);
-        put(row, rate * (1.0 - part) * slopes.shift[k], &columns.end);
-        put(row, rate * part * start_slopes.shift[k], &columns.start);
+        for of in parameters {
+            put(row, rate * of.limit(k, r, j), of.column);
+        }
+        put(row, -rate * part * taken.slopes.shift[k], &columns.end);
+        put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
     }
 }
 
@@ -267,11 +362,10 @@ fn follow<const C: usize>(
 #[expect(clippy::too_many_lines, reason = "the equations in their order")]
 fn slide<const N: usize, const C: usize>(
     taken: &Taken<N>,
-    load: &LoadSlopes<N>,
-    columns: &IncrementColumns<C>,
+    parameters: &[Parameter<N, C>],
     derivatives: &mut Derivatives<N, C>,
 ) {
-    let Taken { springs, new, record, slopes, .. } = *taken;
+    let Taken { springs, new, record, .. } = *taken;
     let StepRecord { slip, trial, limit, overshoot, start, .. } = record;
     let edge = &new.edge;
     let (first, last) = (slip.first.min(N - 1), edge.last.min(N - 1));
@@ -280,15 +374,20 @@ fn slide<const N: usize, const C: usize>(
     let mut sigma = [[[0.0; C]; N]; 2];
     for k in 0..2 {
         let mut relaxed = [[0.0; C]; N];
-        let (at_edge, displacement) = (slip.q[k][last], derivatives.displacement[k]);
+        let displacement = derivatives.displacement[k];
         for j in first..=last {
             let w = record.stiffness[k][j];
             let mut row = scaled(w, &sum_of(&derivatives.springs[k][j], &displacement));
-            put(&mut row, -w * load.column[k][j] * at_edge, &columns.end);
+            for of in parameters {
+                put(&mut row, -w * of.springs[k][j], of.column);
+            }
             relaxed[j] = row;
         }
         for i in first..=last {
-            let mut sum = scaled(if i == last { load.last[k] } else { 0.0 }, &columns.end);
+            let mut sum = [0.0; C];
+            for of in parameters {
+                put(&mut sum, of.sigma[k][i], of.column);
+            }
             for j in first..=i {
                 let factor = entry(k, j, i);
                 for c in 0..C {
@@ -308,7 +407,9 @@ fn slide<const N: usize, const C: usize>(
         }
         for i in first..=last {
             if slip.contains(i) {
-                put(&mut sigma[k][i], load.sigma[k][i], &columns.end);
+                for of in parameters {
+                    put(&mut sigma[k][i], of.sigma_by_pressure[k][i], of.column);
+                }
             }
         }
     }
@@ -336,7 +437,9 @@ fn slide<const N: usize, const C: usize>(
                     let factor = by_over * ratio / limit[k][i];
                     put(&mut row, factor, &derivatives.springs[k][i]);
                     put(&mut row, factor, &derivatives.displacement[k]);
-                    put(&mut row, -factor * ratio * slopes.shift[k], &columns.end);
+                    for of in parameters {
+                        put(&mut row, -factor * ratio * of.limit(k, 0, i), of.column);
+                    }
                 }
             }
         }
@@ -360,7 +463,9 @@ fn slide<const N: usize, const C: usize>(
         derivatives.tractions[1][i] = scaled(x, &angle);
         for (k, along) in [x, y].into_iter().enumerate() {
             let mut row = scaled(p, &derivatives.tractions[k][i]);
-            put(&mut row, along * load.pressure[i], &columns.end);
+            for of in parameters {
+                put(&mut row, along * of.pressure[i], of.column);
+            }
             q[k][i] = row;
         }
     }
@@ -377,15 +482,19 @@ fn slide<const N: usize, const C: usize>(
             q[k][t] = scaled(slip.pivots[k][t], &row);
             let per_pressure = 1.0 / edge.pressure[t];
             let mut row = scaled(per_pressure, &q[k][t]);
-            put(&mut row, -per_pressure * load.pressure[t] * new.tractions[k][t], &columns.end);
+            for of in parameters {
+                put(&mut row, -per_pressure * of.pressure[t] * new.tractions[k][t], of.column);
+            }
             derivatives.tractions[k][t] = row;
         }
     }
     for k in 0..2 {
         let displacement = derivatives.displacement[k];
         for j in first..=last {
-            let mut row = scaled(load.column[k][j] * slip.q[k][last], &columns.end);
-            put(&mut row, -1.0, &displacement);
+            let mut row = scaled(-1.0, &displacement);
+            for of in parameters {
+                put(&mut row, of.springs[k][j], of.column);
+            }
             for i in j..=last {
                 let factor = entry(k, j, i);
                 for c in 0..C {
@@ -401,12 +510,11 @@ fn slide<const N: usize, const C: usize>(
 #[inline(always)]
 fn stuck_tractions<const N: usize, const C: usize>(
     taken: &Taken<N>,
-    load: &LoadSlopes<N>,
+    parameters: &[Parameter<N, C>],
     first: usize,
-    columns: &IncrementColumns<C>,
     derivatives: &mut Derivatives<N, C>,
 ) {
-    let Taken { springs, new, slopes, .. } = *taken;
+    let Taken { springs, new, .. } = *taken;
     let edge = &new.edge;
     let last = edge.last.min(N - 1);
     for i in 0..N.min(first).min(last + 1) {
@@ -415,12 +523,13 @@ fn stuck_tractions<const N: usize, const C: usize>(
             continue;
         }
         for k in 0..2 {
-            let (step, outer) = (edge.step[k], new.v[k][last]);
             let per_pressure = 1.0 / edge.pressure[i];
-            let reach = edge.reach[i] / step;
-            let by_load =
-                load.pressure[i] * (outer / step - new.tractions[k][i]) - reach * outer / step * slopes.shift[k];
-            let mut row = scaled(by_load * per_pressure, &columns.end);
+            let reach = edge.reach[i] / edge.step[k];
+            let mut row = [0.0; C];
+            for of in parameters {
+                let change = of.tractions[k][i] - new.tractions[k][i] * of.pressure[i];
+                put(&mut row, change * per_pressure, of.column);
+            }
             put(&mut row, reach * per_pressure, &derivatives.springs[k][last]);
             put(&mut row, reach * per_pressure, &derivatives.displacement[k]);
             let mut before = 0.0;
@@ -434,42 +543,31 @@ fn stuck_tractions<const N: usize, const C: usize>(
     }
 }
 
-/// Derivatives of a spring that returned to its limit, `v = v*/over`, from those of its trial state.
+/// Derivatives of a spring that returned to its limit, `v = v*/over`, from those of its trial state, less those of the displacement.
 #[inline(always)]
 fn returned<const N: usize, const C: usize>(
     end: Both<f64>,
     limit: Both<f64>,
     over: f64,
-    shift: Both<f64>,
-    end_column: &Columns<C>,
-    j: usize,
-    derivatives: &mut Derivatives<N, C>,
+    [r, j]: [usize; 2],
+    parameters: &[Parameter<N, C>],
+    [d_x, d_y]: &Both<Columns<C>>,
+    [x, y]: [&mut Columns<C>; 2],
 ) {
     if over <= 1.0 {
         return;
     }
-    let [d_x, d_y] = *derivatives.displacement;
-    let [rows_x, rows_y] = &mut derivatives.springs;
-    return_row(end, limit, over, shift, end_column, [&d_x, &d_y], [&mut rows_x[j], &mut rows_y[j]]);
-}
-
-#[inline(always)]
-fn return_row<const C: usize>(
-    end: Both<f64>,
-    limit: Both<f64>,
-    over: f64,
-    shift: Both<f64>,
-    end_column: &Columns<C>,
-    [d_x, d_y]: [&Columns<C>; 2],
-    [x, y]: [&mut Columns<C>; 2],
-) {
     let per_over = 1.0 / over;
     let weights = [0, 1].map(|k| end[k] / limit[k] / limit[k] * per_over);
-    let by_load = -over * (weights[0] * end[0] / limit[0] * shift[0] + weights[1] * end[1] / limit[1] * shift[1]);
+    // d(over)/over.
+    let mut change = [0.0; C];
+    for of in parameters {
+        let by = |k: usize| weights[k] * end[k] / limit[k] * of.limit(k, r, j);
+        put(&mut change, -over * (by(0) + by(1)), of.column);
+    }
     for c in 0..C {
         let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
-        // d(over)/over, and v = v*/over.
-        let change = weights[0] * v_x + weights[1] * v_y + by_load * end_column[c];
+        let change = weights[0] * v_x + weights[1] * v_y + change[c];
         x[c] = per_over * v_x - end[0] * change - d_x[c];
         y[c] = per_over * v_y - end[1] * change - d_y[c];
     }
@@ -477,18 +575,18 @@ fn return_row<const C: usize>(
 
 /// The fine correction.
 #[inline(always)]
-fn fine<const N: usize, const C: usize>(
+fn fine_correction<const N: usize, const C: usize>(
     taken: &Taken<N>,
     columns: &IncrementColumns<C>,
+    parameters: &[Parameter<N, C>],
     derivatives: &mut Derivatives<N, C>,
-    load: &LoadSlopes<N>,
     inner: usize,
     force: &mut Both<Columns<C>>,
 ) {
-    let Taken { springs, new, motion, record, slopes, start_slopes } = *taken;
+    let Taken { springs, new, motion, record, .. } = *taken;
     let edge = &new.edge;
     let last = edge.last.min(N - 1);
-    let [d_x, d_y] = *derivatives.displacement;
+    let displacement = *derivatives.displacement;
     let rises = motion.per_rise[0] > 0.0;
     let [fine_x, fine_y] = &mut derivatives.fine;
     for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
@@ -501,29 +599,23 @@ fn fine<const N: usize, const C: usize>(
             if rises && j >= record.last_before {
                 let share = motion.share(limit[0], limit[1]);
                 let engaged = j > record.last_before || r > record.part_before;
-                for (k, (row, d)) in [(&mut *x, &d_x), (&mut *y, &d_y)].into_iter().enumerate() {
+                for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
                     if engaged {
                         // Less the displacement at the start.
                         *row = columns.by[k];
-                        put(row, -1.0, d);
+                        put(row, -1.0, &displacement[k]);
                     }
-                    follow(row, k, share[k], motion, columns, [&slopes, &start_slopes]);
+                    follow(row, [k, r, j], share[k], taken, columns, parameters);
                 }
             }
             let square = record.fine_square[r][j];
             if square > 1.0 {
                 let end = [new.fine[0][r][j], new.fine[1][r][j]];
-                return_row(end, limit, square.sqrt(), slopes.shift, &columns.end, [&d_x, &d_y], [&mut *x, &mut *y]);
+                returned(end, limit, square.sqrt(), [r, j], parameters, &displacement, [&mut *x, &mut *y]);
             }
             let w = |k: usize| if j == last { edge.fine_stiffness[k][r] } else { springs.fine_stiffness[k][r][j] };
             put(&mut force[0], w(0), x);
             put(&mut force[1], w(1), y);
         }
-    }
-    for k in 0..2 {
-        put(&mut force[k], edge.fine_secant[k] - edge.secant[k], if k == 0 { &d_x } else { &d_y });
-        let slope = (slopes.load - edge.fine_secant[k] * slopes.shift[k]) / edge.fine_step[k];
-        let by_load = new.fine[k][edge.part][last] * slope - new.fine[k][0][last] * load.stiffness[k];
-        put(&mut force[k], by_load, &columns.end);
     }
 }
