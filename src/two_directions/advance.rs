@@ -31,8 +31,12 @@ pub(super) fn advance(element: &Element, state: &mut [f64], displacement: [f64; 
     }
 }
 
+/// The least load that the springs of a state are aligned with, over the normal force of the parameters: loads that rise to that in few
+/// steps find nodes.
+const LEAST_LOAD: f64 = 0.25;
+
 /// A load over that of the alignment from which on the springs are aligned anew.
-const OUTGROWN: f64 = 1.1;
+const OUTGROWN: f64 = 1.02;
 
 fn is_aligned(element: &Element, header: &Header) -> bool {
     header.belongs_to(element) && header.load <= OUTGROWN * header.units.load
@@ -72,7 +76,7 @@ fn advance_of<const N: usize>(
             return advance_on_line(element, state, displacement, requested, 0.0);
         }
         let load = if there.load > 0.0 { there.load } else { element.normal(displacement[2]).load };
-        let from = aligned::<N>(element, &header_of(&there, v), load);
+        let from = aligned_state::<N>(element, &header_of(&there, v), load);
         if on_line {
             // Of the third component, the diagram has no stiffness: that of the springs.
             let mut memory = [0.0; tables_length(16)];
@@ -145,6 +149,11 @@ fn advance_in_place<const N: usize>(
     step
 }
 
+/// The same for a state.
+fn aligned_state<const N: usize>(element: &Element, header: &Header, load: f64) -> Header {
+    aligned::<N>(element, header, load.max(LEAST_LOAD * element.normal_force))
+}
+
 /// A header with the units of springs that are aligned with a load.
 pub(super) fn aligned<const N: usize>(element: &Element, header: &Header, load: f64) -> Header {
     let units = Units::of(element, load);
@@ -156,7 +165,7 @@ pub(super) fn aligned<const N: usize>(element: &Element, header: &Header, load: 
 /// Aligns the springs of a state with its load. Those of another element are relaxed.
 #[inline(never)]
 fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header) -> (Header, SpringState<N>) {
-    let to = aligned::<N>(element, header, header.load);
+    let to = aligned_state::<N>(element, header, header.load);
     let mut memory = [0.0; tables_length(16)];
     let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
     fill::<N>(memory, element, &to.units, 1.0);

@@ -106,11 +106,6 @@ impl<const N: usize> Edge<N> {
         row
     }
 
-    #[inline(always)]
-    pub fn stiffness_of(&self, springs: &Springs<N>, k: usize, j: usize) -> f64 {
-        if j == self.last { self.stiffness[k] } else { springs.stiffness[k][j] }
-    }
-
     /// Row j of U; 0 outside.
     #[inline(always)]
     pub fn displacement(&self, springs: &Springs<N>, k: usize, j: usize) -> Row<N> {

@@ -28,7 +28,7 @@ const UNDER_FLAT: usize = 2;
 pub(crate) const PARTS: usize = 5;
 /// Parts of the last shell but the first, in units of the reference size: between that and the next alignment the fine correction makes up
 /// for the one shell of the law.
-const BEYOND: [f64; PARTS - 1] = [1.0, 1.12, 1.4, 2.0];
+const BEYOND: [f64; PARTS - 1] = [1.0, 1.04, 1.12, 1.4];
 /// Load and shift that no contact reaches.
 const NEVER: f64 = 1e30;
 /// Share of the sine in the distribution of nodes: they are densest at the edge.
