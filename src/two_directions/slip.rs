@@ -316,9 +316,9 @@ impl<const N: usize> Slip<N> {
             let (s_x, s_y) = (self.square[0][m], self.square[1][m]);
             let mut row = [0.0; N];
             for i in 0..N {
-                row[i] = n_x[i] * (q_x * s_y[i]) + n_y[i] * (q_y * s_x[i]);
+                let own = if i == m { diagonal[i] } else { 0.0 };
+                row[i] = n_x[i] * (q_x * s_y[i]) + n_y[i] * (q_y * s_x[i]) + own;
             }
-            row[m] += diagonal[m];
             self.inverse[m] = row;
         }
     }
@@ -370,23 +370,23 @@ impl<const N: usize> Slip<N> {
     }
 }
 
-/// The inverse of the block from `first` to `last`, in place, by Gauss and Jordan.
+/// The inverse of the block from `first` to `last`, in place, by Gauss and Jordan. Single elements are chosen by their place in the lanes:
+/// a vector that is loaded right after one of its elements was stored would wait for it.
 #[inline(always)]
 fn invert<const N: usize>(matrix: &mut Matrix<N>, first: usize, last: usize) {
     for p in first..=last {
         let pivot = matrix[p][p];
         let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
-        let mut row = matrix[p];
-        row[p] = 1.0;
+        let (mut row, mut others) = (matrix[p], [0.0; N]);
         for j in 0..N {
-            row[j] *= reciprocal;
+            row[j] = if j == p { reciprocal } else { row[j] * reciprocal };
+            others[j] = if j == p { 0.0 } else { 1.0 };
         }
         for i in first..=last {
-            let mut values = matrix[i];
-            let factor = values[p];
-            values[p] = 0.0;
+            let old = matrix[i];
+            let (factor, mut values) = (matrix[i][p], [0.0; N]);
             for j in 0..N {
-                values[j] -= factor * row[j];
+                values[j] = old[j] * others[j] - factor * row[j];
             }
             matrix[i] = values;
         }
