@@ -29,7 +29,7 @@ use crate::shape::TINY;
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
 /// The error of the angles at which the iteration ends: some rounding errors, amplified by the condition of J.
-const CONVERGED: f64 = 1e-13;
+const CONVERGED: f64 = 1e-12;
 /// Turns up to this one need no new inverse, and show which further points slip.
 const CLOSE: f64 = 0.1;
 /// The largest change of an angle.
