@@ -214,7 +214,7 @@ fn judged_paths_are_reproduced() {
             100.0 * (loss / expected - 1.0)
         );
         // The error of the law with its few points of slip, most of it in steps of 15 degrees at full sliding; that of the judge is 0.1 %.
-        //assert!(worst <= 0.012 && (loss / expected - 1.0).abs() <= 0.06);
+        assert!(worst <= 0.012 && (loss / expected - 1.0).abs() <= 0.06);
     }
 }
 
@@ -253,7 +253,7 @@ fn motion_along_x_is_that_of_one_direction() {
                 worst[place] = worst[place].max(error);
             }
             println!("disturbed line: {worst:.5?} mu N");
-
+            assert!((0..2).all(|place| worst[place] < BANK_ERROR[place]), "{worst:?}");
         }
     }
 }
@@ -272,7 +272,7 @@ fn motion_along_y_is_that_along_x_of_the_swapped_ellipse() {
                 assert_eq!(step.force[0], 0.0);
                 let error = (step.force[1] - expected.force[0]).abs() / slip_force(&element);
                 let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
-                if error > BANK_ERROR[place] { println!("Y {ratio} {error:e} w {:.3} u {:.3}", w / normal_input(&element, 1.0), u / unit(&element)); }
+                assert!(error < BANK_ERROR[place], "{ratio}: {error:e}");
             }
         }
     }
@@ -370,8 +370,11 @@ fn steps_satisfy_coulomb_and_states_restart() {
                 assert!(step.dissipated >= 0.0);
                 state_check(&contact.state).unwrap();
                 let again = contact.trial(to);
-                if apart(&again, &step) > 1e-12 * slip_force(element) { println!("again {:e}", apart(&again, &step) / slip_force(element)); }
-                //assert!(again.dissipated <= 1e-12 * slip_force(element) * unit(element), "{again:?}");
+                // A load beyond the alignment of the springs aligns them anew with the next step: their polygons are cut at other nodes.
+                let outgrown = load > element.normal_force * 0.25;
+                let rounding = if outgrown { 1e-3 } else { 1e-12 };
+                assert!(apart(&again, &step) <= rounding * slip_force(element), "{again:?} {step:?}");
+                assert!(outgrown || again.dissipated <= 1e-12 * slip_force(element) * unit(element), "{again:?}");
             }
         }
     }

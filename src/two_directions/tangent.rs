@@ -557,12 +557,13 @@ fn returned<const N: usize, const C: usize>(
     if over <= 1.0 {
         return;
     }
-    let per_over = 1.0 / over;
-    let weights = [0, 1].map(|k| end[k] / limit[k] / limit[k] * per_over);
+    let (per_over, per_limit) = (1.0 / over, [1.0 / limit[0], 1.0 / limit[1]]);
+    let ratios = [0, 1].map(|k| end[k] * per_limit[k]);
+    let weights = [0, 1].map(|k| ratios[k] * per_limit[k] * per_over);
     // d(over)/over.
     let mut change = [0.0; C];
     for of in parameters {
-        let by = |k: usize| weights[k] * end[k] / limit[k] * of.limit(k, r, j);
+        let by = |k: usize| weights[k] * ratios[k] * of.limit(k, r, j);
         put(&mut change, -over * (by(0) + by(1)), of.column);
     }
     for c in 0..C {
