@@ -5,10 +5,9 @@
 
 use super::edge::Edge;
 use super::energy;
-use super::fine;
 use super::slip::{Problem, Slip};
 use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total};
+use super::springs::{Both, Increment, Row, Springs, dot, largest, total};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -30,11 +29,8 @@ pub(crate) struct StepRecord<const N: usize> {
     pub overshoot: Row<N>,
     pub start: Both<Row<N>>,
     pub slip: Slip<N>,
-    /// Squares of the trial state of the fine springs over their limits.
-    pub fine_square: Fine<N>,
-    /// The last shell at the start, and its part.
+    /// The last shell at the start.
     pub last_before: usize,
-    pub part_before: usize,
     /// Whether any point slips, and the number of times that Newton's method failed.
     pub slips: bool,
     pub failures: usize,
@@ -51,9 +47,7 @@ impl<const N: usize> StepRecord<N> {
         overshoot: [0.0; N],
         start: [[0.0; N]; 2],
         slip: Slip::NONE,
-        fine_square: [[0.0; N]; PARTS],
         last_before: 0,
-        part_before: 0,
         slips: false,
         failures: 0,
         sum: [0.0; 2],
@@ -104,7 +98,7 @@ fn kernel<const N: usize>(
     let Increment { before, now, by, constant_load, .. } = motion;
     // Of springs that lose contact, before the edge is replaced.
     let mut dissipated = if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
-    (record.last_before, record.part_before) = (state.edge.last, state.edge.part);
+    record.last_before = state.edge.last;
     if !constant_load {
         state.edge = Edge::new(springs, now);
     }
@@ -176,13 +170,10 @@ fn kernel<const N: usize>(
         }
     }
     (*tractions, *v) = (r, end);
-    // Under a constant load the points dissipate as the tractions turn; the difference of two banks, in which they do not, would spoil that.
-    let counts = energy && !constant_load;
-    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, counts, &mut record.fine_square);
-    let sum = [0, 1].map(|k| dot(&record.stiffness[k], &end[k]) + addition[k]);
+    let sum = [0, 1].map(|k| dot(&record.stiffness[k], &end[k]));
     let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
     record.sum = sum;
-    Outcome { force: [sum[0] / over, sum[1] / over], dissipated: (dissipated + loss).max(0.0) }
+    Outcome { force: [sum[0] / over, sum[1] / over], dissipated }
 }
 
 /// The slip from a trial state that exceeds Coulomb's bound.
@@ -305,7 +296,7 @@ fn of_springs<const N: usize>(
     total(&energy).max(0.0)
 }
 
-/// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
+/// Energy of the springs that lose contact in a step: all if it opens.
 #[inline(always)]
 pub(crate) fn separated<const N: usize>(
     springs: &Springs<N>,
@@ -316,26 +307,13 @@ pub(crate) fn separated<const N: usize>(
     let Increment { before, now, by, .. } = motion;
     let edge = &state.edge;
     let outer = edge.last.min(N - 1);
-    let last = if opens { 0 } else { springs.last_shell(now.shift[0]).min(outer) };
-    let part = if opens { 0 } else { springs.last_part(last, now.shift[0]) };
+    let first = if opens { 0 } else { springs.last_shell(now.shift[0]) + 1 };
     let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
     let mut energy = 0.0;
-    for j in last..=outer {
-        for r in 0..PARTS {
-            if (!opens && j == last && r <= part) || (j == outer && r > edge.part) {
-                continue;
-            }
-            let limit = [0, 1].map(|k| (before.shift[k] - springs.fine_shift[k][r][j]).max(TINY));
-            let lost = |w: Both<f64>, old: Both<f64>| energy::lost(w, old, limit, fall, *by);
-            if r == 0 {
-                let w = |k: usize| if j == outer { edge.stiffness[k] } else { springs.stiffness[k][j] };
-                energy += lost([w(0), w(1)], [state.v[0][j], state.v[1][j]]);
-            }
-            if j >= springs.under_flat {
-                let w = |k: usize| if j == outer { edge.fine_stiffness[k][r] } else { springs.fine_stiffness[k][r][j] };
-                energy += lost([w(0), w(1)], [state.fine[0][r][j], state.fine[1][r][j]]);
-            }
-        }
+    for j in first..=outer {
+        let limit = [0, 1].map(|k| (before.shift[k] - springs.shift[k][j]).max(TINY));
+        let w = [0, 1].map(|k| if j == outer { edge.stiffness[k] } else { springs.stiffness[k][j] });
+        energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by).max(0.0);
     }
-    energy.max(0.0)
+    energy
 }

@@ -13,8 +13,7 @@
 //! does not change as long as the spring sticks.
 
 use super::edge::Edge;
-use super::fine;
-use super::springs::{Both, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
+use super::springs::{Both, Increment, PressedSlopes, Row, Springs, add, at, dot};
 use super::spring_state::SpringState;
 use super::step::StepRecord;
 use crate::shape::TINY;
@@ -27,7 +26,7 @@ type Rows<const N: usize, const C: usize> = [[f64; C]; N];
 
 /// Rows of the derivatives of a state of N springs.
 pub(crate) const fn rows(n: usize) -> usize {
-    2 + (4 + 2 * PARTS) * n
+    2 + 4 * n
 }
 
 /// Derivatives of a state.
@@ -37,7 +36,6 @@ pub(crate) struct Derivatives<'a, const N: usize, const C: usize> {
     /// Of the springs, less that of the displacement; of the tractions.
     springs: Both<&'a mut Rows<N, C>>,
     tractions: Both<&'a mut Rows<N, C>>,
-    fine: Both<&'a mut [Rows<N, C>; PARTS]>,
 }
 
 impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
@@ -45,10 +43,8 @@ impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
     #[inline(always)]
     pub fn new(values: &'a mut [[f64; C]]) -> Option<Derivatives<'a, N, C>> {
         let (displacement, values) = values.split_first_chunk_mut()?;
-        let ([x, y, r_x, r_y], fine) = values.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
-        let (fine_x, fine) = fine.split_first_chunk_mut()?;
-        let fine = [fine_x, fine.first_chunk_mut()?];
-        Some(Derivatives { displacement, springs: [x, y], tractions: [r_x, r_y], fine })
+        let [x, y, r_x, r_y] = values.as_chunks_mut::<N>().0.first_chunk_mut()?;
+        Some(Derivatives { displacement, springs: [x, y], tractions: [r_x, r_y] })
     }
 }
 
@@ -152,9 +148,7 @@ impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
         for k in 0..2 {
             let shift = slopes.shift[k];
             let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
-            let fine_stiffness = (slopes.load - edge.fine_secant[k] * shift) / edge.fine_step[k];
-            load.force[k] = (new.v[k][last] - new.fine[k][0][last]) * stiffness
-                + new.fine[k][edge.part.min(PARTS - 1)][last] * fine_stiffness;
+            load.force[k] = new.v[k][last] * stiffness;
             let at_edge = new.v[k][last] / edge.step[k];
             for i in 0..N {
                 load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
@@ -181,15 +175,12 @@ impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
         let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
         let mut of = Parameter::new(column, [0.0; 2], Some(neighbours));
         for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
-            let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
+            let edge = Edge::of_shell(springs, &motion.now, last);
             add(&mut of.pressure, weight, &edge.pressure);
             for k in 0..2 {
                 let stiffness = edge.stiffnesses(springs, k);
                 add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
                 of.force[k] += weight * dot(&stiffness, &new.v[k]);
-                for r in 0..PARTS {
-                    of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
-                }
                 if record.slipping() == 0 {
                     continue;
                 }
@@ -219,11 +210,11 @@ impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
         }
     }
 
-    /// Of the distance from the node of a fine spring to the edge: part 0 is that of the law.
+    /// Of the distance from a node to the edge.
     #[inline(always)]
-    fn limit(&self, k: usize, r: usize, j: usize) -> f64 {
+    fn limit(&self, k: usize, j: usize) -> f64 {
         match self.neighbours {
-            Some([up, down]) => (down.fine_shift[k][r][j] - up.fine_shift[k][r][j]) * (0.5 / NEIGHBOUR),
+            Some([up, down]) => (down.shift[k][j] - up.shift[k][j]) * (0.5 / NEIGHBOUR),
             None => self.shift[k],
         }
     }
@@ -250,16 +241,13 @@ pub(crate) fn tangent<const N: usize, const C: usize>(
 
 /// The first shell whose spring has slipped or was engaged, from that before the step.
 pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usize {
-    let Taken { springs, new, motion, record, .. } = *taken;
+    let Taken { motion, record, .. } = *taken;
     let mut inner = inner;
     if motion.per_rise[0] > 0.0 {
         inner = inner.min(record.last_before);
     }
     if record.slips {
         inner = inner.min(if record.slip.converged { record.slip.first } else { 0 });
-    }
-    for row in &record.fine_square {
-        inner = (springs.under_flat..inner.min(N)).find(|j| *j <= new.edge.last && row[*j] > 1.0).unwrap_or(inner);
     }
     inner
 }
@@ -291,7 +279,7 @@ fn kernel<const N: usize, const C: usize>(
             if j > record.last_before {
                 *row = scaled(-1.0, &before);
             }
-            follow(row, [k, 0, j], record.part[k][j], taken, columns, parameters);
+            follow(row, [k, j], record.part[k][j], taken, columns, parameters);
         }
     }
     for k in 0..2 {
@@ -306,13 +294,13 @@ fn kernel<const N: usize, const C: usize>(
             let (limit, over) = (at(&record.limit, j), 1.0 + record.overshoot[j]);
             let displacement = *derivatives.displacement;
             let [x, y] = &mut derivatives.springs;
-            returned(at(&new.v, j), limit, over, [0, j], parameters, &displacement, [&mut x[j], &mut y[j]]);
+            returned(at(&new.v, j), limit, over, j, parameters, &displacement, [&mut x[j], &mut y[j]]);
         }
     }
     stuck_tractions(taken, parameters, first, derivatives);
     let mut force = [[0.0; C]; 2];
     for k in 0..2 {
-        let mut sum = scaled(edge.fine_secant[k], &derivatives.displacement[k]);
+        let mut sum = scaled(edge.secant[k], &derivatives.displacement[k]);
         for of in parameters {
             put(&mut sum, of.force[k], of.column);
         }
@@ -321,7 +309,6 @@ fn kernel<const N: usize, const C: usize>(
         }
         force[k] = sum;
     }
-    fine_correction(taken, columns, parameters, derivatives, inner, &mut force);
     // Coulomb's bound.
     let size = (record.sum[0] * record.sum[0] + record.sum[1] * record.sum[1]).sqrt().max(TINY);
     if size > motion.now.load {
@@ -340,7 +327,7 @@ fn kernel<const N: usize, const C: usize>(
 #[inline(always)]
 fn follow<const N: usize, const C: usize>(
     row: &mut Columns<C>,
-    [k, r, j]: [usize; 3],
+    [k, j]: [usize; 2],
     part: f64,
     taken: &Taken<N>,
     columns: &IncrementColumns<C>,
@@ -350,7 +337,7 @@ fn follow<const N: usize, const C: usize>(
         let rate = taken.motion.by[k] * taken.motion.per_rise[k];
         put(row, part - 1.0, &columns.by[k]);
         for of in parameters {
-            put(row, rate * of.limit(k, r, j), of.column);
+            put(row, rate * of.limit(k, j), of.column);
         }
         put(row, -rate * part * taken.slopes.shift[k], &columns.end);
         put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
@@ -438,7 +425,7 @@ fn slide<const N: usize, const C: usize>(
                     put(&mut row, factor, &derivatives.springs[k][i]);
                     put(&mut row, factor, &derivatives.displacement[k]);
                     for of in parameters {
-                        put(&mut row, -factor * ratio * of.limit(k, 0, i), of.column);
+                        put(&mut row, -factor * ratio * of.limit(k, i), of.column);
                     }
                 }
             }
@@ -549,7 +536,7 @@ fn returned<const N: usize, const C: usize>(
     end: Both<f64>,
     limit: Both<f64>,
     over: f64,
-    [r, j]: [usize; 2],
+    j: usize,
     parameters: &[Parameter<N, C>],
     [d_x, d_y]: &Both<Columns<C>>,
     [x, y]: [&mut Columns<C>; 2],
@@ -563,7 +550,7 @@ fn returned<const N: usize, const C: usize>(
     // d(over)/over.
     let mut change = [0.0; C];
     for of in parameters {
-        let by = |k: usize| weights[k] * ratios[k] * of.limit(k, r, j);
+        let by = |k: usize| weights[k] * ratios[k] * of.limit(k, j);
         put(&mut change, -over * (by(0) + by(1)), of.column);
     }
     for c in 0..C {
@@ -571,52 +558,5 @@ fn returned<const N: usize, const C: usize>(
         let change = weights[0] * v_x + weights[1] * v_y + change[c];
         x[c] = per_over * v_x - end[0] * change - d_x[c];
         y[c] = per_over * v_y - end[1] * change - d_y[c];
-    }
-}
-
-/// The fine correction.
-#[inline(always)]
-fn fine_correction<const N: usize, const C: usize>(
-    taken: &Taken<N>,
-    columns: &IncrementColumns<C>,
-    parameters: &[Parameter<N, C>],
-    derivatives: &mut Derivatives<N, C>,
-    inner: usize,
-    force: &mut Both<Columns<C>>,
-) {
-    let Taken { springs, new, motion, record, .. } = *taken;
-    let edge = &new.edge;
-    let last = edge.last.min(N - 1);
-    let displacement = *derivatives.displacement;
-    let rises = motion.per_rise[0] > 0.0;
-    let [fine_x, fine_y] = &mut derivatives.fine;
-    for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
-        for j in inner.max(springs.under_flat)..=last {
-            let (x, y) = (&mut x[j], &mut y[j]);
-            if j == last && r > edge.part {
-                continue;
-            }
-            let limit = [0, 1].map(|k| motion.now.shift[k] - springs.fine_shift[k][r][j]);
-            if rises && j >= record.last_before {
-                let share = motion.share(limit[0], limit[1]);
-                let engaged = j > record.last_before || r > record.part_before;
-                for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
-                    if engaged {
-                        // Less the displacement at the start.
-                        *row = columns.by[k];
-                        put(row, -1.0, &displacement[k]);
-                    }
-                    follow(row, [k, r, j], share[k], taken, columns, parameters);
-                }
-            }
-            let square = record.fine_square[r][j];
-            if square > 1.0 {
-                let end = [new.fine[0][r][j], new.fine[1][r][j]];
-                returned(end, limit, square.sqrt(), [r, j], parameters, &displacement, [&mut *x, &mut *y]);
-            }
-            let w = |k: usize| if j == last { edge.fine_stiffness[k][r] } else { springs.fine_stiffness[k][r][j] };
-            put(&mut force[0], w(0), x);
-            put(&mut force[1], w(1), y);
-        }
     }
 }
