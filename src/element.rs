@@ -248,7 +248,16 @@ impl Element {
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
         self.springs = if directions == Directions::Two { SPRINGS } else { 0 };
-        self.key = key_of(&[normal_force, friction_coefficient, w, approach, shift, plane.flat, self.lateral[0], self.lateral[1]]);
+        self.key = key_of(&[
+            normal_force,
+            friction_coefficient,
+            w,
+            approach,
+            shift,
+            plane.flat,
+            self.lateral[0],
+            self.lateral[1],
+        ]);
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);

@@ -9,15 +9,17 @@ use crate::two_directions::state::Header;
 
 /// The header of a diagram.
 pub(super) fn header_of(view: &state::View, v: f64) -> Header {
-    Header { displacement: [view.displacement, v], input: view.input, load: view.load, shift: view.shift, ..Header::NONE }
+    Header {
+        displacement: [view.displacement, v],
+        input: view.input,
+        load: view.load,
+        shift: view.shift,
+        ..Header::NONE
+    }
 }
 
 /// Springs from their displacements as functions of direction, node and S: tractions and the edge follow.
-fn fill<const N: usize>(
-    springs: &Springs<N>,
-    now: &Pressed,
-    at: impl Fn(usize, usize, f64) -> f64,
-) -> SpringState<N> {
+fn fill<const N: usize>(springs: &Springs<N>, now: &Pressed, at: impl Fn(usize, usize, f64) -> f64) -> SpringState<N> {
     let mut state = SpringState { edge: Edge::new(springs, now), ..SpringState::RELAXED };
     let last = state.edge.last.min(N - 1);
     for k in 0..2 {

@@ -71,11 +71,7 @@ impl<'a, const N: usize> StoredSprings<'a, N> {
 }
 
 impl<const N: usize> SpringState<N> {
-    pub const RELAXED: SpringState<N> = SpringState {
-        v: [[0.0; N]; 2],
-        tractions: [[0.0; N]; 2],
-        edge: Edge::NONE,
-    };
+    pub const RELAXED: SpringState<N> = SpringState { v: [[0.0; N]; 2], tractions: [[0.0; N]; 2], edge: Edge::NONE };
 
     /// Writes the state to an array.
     pub fn write(&self, values: &mut [f64]) {

@@ -176,8 +176,26 @@ pub(super) fn tables_mut<const N: usize>(state: &mut [f64]) -> &mut [f64] {
 
 #[inline(always)]
 pub(super) fn read_header(state: &[f64]) -> Header {
-    let [_, v, u, input, load, shift, offset_x, offset_y, sum_x, sum_y, key, unit_load, unit_shift, unit_size, count, flat, size, ..] =
-        *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
+    let [
+        _,
+        v,
+        u,
+        input,
+        load,
+        shift,
+        offset_x,
+        offset_y,
+        sum_x,
+        sum_y,
+        key,
+        unit_load,
+        unit_shift,
+        unit_size,
+        count,
+        flat,
+        size,
+        ..,
+    ] = *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
     Header {
         displacement: [u, v],
         input,
@@ -196,12 +214,33 @@ pub(super) fn read_header(state: &[f64]) -> Header {
 /// Writes a state of springs, except for the tables.
 pub(super) fn write<const N: usize>(state: &mut [f64], header: &Header, springs: &SpringState<N>) {
     let Some((place, rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
-    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y], key, units, .. } = *header;
+    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y], key, units, .. } =
+        *header;
     let under_flat = header.under_flat as f64;
     let tag = Kind::TwoDirectionsState.tag(SPRUNG);
     let Units { load: unit_load, shift: unit_shift, size: unit_size } = units;
-    *place =
-        [tag, v, u, input, load, shift, x, y, sum_x, sum_y, key, unit_load, unit_shift, unit_size, N as f64, under_flat, header.size, 0.0, 0.0, 0.0];
+    *place = [
+        tag,
+        v,
+        u,
+        input,
+        load,
+        shift,
+        x,
+        y,
+        sum_x,
+        sum_y,
+        key,
+        unit_load,
+        unit_shift,
+        unit_size,
+        N as f64,
+        under_flat,
+        header.size,
+        0.0,
+        0.0,
+        0.0,
+    ];
     springs.write(rest);
 }
 

@@ -97,7 +97,8 @@ fn kernel<const N: usize>(
 ) -> Outcome {
     let Increment { before, now, by, constant_load, .. } = motion;
     // Of springs that lose contact, before the edge is replaced.
-    let mut dissipated = if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
+    let mut dissipated =
+        if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
     record.last_before = state.edge.last;
     if !constant_load {
         state.edge = Edge::new(springs, now);

@@ -18,10 +18,7 @@ pub(crate) struct Stuck {
 
 /// The contact if nothing slips with the offset, from the state without.
 #[inline(always)]
-pub(crate) fn stuck<const N: usize>(
-    state: &StoredSprings<N>,
-    offset: &Both<f64>,
-) -> Option<Stuck> {
+pub(crate) fn stuck<const N: usize>(state: &StoredSprings<N>, offset: &Both<f64>) -> Option<Stuck> {
     dispatch!(
         kernel,
         [const N: usize]
@@ -31,10 +28,7 @@ pub(crate) fn stuck<const N: usize>(
 }
 
 #[inline(always)]
-fn kernel<const N: usize>(
-    state: &StoredSprings<N>,
-    offset: &Both<f64>,
-) -> Option<Stuck> {
+fn kernel<const N: usize>(state: &StoredSprings<N>, offset: &Both<f64>) -> Option<Stuck> {
     let edge: &Edge<N> = &state.edge();
     let last = edge.last.min(N - 1);
     let per_step = [offset[0] / edge.step[0], offset[1] / edge.step[1]];

@@ -13,8 +13,8 @@
 //! does not change as long as the spring sticks.
 
 use super::edge::Edge;
-use super::springs::{Both, Increment, PressedSlopes, Row, Springs, add, at, dot};
 use super::spring_state::SpringState;
+use super::springs::{Both, Increment, PressedSlopes, Row, Springs, add, at, dot};
 use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -521,7 +521,8 @@ fn stuck_tractions<const N: usize, const C: usize>(
             put(&mut row, reach * per_pressure, &derivatives.displacement[k]);
             let mut before = 0.0;
             for j in i..=last {
-                let factor = if j < last { springs.traction[j][i] * springs.per_step[k][j] * per_pressure } else { 0.0 };
+                let factor =
+                    if j < last { springs.traction[j][i] * springs.per_step[k][j] * per_pressure } else { 0.0 };
                 put(&mut row, factor - before, &derivatives.springs[k][j]);
                 before = factor;
             }
