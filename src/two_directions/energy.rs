@@ -12,12 +12,16 @@ use crate::shape::TINY;
 pub(crate) fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
     let square = qb * qb - qa * qc;
     let root = if square > 0.0 { square } else { 0.0 }.sqrt();
-    let sum = qb + root;
-    let outwards = if qc < 0.0 { -qc / if sum > TINY { sum } else { TINY } } else { 0.0 };
-    let inwards = if qa > 0.0 { (root - qb) / if qa > TINY { qa } else { TINY } } else { 1.0 };
+    // Quotients are at most 1 by their divisors: others may overflow.
+    let ratio = |numerator: f64, divisor: f64| {
+        let least = if numerator > TINY { numerator } else { TINY };
+        let positive = if numerator > 0.0 { numerator } else { 0.0 };
+        positive / if divisor > least { divisor } else { least }
+    };
+    let outwards = if qc < 0.0 { ratio(-qc, qb + root) } else { 0.0 };
+    let inwards = if qa > 0.0 { ratio(root - qb, qa) } else { 1.0 };
     let part = if qb >= 0.0 { outwards } else { inwards };
-    let part = if part > 0.0 { part } else { 0.0 };
-    if part < 1.0 { part } else { 1.0 }
+    if part > 0.0 { part } else { 0.0 }
 }
 
 /// Energy of a spring of stiffness w that slips, from v over the trial state to its end; limits are given by the reciprocals of those at

@@ -179,7 +179,7 @@ impl<const N: usize> Slip<N> {
                 if steps > STEPS || turn > LOST {
                     return;
                 }
-                self.rotate(&turns, if turn > LARGEST_TURN { LARGEST_TURN / turn } else { 1.0 });
+                self.rotate(&turns, LARGEST_TURN / turn.max(LARGEST_TURN));
                 // Newton's method converges quadratically with a new inverse, linearly with an old one.
                 let rate = if fresh { turn } else { turn / before.max(TINY) };
                 done = turn * rate.min(1.0) <= CONVERGED;
