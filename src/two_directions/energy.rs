@@ -14,9 +14,8 @@ pub(crate) fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
     let root = if square > 0.0 { square } else { 0.0 }.sqrt();
     // Quotients are at most 1 by their divisors: others may overflow.
     let ratio = |numerator: f64, divisor: f64| {
-        let least = if numerator > TINY { numerator } else { TINY };
-        let positive = if numerator > 0.0 { numerator } else { 0.0 };
-        positive / if divisor > least { divisor } else { least }
+        let positive = if numerator > TINY { numerator } else { TINY };
+        positive / if divisor > positive { divisor } else { positive }
     };
     let outwards = if qc < 0.0 { ratio(-qc, qb + root) } else { 0.0 };
     let inwards = if qa > 0.0 { ratio(root - qb, qa) } else { 1.0 };

@@ -229,6 +229,7 @@ fn shift_of(plane: &Plane, k: usize, w: f64) -> f64 {
 }
 
 /// Fills the tables of the springs of an element that are aligned with the size of the units times a number near 1.
+#[expect(clippy::too_many_lines, reason = "the tables in their order")]
 pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units: &Units, reference: f64) {
     let (plane, inner) = (element.plane(), under_flat(element, units));
     let graded = N - inner;
