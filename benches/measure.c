@@ -1,6 +1,7 @@
 /* measure.c: times of interleaved methods, as medians over rounds with the 10th and 90th percentile. */
 #include "measure.h"
 
+#include <math.h>
 #include <microslip.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +33,11 @@ void *allocate(size_t bytes)
         exit(1);
     }
     return memset(blocks[block_count++] = block, 0, padded);
+}
+
+double *doubles(size_t n)
+{
+    return allocate(n * sizeof(double));
 }
 
 size_t memory_mark(void)
@@ -66,6 +72,27 @@ entry *entry_add(const char *task, const char *method, work *run, void *context,
     entries[entry_count] = (entry) { .task = task, .method = method, .run = run, .context = context, .items = items,
                                      .parameter = -1.0, .error = -1.0, .sample_error = -1.0 };
     return &entries[entry_count++];
+}
+
+enum { LOGARITHMS = 1000 };
+
+static double logarithms(void *context)
+{
+    const double *x = context;
+    double sum = 0.0;
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        sum += log(x[i]);
+    }
+    return sum;
+}
+
+entry *entry_add_logarithm(const char *task)
+{
+    static double numbers[LOGARITHMS];
+    for (int i = 0; i < LOGARITHMS; ++i) {
+        numbers[i] = i + 1.0;
+    }
+    return entry_add(task, "logarithm", logarithms, numbers, LOGARITHMS);
 }
 
 static double nanoseconds(void)

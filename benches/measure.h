@@ -27,6 +27,7 @@ extern entry *entries;
 extern size_t entry_count;
 
 entry *entry_add(const char *task, const char *method, work *run, void *context, double items);
+entry *entry_add_logarithm(const char *task); /* one logarithm, the unit of other times */
 void entries_write(FILE *file);
 
 /* Times all entries from `first` on, interleaved, sets their shape and amplitude, and frees memory down to the mark. */
@@ -35,6 +36,7 @@ extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */
 
 /* Zeroed memory, aligned for vectors, until it is freed down to a mark. */
 void *allocate(size_t bytes);
+double *doubles(size_t n);
 size_t memory_mark(void);
 void free_to(size_t mark);
 

@@ -5,8 +5,7 @@
 #include <math.h>
 
 enum { KINDS = 64, REVERSALS = 8, PIECES = 16, MOST_ELEMENTS = 100000, HARMONICS = 1, SAMPLES = 64, N = 2 * HARMONICS + 1,
-       STEPS = 16, /* of a period */
-       LOGARITHMS = 1000 };
+       STEPS = 16 /* of a period */ };
 
 typedef struct { double stiffness, slip, force, tangent; } slider;
 typedef struct {
@@ -16,7 +15,7 @@ typedef struct {
     int32_t *kind, *first; /* indices of contacts, and of the element */
     slider *sliders;
     double *amplitude, *states, *element_states, *displacement[STEPS], *element_displacement[STEPS], *coefficients, *workspace;
-    double *forces, *jacobians, *out[4], logarithms[LOGARITHMS];
+    double *forces, *jacobians, *out[4];
 } job;
 
 static double complex_stiffness(void *context)
@@ -68,21 +67,6 @@ static double jenkins(void *context)
     return j->sliders[j->items - 1].force;
 }
 
-static double logarithm(void *context)
-{
-    const job *j = context;
-    double sum = 0.0;
-    for (int i = 0; i < LOGARITHMS; ++i) {
-        sum += log(j->logarithms[i]);
-    }
-    return sum;
-}
-
-static double *doubles(size_t n)
-{
-    return allocate(n * sizeof(double));
-}
-
 static job *job_of(const test_case *c, size_t n)
 {
     const size_t length = mslip_harmonic_workspace_length(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING);
@@ -95,14 +79,11 @@ static job *job_of(const test_case *c, size_t n)
     j->states = doubles(n * j->state_length);
     j->element_states = doubles(j->elements * j->element_state_length);
     require(mslip_harmonic_workspace_init(HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, length, j->workspace));
-    require(mslip_element_init(&c->parameters, 1, MSLIP_APPROACH, &j->element));
+    require(mslip_element_init(&c->parameters, 1, MSLIP_INPUT_APPROACH, &j->element));
     for (int i = 0; i < KINDS; ++i) {
         mslip_parameters p = c->parameters;
         p.normal_force *= 0.5 + (double)i / KINDS;
         require(mslip_contact_init(&p, &j->contacts[i]));
-    }
-    for (int i = 0; i < LOGARITHMS; ++i) {
-        j->logarithms[i] = i + 1.0;
     }
     for (int k = 0; k < STEPS; ++k) {
         j->displacement[k] = doubles(n);
@@ -145,7 +126,7 @@ void task_batch(const test_case *c, const extent *x)
                 entry_add("batch", functions[k].method, functions[k].run, j, items)->parameter = n;
             }
         }
-        entry_add("batch", "logarithm", logarithm, j, LOGARITHMS)->parameter = n;
+        entry_add_logarithm("batch")->parameter = n;
         measure(first, c->shape, 0.7, mark);
     }
 }

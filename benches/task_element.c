@@ -65,7 +65,7 @@ static double run_init(void *context)
 {
     job *j = context;
     static mslip_element element;
-    require(mslip_element_init(j->parameters, 1, MSLIP_APPROACH, &element));
+    require(mslip_element_init(j->parameters, 1, MSLIP_INPUT_APPROACH, &element));
     return element.approach;
 }
 
@@ -74,16 +74,6 @@ static double run_normal_force(void *context)
     job *j = context;
     require(mslip_normal_force(j->element, STEPS, j->path, j->path + STEPS, j->stiffness, NULL));
     return j->path[STEPS] + j->stiffness[0];
-}
-
-static double run_logarithm(void *context)
-{
-    job *j = context;
-    double sum = 0.0;
-    for (int i = 0; i < STEPS; ++i) {
-        sum += log(j->path[i]);
-    }
-    return sum;
 }
 
 static job *add(const char *task, const char *method, work *work, const job *prototype, int harmonics, int samples, int motion)
@@ -125,7 +115,7 @@ static void add_harmonic(const mslip_element *element, const varying_slider *sli
         const size_t h = (size_t)harmonics, s = (size_t)samples,
                      length = mslip_element_workspace_length(1, h, s, MSLIP_UNIFORM_SAMPLING);
         j.workspace = allocate(length * sizeof *j.workspace);
-        require(mslip_element_workspace_init(1, h, s, MSLIP_UNIFORM_SAMPLING, length, j.workspace));
+        require(mslip_element_workspace_init(1, h, s, MSLIP_UNIFORM_SAMPLING, 0, length, j.workspace));
         motion_in(element, shift, motion, harmonics, j.displacement);
         add("element", "microslip", run, &j, harmonics, samples, motion);
         j.method = varying_slider_by_runs;
@@ -152,7 +142,7 @@ static void add_harmonic(const mslip_element *element, const varying_slider *sli
 void task_element(const test_case *c, const extent *x)
 {
     static mslip_element element;
-    require(mslip_element_init(&c->parameters, 1, MSLIP_APPROACH, &element));
+    require(mslip_element_init(&c->parameters, 1, MSLIP_INPUT_APPROACH, &element));
     /* S of the largest load: the displacement of gross slip over mu. */
     const double shift = c->contact.slip_displacement / element.friction_coefficient;
     const varying_slider slider = { element.tangential_stiffness, element.normal_force / element.approach, element.friction_coefficient };
@@ -163,7 +153,7 @@ void task_element(const test_case *c, const extent *x)
     }
     add("element initialisation", "microslip", run_init, &once, 0, 0, 0);
     add("normal force", "microslip", run_normal_force, &once, 0, 0, 0);
-    add("normal force", "logarithm", run_logarithm, &once, 0, 0, 0);
+    entry_add_logarithm("normal force")->parameter = 0;
     measure(begin, c->shape, 0.0, bottom);
     for (int motion = 0; motion < MOTIONS; ++motion) {
         const size_t first = entry_count, mark = memory_mark();

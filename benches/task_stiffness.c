@@ -51,7 +51,7 @@ static entry *add(const char *method, stiffness *stiffness, const void *law, dou
 }
 
 /* Amplitudes of one call: one, or for the table some of a range. */
-enum { BLOCK = 16, LOGARITHMS = 256 };
+enum { BLOCK = 16 };
 typedef struct { const mslip_contact *contact; const double *table; int n; double amplitude[BLOCK]; } call;
 
 static double run_call(void *context)
@@ -73,16 +73,6 @@ static double run_table(void *context)
     const table_job *j = context;
     require(mslip_stiffness_table_init(j->contact, j->length, j->table));
     return j->table[j->length - 1];
-}
-
-static double run_logarithm(void *context)
-{
-    const double *x = context;
-    double sum = 0.0;
-    for (int i = 0; i < LOGARITHMS; ++i) {
-        sum += log(x[i]);
-    }
-    return sum;
 }
 
 /* A call of one amplitude, and one of a range with the table, in units of gross slip. */
@@ -107,10 +97,6 @@ static void time_grid(const test_case *c)
     const size_t length = mslip_stiffness_table_length();
     table_job *j = allocate(sizeof *j);
     *j = (table_job) { &c->contact, length, allocate(length * sizeof(double)) };
-    double *logarithms = allocate(LOGARITHMS * sizeof *logarithms);
-    for (int i = 0; i < LOGARITHMS; ++i) {
-        logarithms[i] = i + 1.0;
-    }
     run_table(j);
     for (int i = 1; i <= GRID; ++i) {
         time_range(c, j->table, "stiffness over amplitude", 2.0 * (i - 1) / GRID, 2.0 * i / GRID);
@@ -121,7 +107,7 @@ static void time_grid(const test_case *c)
     }
     const size_t first = entry_count, mark = memory_mark();
     entry_add("stiffness table", "microslip", run_table, j, 1);
-    entry_add("stiffness table", "logarithm", run_logarithm, logarithms, LOGARITHMS);
+    entry_add_logarithm("stiffness table");
     measure(first, c->shape, 0.0, mark);
     free_to(start);
 }

@@ -218,7 +218,7 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
     const int c = 2 * harmonics + 1;
     const size_t h = (size_t)harmonics, length = mslip_element_workspace_length(2, h, STEPS, MSLIP_UNIFORM_SAMPLING);
     j.workspace = allocate(length * sizeof *j.workspace);
-    require(mslip_element_workspace_init(2, h, STEPS, MSLIP_UNIFORM_SAMPLING, length, j.workspace));
+    require(mslip_element_workspace_init(2, h, STEPS, MSLIP_UNIFORM_SAMPLING, 0, length, j.workspace));
     j.rows = allocate(STEPS * sizeof *j.rows);
     j.bank = allocate(SPRINGS * sizeof *j.bank);
     j.jacobian = allocate(COLUMNS * COLUMNS * sizeof *j.jacobian);
@@ -256,7 +256,7 @@ void task_two_directions(const test_case *c, const extent *x)
     static mslip_element element;
     mslip_parameters p = c->parameters;
     p.normal_force *= 1.6; /* the largest load of the swing */
-    require(mslip_element_init(&p, 2, MSLIP_APPROACH, &element));
+    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &element));
     const double slip = c->contact.slip_displacement;
     double approach;
     require(mslip_normal_approach(&element, 1, &c->parameters.normal_force, &approach, NULL, NULL));

@@ -29,11 +29,6 @@ struct varying_aft {
     double (*anchor_sums)[MOST_ROW];
 };
 
-static double *doubles(size_t n)
-{
-    return allocate(n * sizeof(double));
-}
-
 varying_aft *varying_aft_of(int harmonics, int samples, int folded)
 {
     varying_aft *a = allocate(sizeof *a);

@@ -2,48 +2,13 @@
    exception. Extreme valid values: finite results. */
 #include "calls.h"
 
-/* Every status, its number and an excerpt of its message. Each must be returned by some call below. */
+/* Every status, its number and its message. Each must be returned by some call below. */
 static const struct {
     int32_t code, number;
-    const char *excerpt;
+    const char *message;
 } statuses[] = {
-    { MSLIP_NULL_POINTER, 1, "required pointer is NULL" },
-    { MSLIP_BAD_FLAT_HALF_WIDTH, 2, "flat_half_width must be finite and >= 0" },
-    { MSLIP_BAD_EDGE_RADIUS, 3, "edge_radius must be finite and > 0" },
-    { MSLIP_BAD_LENGTH, 4, "length must be finite and > 0" },
-    { MSLIP_BAD_NORMAL_FORCE, 5, "normal_force must be finite and >= 0, that of an element > 0" },
-    { MSLIP_BAD_FRICTION_COEFFICIENT, 6, "friction_coefficient must be finite and >= 0" },
-    { MSLIP_BAD_YOUNG_MODULUS, 7, "young_modulus must be finite and > 0" },
-    { MSLIP_BAD_POISSON_RATIO, 8, "poisson_ratio must be between 0 and 0.5" },
-    { MSLIP_BAD_DISPLACEMENT_REFERENCE, 9, "displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP" },
-    { MSLIP_BAD_SEMI_AXIS_X, 10, "semi_axis_x must be finite and > 0" },
-    { MSLIP_BAD_SEMI_AXIS_Y, 11, "semi_axis_y must be finite and > 0" },
-    { MSLIP_LENGTH_TOO_SHORT, 12, "requires 2*length > b" },
-    { MSLIP_OUT_OF_RANGE, 13, "1e-150 .. 1e150" },
-    { MSLIP_BAD_CONTACT, 20, "invalid contact" },
-    { MSLIP_BAD_STATE, 21, "invalid state" },
-    { MSLIP_BAD_WORKSPACE, 22, "invalid workspace" },
-    { MSLIP_STATE_TOO_SHORT, 23, "at least mslip_state_length(0) or mslip_element_state_length(directions, 0)" },
-    { MSLIP_BAD_ELEMENT, 24, "invalid element" },
-    { MSLIP_WORKSPACE_TOO_SHORT, 25, "at least mslip_harmonic_workspace_length or mslip_element_workspace_length" },
-    { MSLIP_BAD_TABLE, 26, "invalid table" },
-    { MSLIP_TABLE_TOO_SHORT, 27, "at least mslip_stiffness_table_length" },
-    { MSLIP_BAD_FORCE, 30, "a force must be finite" },
-    { MSLIP_FORCE_EXCEEDS_SLIP, 31, "must not exceed mu N" },
-    { MSLIP_BAD_DISPLACEMENT, 32, "a displacement must be finite and at most 1e150" },
-    { MSLIP_BAD_POSITION, 33, "a position x must be finite" },
-    { MSLIP_BAD_AMPLITUDE, 34, "a displacement amplitude must be between 0 and 1e150" },
-    { MSLIP_BAD_FORCE_AMPLITUDE, 35, "a force amplitude must be finite and >= 0" },
-    { MSLIP_BAD_HARMONICS, 36, "the number of harmonics must be between 1 and 2^24" },
-    { MSLIP_BAD_SAMPLES, 37, "the number of samples must exceed twice the number of harmonics" },
-    { MSLIP_BAD_COUNT, 38, "the number of sliders must be between 1 and 65536" },
-    { MSLIP_BAD_RULE, 39, "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN" },
-    { MSLIP_NOT_AVAILABLE, 40, "not available for this kind of contact" },
-    { MSLIP_BAD_INDEX, 41, "an index must refer to one of the n_contacts contacts or n_elements elements" },
-    { MSLIP_BAD_DIRECTIONS, 42, "directions must be 1 or 2" },
-    { MSLIP_BAD_NORMAL_INPUT, 43, "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE" },
-    { MSLIP_BAD_ARRAY_SIZE, 90, "too long to be addressed" },
-    { MSLIP_BAD_ALIGNMENT, 91, "misaligned pointer" },
+#define STATUS(code, number, message) { code, number, message },
+#include "functions.h"
 };
 
 static void test_statuses(void)
@@ -52,9 +17,9 @@ static void test_statuses(void)
     int known = 0;
     for (size_t i = 0; i < LENGTH(statuses); ++i) {
         CHECK(statuses[i].code == statuses[i].number);
-        CHECK(strstr(mslip_status_text(statuses[i].code), statuses[i].excerpt) != NULL);
+        CHECK(strcmp(mslip_status_text(statuses[i].code), statuses[i].message) == 0);
         if (!CHECK(seen[statuses[i].code])) {
-            printf("    never returned: %s\n", statuses[i].excerpt);
+            printf("    never returned: %s\n", statuses[i].message);
         }
     }
     for (int32_t code = 1; code < 1000; ++code) {
@@ -63,12 +28,6 @@ static void test_statuses(void)
     CHECK(known == LENGTH(statuses));
     CHECK(MSLIP_OK == 0 && strcmp(mslip_status_text(MSLIP_OK), unknown) != 0 && strlen(unknown) > 1);
     CHECK(strcmp(mslip_status_text(INT32_MIN), unknown) == 0 && strcmp(mslip_status_text(INT32_MAX), unknown) == 0);
-}
-
-/* The address half an item further. */
-static void *misaligned(const void *pointer, size_t item)
-{
-    return (char *)(size_t)pointer + item / 2;
 }
 
 /* ---- Parameters ---- */
@@ -157,7 +116,7 @@ static int is_possible_element(const mslip_element *e)
 {
     const double values[] = { e->composite_modulus, e->normal_force, e->half_width, e->approach, e->normal_stiffness,
                               e->tangential_stiffness };
-    const int by_force = e->normal_input == MSLIP_NORMAL_FORCE, m = e->directions + 1;
+    const int by_force = e->normal_input == MSLIP_INPUT_NORMAL_FORCE, m = e->directions + 1;
     double state[STATE], force[COMPONENTS], tangent[TANGENT], dissipated;
     int holds = isfinite(e->friction_coefficient) && e->friction_coefficient >= 0.0 && (m == 2 || m == 3);
     for (size_t i = 0; i < LENGTH(values); ++i) {
@@ -264,7 +223,7 @@ static void test_parameters(int shape)
     }
 }
 
-/* Values that are valid one by one, but not together; and invalid references of the displacement. */
+/* Values that are valid one by one, but not together; invalid references of the displacement, and numbers of springs. */
 static void test_combinations(void)
 {
     const mslip_parameters good = flat_parameters();
@@ -297,12 +256,27 @@ static void test_combinations(void)
         check_rejected(init(ROUNDED), rows[i].status, "mslip_contact_init", "a combination");
         check_rejected(init(ROUNDED_ELEMENT), rows[i].status, "mslip_element_init", "a combination");
     }
+    static const int32_t springs[] = { -8, 1, 13, 17, INT32_MAX, INT32_MIN };
+    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
+    for (size_t i = 0; i < LENGTH(springs); ++i) {
+        *p = good;
+        p->springs = springs[i];
+        save_regions();
+        check_rejected(init(ROUNDED), MSLIP_BAD_SPRINGS, "mslip_contact_init", "springs");
+        check_rejected(init(ROUNDED_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init", "springs");
+        *e = elliptic_parameters();
+        e->springs = springs[i];
+        save_regions();
+        check_rejected(init(ELLIPTIC), MSLIP_BAD_SPRINGS, "mslip_contact_init_elliptic", "springs");
+        check_rejected(init(ELLIPTIC_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init_elliptic", "springs");
+    }
+    save_regions();
     mslip_parameters_default(NULL);
     mslip_elliptic_parameters_default(NULL);
     CHECK(raised() == 0 && nothing_changed_but(NULL));
 }
 
-/* ---- Arguments of the table of functions ---- */
+/* ---- Every argument of every function, by the table ---- */
 
 /* Invalid finite values and their status, and extreme valid ones; forces as multiples of mu N. */
 static const struct {
@@ -321,8 +295,8 @@ static const struct {
     { AMPLITUDE, 1.0000001e150, MSLIP_BAD_AMPLITUDE }, { AMPLITUDE, DBL_MAX, MSLIP_BAD_AMPLITUDE },
     { AMPLITUDE, -1.0, MSLIP_BAD_AMPLITUDE }, { AMPLITUDE, -5e-324, MSLIP_BAD_AMPLITUDE },
     { AMPLITUDE, -DBL_MAX, MSLIP_BAD_AMPLITUDE },
-    { POSITION, 0.0, 0 }, { POSITION, -0.0, 0 }, { POSITION, 5e-324, 0 }, { POSITION, -1e-300, 0 }, { POSITION, 1e300, 0 },
-    { POSITION, -DBL_MAX, 0 },
+    { X, 0.0, 0 }, { X, -0.0, 0 }, { X, 5e-324, 0 }, { X, -1e-300, 0 }, { X, 1e300, 0 },
+    { X, -DBL_MAX, 0 },
     { FORCE, 0.0, 0 }, { FORCE, -0.0, 0 }, { FORCE, 1e-320, 0 }, { FORCE, -1e-300, 0 }, { FORCE, 1.0, 0 }, { FORCE, -1.0, 0 },
     { FORCE_AMPLITUDE, 0.0, 0 }, { FORCE_AMPLITUDE, -0.0, 0 }, { FORCE_AMPLITUDE, 1e-320, 0 }, { FORCE_AMPLITUDE, 1e-300, 0 },
     { FORCE_AMPLITUDE, 1.0, 0 },
@@ -352,18 +326,23 @@ static double value_of(size_t i)
     return values[i].value * (is_force ? call.contacts->slip_force : 1.0);
 }
 
-static void test_value(const function *f, int kind, double *place, const char *what)
+
+/* Valid values are skipped for items of a batch but the first and the last. */
+static void test_value(const function *f, int kind, int32_t status, double *place, int is_inner)
 {
     const double good = *place;
+    const char *what = "a value";
     for (int k = 0; k < NON_FINITE; ++k) {
         memcpy(place, &non_finite[k], sizeof *place);
-        rejected(f, status_of_non_finite(kind), what);
+        rejected(f, status, what);
     }
     for (size_t i = 0; i < LENGTH(values); ++i) {
         /* Elliptical elements have no length. The compliance of a cylinder and of an ellipse at N = 0 is infinite. */
         const int has_ellipse = (f->takes & IS_BATCH) || first_kind == ELLIPSE;
         const int is_infinite = first_kind != FLAT && values[i].value == 0.0 && strcmp(f->name, "mslip_normal_approach") == 0;
-        if (values[i].kind == kind && !(has_ellipse && values[i].status == MSLIP_LENGTH_TOO_SHORT) && !is_infinite) {
+        const int is_skipped = is_infinite || (is_inner && values[i].status == MSLIP_OK)
+                               || (has_ellipse && values[i].status == MSLIP_LENGTH_TOO_SHORT);
+        if (values[i].kind == kind && !is_skipped) {
             *place = value_of(i);
             rejected_unless_skipped(f, values[i].status == MSLIP_OK, ITEMS, values[i].status, what);
         }
@@ -374,10 +353,11 @@ static void test_value(const function *f, int kind, double *place, const char *w
 static void test_values(const function *f)
 {
     if (f->scalar != NONE) {
-        test_value(f, f->scalar, &call.scalar, "scalar");
+        test_value(f, f->scalar, argument_of(f, ARG_VALUE)->status, &call.scalar, 0);
     }
     for (size_t i = 0; i < f->inputs; ++i) {
-        test_value(f, kind_of_input(f, i), &INPUT[i], "array element");
+        const int is_inner = i >= f->inputs / items_of(f) && i < f->inputs - f->inputs / items_of(f);
+        test_value(f, kind_of_input(f, i), status_of_input(f, i), &INPUT[i], is_inner);
     }
     for (size_t k = 0; f->inputs > 0 && k < LENGTH(values); ++k) {
         int count = 0;
@@ -392,75 +372,55 @@ static void test_values(const function *f)
             accepted(f, "all array elements");
         }
     }
-    set_up(f);
 }
 
-/* The pointers among the arguments. */
-#define POINTER(field, item, required) { "call." #field ",", offsetof(arguments, field), item, required }
-static const struct {
-    const char *name;
-    size_t offset, item;
-    int required;
-} pointers[] = {
-    POINTER(contacts, 8, 1), POINTER(elements, 8, 1), POINTER(parameters, 8, 1), POINTER(elliptic_parameters, 8, 1),
-    POINTER(new_contact, 8, 1), POINTER(new_element, 8, 1), POINTER(input, 8, 1), POINTER(state, 8, 1), POINTER(workspace, 8, 1),
-    POINTER(table, 8, 1), POINTER(buffer, 8, 1), POINTER(index, 4, 0), POINTER(active, 4, 0), POINTER(out[0], 8, 0),
-    POINTER(out[1], 8, 0), POINTER(out[2], 8, 0), POINTER(out[3], 8, 0), POINTER(out[4], 8, 0), POINTER(found_directions, 4, 0),
-    POINTER(found_rule, 4, 0), POINTER(found_harmonics, sizeof(size_t), 0), POINTER(found_samples, sizeof(size_t), 0),
-};
-
-/* Each pointer in turn is misaligned, and NULL if it is required. */
-static void test_pointers(const function *f)
+/* Misaligned, and NULL if it is required: of the outputs, with each subset of the others. */
+static void test_pointer(const function *f, const argument *a, size_t item)
 {
-    for (size_t i = 0; i < LENGTH(pointers); ++i) {
-        char *const field = (char *)&call + pointers[i].offset;
-        void *good, *bad;
-        memcpy(&good, field, sizeof good);
-        if (good == NULL) {
-            continue; /* not an argument of this function */
-        }
-        bad = misaligned(good, pointers[i].item);
-        memcpy(field, &bad, sizeof bad);
-        rejected(f, MSLIP_BAD_ALIGNMENT, pointers[i].name);
-        if (pointers[i].required) {
-            bad = NULL;
-            memcpy(field, &bad, sizeof bad);
-            rejected(f, MSLIP_NULL_POINTER, pointers[i].name);
-        }
-        memcpy(field, &good, sizeof good);
+    char *const field = (char *)&call + a->field, *const no_pointer = NULL;
+    char *good;
+    memcpy(&good, field, sizeof good);
+    char *const bad = good + item / 2;
+    memcpy(field, &bad, sizeof bad);
+    rejected(f, MSLIP_BAD_ALIGNMENT, a->name);
+    memset(call.out, 0, a->kind == ARG_OUTPUT || a->kind == ARG_NEW_STATE ? 0 : sizeof call.out);
+    rejected(f, MSLIP_BAD_ALIGNMENT, a->name);
+    set_up(f);
+    memcpy(field, &no_pointer, sizeof no_pointer);
+    switch (a->kind) {
+        case ARG_INDEX:
+        case ARG_ACTIVE: accepted(f, "without index or flags"); break;
+        case ARG_FOUND_CHOICE:
+        case ARG_FOUND_SIZE: CHECK(f->call() == MSLIP_OK); break;
+        case ARG_NEW_STATE:
+        case ARG_OUTPUT: break; /* all subsets of the outputs in batch.c */
+        default:
+            rejected(f, MSLIP_NULL_POINTER, a->name);
+            memset(call.out, 0, sizeof call.out);
+            rejected(f, MSLIP_NULL_POINTER, a->name);
     }
 }
 
-/* More items than memory can hold, and none. */
-static void test_counts(const function *f)
+static const size_t too_long[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8, SIZE_MAX / 16 + 1 };
+
+/* Counts beyond the address space, and 0, with no arrays. */
+static void test_count(const function *f, const argument *a)
 {
-    static const size_t too_many[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8, SIZE_MAX / 16 + 1 };
-    for (size_t i = 0; i < LENGTH(too_many); ++i) {
-        if (f->takes & TAKES_COUNT) {
-            call.n = too_many[i];
-            rejected(f, MSLIP_BAD_ARRAY_SIZE, "n");
-            memset(call.out, 0, sizeof call.out);
-            rejected(f, MSLIP_BAD_ARRAY_SIZE, "n, without outputs");
-            set_up(f);
-        }
-        if (f->takes & IS_BATCH) {
-            call.n_contacts = too_many[i];
-            rejected(f, MSLIP_BAD_ARRAY_SIZE, "n_contacts");
-            set_up(f);
-        }
-        if (f->takes & TAKES_STATE) {
-            call.state_length = too_many[i];
-            rejected(f, MSLIP_BAD_ARRAY_SIZE, "state_length");
-            set_up(f);
-        }
+    size_t *const count = (size_t *)(void *)((char *)&call + a->field);
+    for (size_t i = 0; i < LENGTH(too_long); ++i) {
+        *count = too_long[i];
+        rejected(f, MSLIP_BAD_ARRAY_SIZE, a->name);
+        memset(call.out, 0, sizeof call.out);
+        rejected(f, MSLIP_BAD_ARRAY_SIZE, "without outputs");
+        set_up(f);
     }
     if (f->takes & IS_IWAN) {
         static const size_t bad[] = { 0, 65537, 1000000, SIZE_MAX / 16 };
         for (size_t i = 0; i < LENGTH(bad); ++i) {
-            call.n = bad[i];
+            *count = bad[i];
             rejected(f, MSLIP_BAD_COUNT, "n");
         }
-    } else if (f->takes & TAKES_COUNT) {
+    } else if (a->kind == ARG_COUNT) {
         call.n = call.n_contacts = 0;
         call.input = NULL;
         call.index = call.active = NULL;
@@ -473,48 +433,203 @@ static void test_counts(const function *f)
         save_regions();
         CHECK(f->call() == MSLIP_OK && raised() == 0 && nothing_changed_but(NULL));
     }
-    set_up(f);
 }
 
-/* Contacts, elements, states, workspaces and tables that were never initialised. */
-static void test_uninitialised(const function *f)
+/* Lengths beyond the address space; too short ones, of memory that ends at the protected page; states too short for their reversals
+   or pieces. */
+static void test_length(const function *f, const argument *a)
 {
-    for (int fill = 0; fill < 256; fill += 51) {
-        memset(law_at(f, 0), fill, items_of(f) * law_size(f));
-        rejected(f, status_of_law(f), "an uninitialised contact or element");
+    size_t *const length = (size_t *)(void *)((char *)&call + a->field);
+    const int is_state = a->field == offsetof(arguments, state_length), is_new = (f->takes & 1 << ARG_BUFFER) != 0;
+    const size_t least = is_state ? least_state(f) : *length, full = *length;
+    for (size_t i = 0; i < LENGTH(too_long) - 1; ++i) {
+        *length = too_long[i];
+        rejected(f, MSLIP_BAD_ARRAY_SIZE, a->name);
+    }
+    for (size_t i = 0; i < least; ++i) {
+        if (is_state || i < 10 || i + 10 >= least) {
+            const size_t unused = (full - i) * items_of(f);
+            *length = i;
+            if (is_new) {
+                call.buffer += unused;
+            } else {
+                call.state += unused;
+            }
+            rejected(f, a->status, a->name);
+            if (is_new) {
+                call.buffer -= unused;
+            } else {
+                call.state -= unused;
+            }
+        }
+    }
+    for (*length = least; is_state && !is_new && !(f->takes & IS_BATCH) && *length < used_state(f); ++*length) {
+        rejected(f, MSLIP_BAD_STATE, "less than the reversals or pieces need");
+    }
+}
+
+/* The length of a workspace is 0 for arguments that are not allowed. */
+static int has_workspace_length(const function *f)
+{
+    return (f->takes & IS_ELEMENT ? mslip_element_workspace_length(call.directions, call.harmonics, call.samples, call.rule)
+                                  : mslip_harmonic_workspace_length(call.harmonics, call.samples, call.rule)) > 0;
+}
+
+static void test_sizes(const function *f, const argument *a)
+{
+    static const size_t periods[] = { 65537, SIZE_MAX / 2 + 1, SIZE_MAX };
+    for (size_t i = 0; a->field == offsetof(arguments, periods) && i < LENGTH(periods); ++i) {
+        call.periods = periods[i];
+        rejected(f, a->status, a->name);
+    }
+    call.periods = PERIODS;
+    enum { MOST = 1 << 24 };
+    static const struct {
+        size_t harmonics, samples;
+        int32_t status;
+    } rows[] = {
+        { 0, 16, MSLIP_BAD_HARMONICS }, { 0, 0, MSLIP_BAD_HARMONICS }, { MOST + 1, SIZE_MAX, MSLIP_BAD_HARMONICS },
+        { SIZE_MAX, SIZE_MAX, MSLIP_BAD_HARMONICS }, { SIZE_MAX / 2 + 1, 1, MSLIP_BAD_HARMONICS }, /* twice this is 0 */
+        { 2, 0, MSLIP_BAD_SAMPLES }, { 2, 4, MSLIP_BAD_SAMPLES }, { MOST, MOST, MSLIP_BAD_SAMPLES },
+        { 2, MOST + 1, MSLIP_BAD_SAMPLES }, { 2, SIZE_MAX, MSLIP_BAD_SAMPLES }, { 2, SIZE_MAX / 2 + 1, MSLIP_BAD_SAMPLES },
+        { MOST / 2 - 1, MOST, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
+    };
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        call.harmonics = rows[i].harmonics;
+        call.samples = rows[i].samples;
+        CHECK(has_workspace_length(f) == (rows[i].status == MSLIP_WORKSPACE_TOO_SHORT));
+        rejected(f, rows[i].status, "a size");
+    }
+}
+
+/* Values that are not allowed; the arguments after it are not read. */
+static void test_choice(const function *f, const argument *a)
+{
+    int32_t *const choice = (int32_t *)(void *)((char *)&call + a->field);
+    const int is_directions = choice == &call.directions, is_rule = choice == &call.rule;
+    const int32_t bad[] = { is_directions ? 0 : 2, is_directions ? 3 : 7, -1, INT32_MAX, INT32_MIN };
+    for (size_t i = 0; i < 2 * LENGTH(bad); ++i) {
+        *choice = bad[i / 2];
+        call.harmonics = i % 2 ? 0 : call.harmonics;
+        call.normal_input += is_directions && i % 2 ? 7 : 0;
+        CHECK(!is_rule || !has_workspace_length(f));
+        rejected(f, a->status, a->name);
         set_up(f);
-        if (f->takes & TAKES_STATE) {
-            memset(STATES, fill, items_of(f) * STATE * sizeof(double));
-            rejected(f, MSLIP_BAD_STATE, "an uninitialised state");
-            set_up(f);
+    }
+    if (is_rule && (f->takes & IS_ELEMENT)) {
+        CHECK(has_workspace_length(f));
+        call.rule = MSLIP_EVENT_DRIVEN;
+        CHECK(!has_workspace_length(f));
+        rejected(f, MSLIP_NOT_AVAILABLE, a->name);
+    } else if (is_directions && (f->takes & TAKES_STATE)) {
+        call.directions = 3 - call.directions;
+        rejected(f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
+    }
+}
+
+/* Contacts, elements, states, workspaces and tables that were never initialised, or have another number of directions. */
+static void test_memory(const function *f, const argument *a, size_t bytes)
+{
+    void *memory;
+    for (int fill = 0; fill < 256; fill += 51) {
+        set_up(f);
+        memcpy(&memory, (char *)&call + a->field, sizeof memory);
+        memset(memory, fill, bytes);
+        rejected(f, a->status, "uninitialised memory");
+    }
+    const int32_t directions = 3 - directions_for(f);
+    const int other = (f->rule + TWO_DIRECTIONS) % VARIANTS, has_none = strcmp(f->name, "mslip_element_tractions") == 0;
+    const function *of_contact = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
+    if (a->kind == ARG_WORKSPACE) {
+        /* Of the other law. */
+        call.workspace = (double *)(void *)workspace_region->start;
+        if (f->takes & IS_ELEMENT) {
+            init_workspace(of_contact, 1, 8, workspace_length_of(of_contact, 1, 8), call.workspace);
+        } else {
+            CHECK(mslip_element_workspace_init(1 + f->rule, 1, 8, 0, 0, workspace_region->bytes / 8, call.workspace) == MSLIP_OK);
         }
-        if (f->takes & TAKES_WORKSPACE) {
-            memset(call.workspace, fill, workspace_length(f) * sizeof(double));
-            rejected(f, MSLIP_BAD_WORKSPACE, "an uninitialised workspace");
-            set_up(f);
-        }
-        if (f->takes & TAKES_TABLE) {
-            memset(call.table, fill, mslip_stiffness_table_length() * sizeof(double));
-            rejected(f, MSLIP_BAD_TABLE, "an uninitialised table");
-            set_up(f);
+        rejected(f, MSLIP_BAD_WORKSPACE, "a workspace of the other law");
+    }
+    if (!(f->takes & 1 << ARG_ELEMENT) || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE))) {
+        return;
+    }
+    for (size_t item = 0; item < items_of(f); ++item) {
+        set_up(f);
+        if (a->kind == ARG_WORKSPACE) {
+            call.workspace = (double *)(void *)workspace_region->start;
+            CHECK(mslip_element_workspace_init(directions, 1, 8, 0, 0, workspace_region->bytes / 8, call.workspace) == MSLIP_OK);
+            rejected(f, MSLIP_BAD_DIRECTIONS, "a workspace with other directions");
+        } else if (a->kind == ARG_STATE) {
+            CHECK(mslip_element_state_init(directions, STATE, STATES + item * STATE) == MSLIP_OK);
+            rejected(f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
+        } else {
+            ELEMENTS[item] = *element_of(FLAT, other);
+            rejected(f, has_none ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_DIRECTIONS, "an element with other directions");
+            if (f->takes & IS_BATCH) {
+                ACTIVE[item] = 0;
+                accepted_except(f, item, "the element with other directions is skipped");
+                INDICES[item] = (int32_t)(item + 1) % ITEMS;
+                ACTIVE[item] = 1;
+                accepted(f, "the element with other directions is not used");
+            }
         }
     }
 }
 
-/* State lengths below the minimum, below what the reversals need, and between two capacities; rejected updates in place. */
+static void test_argument(const function *f, const argument *a)
+{
+    const size_t items = items_of(f);
+    switch (a->kind) {
+        case ARG_COUNT:
+        case ARG_LAWS: test_count(f, a); return;
+        case ARG_LENGTH: test_length(f, a); return;
+        case ARG_SIZE: test_sizes(f, a); return;
+        case ARG_CHOICE: test_choice(f, a); return;
+        case ARG_VALUE: return;
+        default: test_pointer(f, a, a->kind == ARG_INDEX || a->kind == ARG_ACTIVE || a->kind == ARG_FOUND_CHOICE ? 4 : 8);
+    }
+    switch (a->kind) {
+        case ARG_CONTACT:
+        case ARG_ELEMENT: test_memory(f, a, items * law_size(f)); break;
+        case ARG_STATE: test_memory(f, a, items * STATE * sizeof(double)); break;
+        case ARG_WORKSPACE: test_memory(f, a, workspace_length(f) * sizeof(double)); break;
+        case ARG_TABLE: test_memory(f, a, mslip_stiffness_table_length() * sizeof(double)); break;
+        default: break;
+    }
+}
+
+static void test_function(const function *f)
+{
+    const int is_law = (f->takes & (1 << ARG_CONTACT | 1 << ARG_ELEMENT)) != 0;
+    set_up(f);
+    accepted(f, "valid arguments");
+    if (f->takes & 1 << ARG_FOUND_SIZE) {
+        CHECK(*call.found_harmonics == HARMONICS && *call.found_samples == SAMPLES && *call.found_rule == call.rule);
+        CHECK(call.found_directions == NULL || (*call.found_directions == call.directions && *call.found_periods == PERIODS));
+    }
+    for (first_kind = FLAT; first_kind <= (is_law && (f->takes & IS_ELEMENT) ? ELLIPSE : FLAT); ++first_kind) {
+        set_up(f);
+        test_values(f);
+    }
+    first_kind = FLAT;
+    for (const argument *a = f->argument; a->name != NULL; ++a) {
+        set_up(f);
+        test_argument(f, a);
+    }
+}
+
+/* ---- What is special about some functions ---- */
+
+/* Rejected updates in place. The new state keeps its doubles beyond state_length, and that of an element in an update all that are
+   not in use. */
 static void test_states(const function *f)
 {
-    const size_t least = least_state(f), used = used_state(f);
-    for (size_t length = 0; length < least; ++length) {
-        call.state_length = length;
-        rejected(f, MSLIP_STATE_TOO_SHORT, "state_length");
-    }
     set_up(f);
     for (int in_place = 0; f->out[0] > 0 && in_place < 2; ++in_place) {
         call.out[0] = in_place ? STATES : NULL;
         for (int k = 0; k < NON_FINITE; ++k) {
             memcpy(f->inputs > 0 ? &INPUT[f->inputs - 1] : &call.scalar, &non_finite[k], sizeof(double));
-            rejected(f, status_of_non_finite(f->inputs > 0 ? kind_of_input(f, f->inputs - 1) : f->scalar),
+            rejected(f, f->inputs > 0 ? status_of_input(f, f->inputs - 1) : MSLIP_BAD_DISPLACEMENT,
                      in_place ? "in place" : "without a new state");
         }
         set_up(f);
@@ -522,11 +637,6 @@ static void test_states(const function *f)
     if (f->takes & IS_BATCH) {
         return; /* the length of one state is that of all */
     }
-    for (size_t length = least; length < used; ++length) {
-        call.state_length = length;
-        rejected(f, MSLIP_BAD_STATE, "state_length is less than the reversals or pieces need");
-    }
-    /* The new state keeps its doubles beyond state_length, and that of an element in an update all that are not in use. */
     call.state_length = STATE - 1;
     save_regions();
     CHECK(f->call() == MSLIP_OK && raised() == 0 && is_unchanged(state_region));
@@ -540,7 +650,6 @@ static void test_states(const function *f)
         }
         CHECK(memcmp(&call.out[0][STATE - 1], last, 8) == 0);
     }
-    set_up(f);
 }
 
 /* One invalid item: no item is modified. An item that is not active is neither checked nor modified. */
@@ -564,7 +673,7 @@ static void test_batch(const function *f)
                 double *place = &INPUT[bad * share + k / NON_FINITE];
                 const double before = *place;
                 memcpy(place, &non_finite[k % NON_FINITE], sizeof *place);
-                rejected_unless_skipped(f, skipped, bad, status_of_non_finite(kind_of_input(f, k / NON_FINITE)),
+                rejected_unless_skipped(f, skipped, bad, status_of_input(f, bad * share + k / NON_FINITE),
                                         "one value is not finite");
                 *place = before;
             }
@@ -594,190 +703,6 @@ static void test_batch(const function *f)
     rejected(f, status_of_law(f), "an item with any flag but 0");
 }
 
-/* ---- Functions that initialise or check memory ---- */
-
-/* Valid arguments, for a variant of elements or a rule. */
-static void set_up_other(const char *fields, int is_element, int variant)
-{
-    const function *f = find(is_element ? "mslip_element_update" : "mslip_masing_update", is_element ? variant : 0);
-    const function *harmonic = find(is_element ? "mslip_element_harmonic_force" : "mslip_harmonic_force", variant);
-    set_up(f);
-    call.workspace_length = workspace_length(harmonic);
-    call.table_length = mslip_stiffness_table_length();
-    call.harmonics = HARMONICS;
-    call.samples = SAMPLES;
-    call.directions = is_element ? directions_of(variant) : 0;
-    call.normal_input = normal_input_of(variant);
-    call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
-    call.workspace = last(workspace_region, call.workspace_length * sizeof(double));
-    init_workspace(harmonic, HARMONICS, SAMPLES, call.workspace_length, call.workspace);
-    call.buffer = strstr(fields, "workspace_length") ? call.workspace
-        : strstr(fields, "table_length") ? last(table_region, call.table_length * sizeof(double)) : call.out[0];
-    mslip_parameters *p = last(table_region, sizeof *p);
-    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
-    *p = flat_parameters();
-    *e = elliptic_parameters();
-    call.parameters = p;
-    call.elliptic_parameters = e;
-    call.new_contact = last(out_regions[4], sizeof *call.new_contact);
-    call.new_element = last(element_region, sizeof *call.new_element);
-    call.found_harmonics = last(out_regions[1], sizeof *call.found_harmonics);
-    call.found_samples = last(out_regions[2], sizeof *call.found_samples);
-    call.found_directions = last(out_regions[3], sizeof *call.found_directions);
-    call.found_rule = last(out_regions[4], sizeof *call.found_rule);
-    for (size_t i = 0; i < LENGTH(pointers); ++i) {
-        if (strstr(fields, pointers[i].name) == NULL) {
-            memset((char *)&call + pointers[i].offset, 0, sizeof(void *));
-        }
-    }
-}
-
-/* Lengths of the argument that are not allowed, and the status. */
-static void bad_lengths(const function *f, size_t *argument, size_t least, int32_t status)
-{
-    static const size_t too_long[] = { SIZE_MAX, SIZE_MAX / 2 + 1, SIZE_MAX / 8 };
-    const size_t good = *argument;
-    for (size_t i = 0; i < LENGTH(too_long); ++i) {
-        *argument = too_long[i];
-        rejected(f, MSLIP_BAD_ARRAY_SIZE, "a length");
-    }
-    for (size_t i = 0; i < 20; ++i) {
-        *argument = i < 10 ? i : least - i + 9;
-        rejected(f, status, "a length");
-    }
-    *argument = good;
-}
-
-/* Values of a choice that are not allowed; the arguments after it are not read. */
-static void bad_choices(const function *f, int32_t *argument, const int32_t *bad, int32_t status)
-{
-    const int32_t good = *argument;
-    const size_t harmonics = call.harmonics;
-    for (int i = 0; i < 8; ++i) {
-        *argument = bad[i % 4];
-        call.harmonics = i < 4 ? harmonics : 0;
-        rejected(f, status, "a choice");
-    }
-    *argument = good;
-    call.harmonics = harmonics;
-}
-
-static void bad_sizes(const function *f, int32_t (*length_status)(void))
-{
-    enum { MOST = 1 << 24 };
-    static const struct {
-        size_t harmonics, samples;
-        int32_t status;
-    } rows[] = {
-        { 0, 16, MSLIP_BAD_HARMONICS },
-        { 0, 0, MSLIP_BAD_HARMONICS },
-        { MOST + 1, SIZE_MAX, MSLIP_BAD_HARMONICS },
-        { SIZE_MAX, SIZE_MAX, MSLIP_BAD_HARMONICS },
-        { SIZE_MAX / 2 + 1, 1, MSLIP_BAD_HARMONICS }, /* twice this is 0 */
-        { 2, 0, MSLIP_BAD_SAMPLES },
-        { 2, 4, MSLIP_BAD_SAMPLES },
-        { MOST, MOST, MSLIP_BAD_SAMPLES },
-        { 2, MOST + 1, MSLIP_BAD_SAMPLES },
-        { 2, SIZE_MAX, MSLIP_BAD_SAMPLES },
-        { 2, SIZE_MAX / 2 + 1, MSLIP_BAD_SAMPLES },
-        { MOST / 2 - 1, MOST, MSLIP_WORKSPACE_TOO_SHORT }, /* the largest allowed */
-    };
-    for (size_t i = 0; i < LENGTH(rows); ++i) {
-        call.harmonics = rows[i].harmonics;
-        call.samples = rows[i].samples;
-        CHECK((length_status() == MSLIP_OK) == (rows[i].status == MSLIP_WORKSPACE_TOO_SHORT));
-        rejected(f, rows[i].status, "a size");
-    }
-    call.harmonics = HARMONICS;
-    call.samples = SAMPLES;
-}
-
-/* The length of a workspace is 0 for arguments that are not allowed. */
-static int32_t workspace_length_status(void)
-{
-    const size_t length = call.directions == 0
-        ? mslip_harmonic_workspace_length(call.harmonics, call.samples, call.rule)
-        : mslip_element_workspace_length(call.directions, call.harmonics, call.samples, call.rule);
-    return length > 0 ? MSLIP_OK : MSLIP_BAD_WORKSPACE;
-}
-
-static void test_other(const char *name, int32_t (*function_call)(void), const char *fields, int is_element, int variant)
-{
-    static const int32_t directions[] = { 0, 3, -1, INT32_MAX }, choices[] = { 2, -1, INT32_MAX, INT32_MIN };
-    const function f = { name, function_call, 0, 0, NONE, NONE, 0, { 0 } };
-    const int takes_directions = strstr(fields, "call.directions,") != NULL, takes_state = strstr(fields, "call.state,") != NULL;
-    set_up_other(fields, is_element, variant);
-    save_regions();
-    feclearexcept(FE_ALL_EXCEPT);
-    CHECK(f.call() == MSLIP_OK && raised() == 0);
-    for (int i = 0; i < REGIONS && i < regions_made; ++i) {
-        const int is_input = &regions[i] == input_region || &regions[i] == contact_region || &regions[i] == state_region;
-        CHECK(!is_input || is_unchanged(&regions[i]));
-    }
-    test_pointers(&f);
-    if (takes_directions) {
-        call.normal_input += 7;
-        bad_choices(&f, &call.directions, directions, MSLIP_BAD_DIRECTIONS);
-        call.normal_input -= 7;
-        call.directions = 3 - call.directions;
-        if (takes_state) {
-            rejected(&f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
-        }
-        call.directions = 3 - call.directions;
-    }
-    if (strstr(fields, "call.normal_input,")) {
-        bad_choices(&f, &call.normal_input, choices, MSLIP_BAD_NORMAL_INPUT);
-    }
-    if (strstr(fields, "call.rule,")) {
-        bad_choices(&f, &call.rule, choices, MSLIP_BAD_RULE);
-        CHECK(workspace_length_status() == MSLIP_OK);
-        bad_sizes(&f, workspace_length_status);
-        call.rule = is_element ? MSLIP_EVENT_DRIVEN : 7;
-        CHECK(workspace_length_status() != MSLIP_OK);
-        rejected(&f, is_element ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_RULE, "rule");
-        call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : variant;
-    }
-    if (strstr(fields, "call.state_length,")) {
-        const function *update = find(is_element ? "mslip_element_update" : "mslip_masing_update", is_element ? variant : 0);
-        bad_lengths(&f, &call.state_length, least_state(update), MSLIP_STATE_TOO_SHORT);
-        for (size_t length = least_state(update); takes_state && length < used_state(update); ++length) {
-            call.state_length = length;
-            rejected(&f, MSLIP_BAD_STATE, "state_length is less than the reversals or pieces need");
-        }
-        call.state_length = STATE;
-    }
-    if (strstr(fields, "call.workspace_length,")) {
-        bad_lengths(&f, &call.workspace_length, call.workspace_length, MSLIP_WORKSPACE_TOO_SHORT);
-    }
-    if (strstr(fields, "call.table_length,")) {
-        bad_lengths(&f, &call.table_length, call.table_length, MSLIP_TABLE_TOO_SHORT);
-    }
-    if (strstr(fields, "call.found_rule,")) {
-        CHECK(*call.found_harmonics == HARMONICS && *call.found_samples == SAMPLES && *call.found_rule == call.rule);
-        CHECK(!is_element || *call.found_directions == directions_of(variant));
-        call.found_harmonics = call.found_samples = NULL;
-        call.found_rule = call.found_directions = NULL;
-        CHECK(f.call() == MSLIP_OK);
-    }
-    /* Memory that was never initialised. */
-    const struct {
-        const void *memory;
-        size_t bytes;
-        int32_t status;
-    } memory[] = {
-        { call.contacts, sizeof(mslip_contact), MSLIP_BAD_CONTACT },
-        { call.elements, sizeof(mslip_element), MSLIP_BAD_ELEMENT },
-        { call.state, STATE * sizeof(double), MSLIP_BAD_STATE },
-        { call.workspace, call.workspace_length * sizeof(double), MSLIP_BAD_WORKSPACE },
-    };
-    for (size_t i = 0; i < LENGTH(memory); ++i) {
-        for (int fill = 0; memory[i].memory != NULL && fill < 256; fill += 51) {
-            memset((void *)(size_t)memory[i].memory, fill, memory[i].bytes);
-            rejected(&f, memory[i].status, "uninitialised memory");
-        }
-    }
-}
-
 /* Lengths beyond the address space, and errors of states without merged reversals or pieces. */
 static void test_lengths(void)
 {
@@ -799,28 +724,12 @@ static void test_lengths(void)
     }
 }
 
-static void test_workspaces_of_the_other_law(const function *f)
-{
-    const function *other = find("mslip_harmonic_force", MSLIP_UNIFORM_SAMPLING);
-    double header[2];
-    set_up(f);
-    memcpy(header, call.workspace, sizeof header);
-    call.workspace = (double *)(void *)workspace_region->start;
-    init_workspace(other, 1, 8, workspace_length_of(other, 1, 8), call.workspace);
-    rejected(f, MSLIP_BAD_WORKSPACE, "the workspace of a contact");
-    CHECK(mslip_element_workspace_size(call.workspace, NULL, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
-    set_up(other);
-    memcpy(call.workspace, header, sizeof header);
-    rejected(other, MSLIP_BAD_WORKSPACE, "the workspace of an element");
-    CHECK(mslip_harmonic_workspace_size(call.workspace, NULL, NULL, NULL) == MSLIP_BAD_WORKSPACE);
-}
-
 /* Normal motions with an open contact, negative normal forces, and loads from the smallest to beyond the tables. */
 static void test_normal_motions(const function *f)
 {
     static const double sizes[] = { 0.0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0 };
     const size_t items = items_of(f);
-    const int by_force = normal_input_of(f->rule) == MSLIP_NORMAL_FORCE;
+    const int by_force = normal_input_of(f->rule) == MSLIP_INPUT_NORMAL_FORCE;
     for (size_t k = 0; k < LENGTH(sizes); ++k) {
         for (int shape = 0; shape < 4; ++shape) {
             set_up(f);
@@ -904,61 +813,6 @@ static void test_other_contacts(void)
     }
 }
 
-/* Elements, states and workspaces with different numbers of directions, and the tractions of two. */
-static void test_two_directions(void)
-{
-    static double pressure[ITEMS], shear[ITEMS];
-    for (int i = 0; i < FUNCTIONS; ++i) {
-        const function *f = &functions[i];
-        const int other = (f->rule + TWO_DIRECTIONS) % VARIANTS;
-        if (!(f->takes & IS_ELEMENT) || !(f->takes & (TAKES_STATE | TAKES_WORKSPACE))) {
-            continue;
-        }
-        const int has_none = strcmp(f->name, "mslip_element_tractions") == 0;
-        for (size_t item = 0; item < items_of(f); ++item) {
-            set_up(f);
-            ELEMENTS[item] = *element_of(FLAT, other);
-            rejected(f, has_none ? MSLIP_NOT_AVAILABLE : MSLIP_BAD_DIRECTIONS, "an element with other directions");
-            if (f->takes & IS_BATCH) {
-                ACTIVE[item] = 0;
-                accepted_except(f, item, "the element with other directions is skipped");
-                INDICES[item] = (int32_t)(item + 1) % ITEMS;
-                ACTIVE[item] = 1;
-                accepted(f, "the element with other directions is not used");
-            }
-            if (f->takes & TAKES_STATE) {
-                set_up(f);
-                CHECK(mslip_element_state_init(directions_of(other), STATE, STATES + item * STATE) == MSLIP_OK);
-                rejected(f, MSLIP_BAD_DIRECTIONS, "a state with other directions");
-            }
-        }
-        if (f->takes & TAKES_WORKSPACE) {
-            set_up(f);
-            call.workspace = (double *)(void *)workspace_region->start;
-            CHECK(mslip_element_workspace_init(directions_of(other), 1, 8, 0, workspace_region->bytes / 8, call.workspace)
-                  == MSLIP_OK);
-            rejected(f, MSLIP_BAD_DIRECTIONS, "a workspace with other directions");
-        }
-        if (f->takes & IS_BATCH) {
-            set_up(f);
-            for (size_t item = 0; item < ITEMS; ++item) {
-                ELEMENTS[item] = *element_of(FLAT, other);
-            }
-            rejected(f, MSLIP_BAD_DIRECTIONS, "elements with other directions");
-            memset(ACTIVE, 0, ITEMS * sizeof(int32_t));
-            save_regions();
-            CHECK(f->call() == MSLIP_OK && raised() == 0 && nothing_changed_but(workspace_region));
-        }
-    }
-    for (int variant = TWO_DIRECTIONS; variant < VARIANTS; ++variant) {
-        const double x[ITEMS] = { 0.0 };
-        set_up(find("mslip_element_update", variant));
-        save_regions();
-        check_rejected(mslip_element_tractions(call.elements, STATE, call.state, ITEMS, x, pressure, shear), MSLIP_NOT_AVAILABLE,
-                       "mslip_element_tractions", "two directions");
-        CHECK(pressure[0] == 0.0 && shear[0] == 0.0);
-    }
-}
 
 int main(int argc, char **argv)
 {
@@ -968,39 +822,20 @@ int main(int argc, char **argv)
         test_parameters(shape);
     }
     test_combinations();
-    for (int i = 0; i < FUNCTIONS; ++i) {
+    for (int i = 0; i < ALL_FUNCTIONS; ++i) {
         const function *f = &functions[i];
-        set_up(f);
-        accepted(f, "valid arguments");
-        for (first_kind = FLAT; first_kind <= ((f->takes & IS_ELEMENT) ? ELLIPSE : FLAT); ++first_kind) {
-            set_up(f);
-            test_values(f);
-        }
-        first_kind = FLAT;
-        set_up(f);
-        test_pointers(f);
-        test_counts(f);
-        test_uninitialised(f);
-        if (f->takes & TAKES_STATE) {
+        test_function(f);
+        if (i < FUNCTIONS && (f->takes & TAKES_STATE)) {
             test_states(f);
         }
-        if ((f->takes & IS_ELEMENT) && (f->takes & TAKES_WORKSPACE)) {
+        if ((f->takes & IS_ELEMENT) && (f->takes & TAKES_WORKSPACE) && f->inputs > 0) {
             test_normal_motions(f);
         }
         if (f->takes & IS_BATCH) {
             test_batch(f);
         }
     }
-    for (size_t i = 0; i < LENGTH(others); ++i) {
-        const int is_element = strstr(others[i].name, "element") != NULL;
-        for (int variant = 0; variant < (is_element ? VARIANTS : 2); ++variant) {
-            test_other(others[i].name, others[i].call, others[i].fields, is_element, variant);
-        }
-    }
     test_lengths();
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", MSLIP_APPROACH));
-    test_workspaces_of_the_other_law(find("mslip_element_harmonic_force", TWO_DIRECTIONS + MSLIP_APPROACH));
-    test_two_directions();
     test_table();
     test_other_contacts();
     test_statuses();

@@ -135,11 +135,12 @@ static inline int raised(void)
     return flags;
 }
 
-/* A buffer that ends at a protected page, and a copy of it. */
+/* A buffer that ends at a protected page, and a copy of it. The calls after a `set_up` use some of them. */
 enum { REGIONS = 14 };
 typedef struct {
     unsigned char *start, *before;
     size_t bytes;
+    int in_use;
 } region;
 static region regions[REGIONS];
 static int regions_made;
@@ -165,6 +166,7 @@ static inline region *make_region(size_t bytes)
         exit(2);
     }
     memset(r->start, 0x5a, r->bytes);
+    r->in_use = 1;
     return r;
 }
 
@@ -177,20 +179,20 @@ static inline void *last(const region *r, size_t bytes)
 static inline void save_regions(void)
 {
     for (int i = 0; i < regions_made; ++i) {
-        memcpy(regions[i].before, regions[i].start, regions[i].bytes);
+        memcpy(regions[i].before, regions[i].start, regions[i].in_use ? regions[i].bytes : 0);
     }
 }
 
 static inline void restore_regions(void)
 {
     for (int i = 0; i < regions_made; ++i) {
-        memcpy(regions[i].start, regions[i].before, regions[i].bytes);
+        memcpy(regions[i].start, regions[i].before, regions[i].in_use ? regions[i].bytes : 0);
     }
 }
 
 static inline int is_unchanged(const region *r)
 {
-    return memcmp(r->start, r->before, r->bytes) == 0;
+    return !r->in_use || memcmp(r->start, r->before, r->bytes) == 0;
 }
 
 /* No bit changed; one region, or NULL, is exempt. */
@@ -227,7 +229,8 @@ static inline int check_rejected(int32_t status, int32_t expected, const char *f
     return check_rejected_but(NULL, status, expected, function, what);
 }
 
-enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
+enum { COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
 /* The largest numbers of components of a displacement, and of coefficients. */
 enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
@@ -236,14 +239,9 @@ enum { REVERSALS = 430, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 320, USED_
 
 #include "functions.h"
 
-/* The status of a value that is not finite. */
-static inline int32_t status_of_non_finite(int kind)
-{
-    static const int32_t status[] = { MSLIP_OK, MSLIP_BAD_POSITION, MSLIP_BAD_FORCE, MSLIP_BAD_FORCE_AMPLITUDE,
-                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_AMPLITUDE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE,
-                                      MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_DISPLACEMENT };
-    return status[kind];
-}
+/* The kinds of a function's arguments, by which the drivers distinguish functions. */
+enum { TAKES_COUNT = 1 << ARG_COUNT, TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
+       TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30, IS_IWAN = 1 << 29 };
 
 static arguments call;
 
@@ -257,7 +255,10 @@ static arguments call;
 typedef struct {
     const char *name;
     int32_t (*call)(void);
-    int takes;
+    int directions; /* the most */
+    argument argument[MOST_ARGUMENTS]; /* until the first without a name */
+    /* Derived from the arguments: */
+    unsigned takes;
     int rule;            /* of the workspace; variant of the elements */
     int scalar;          /* quantity passed by value */
     int kind;            /* quantity of the input array; the tangential one of the displacements of an element */
@@ -265,32 +266,83 @@ typedef struct {
     size_t out[OUTPUTS]; /* lengths of the outputs */
 } function;
 
-static const function functions[] = {
-#define ROW(name, takes, rule, scalar, kind, inputs, ...) \
-    { "mslip_" #name, call_##name, takes, rule, scalar, kind, inputs, { __VA_ARGS__ } },
-#include "functions.h"
-};
-enum { FUNCTIONS = LENGTH(functions) };
+/* First the functions with a contact or an element and outputs, then those that initialise or check memory; each with every rule of
+   a workspace or every variant of an element. */
+static function functions[128];
+static int FUNCTIONS, ALL_FUNCTIONS;
 
-/* Those that initialise or check memory, with the fields of `call` that each takes. */
-static const struct {
-    const char *name;
-    int32_t (*call)(void);
-    const char *fields;
-} others[] = {
-#define OTHER(name, ...) { "mslip_" #name, call_##name, #__VA_ARGS__ "," },
+static inline size_t extent_of(const char *extents, size_t components)
+{
+    size_t extent = 1;
+    for (; *extents != '\0'; ++extents) {
+        const size_t factor = *extents == 'k' ? COEFFICIENTS : 1;
+        extent *= *extents == 'n' ? ITEMS : *extents == 'p' ? MSLIP_PARAMETER_COUNT : components * factor;
+    }
+    return extent;
+}
+
+static inline void add_function(function f, int rule)
+{
+    const size_t components = f.takes & IS_ELEMENT ? (size_t)directions_of(rule) + 1 : 1;
+    f.rule = rule;
+    for (const argument *a = f.argument; a->name != NULL; ++a) {
+        const size_t extent = extent_of(a->extents, components);
+        if (a->kind == ARG_VALUE) {
+            f.scalar = a->quantity;
+        } else if (a->kind == ARG_INPUT) {
+            f.kind = a->quantity;
+            f.inputs = extent;
+        } else if (a->kind == ARG_OUTPUT) {
+            f.out[(a->field - offsetof(arguments, out)) / sizeof(double *)] = extent;
+        } else if (a->kind == ARG_NEW_STATE) {
+            f.out[0] = STATE * (f.takes & IS_BATCH ? ITEMS : 1);
+        }
+    }
+    functions[ALL_FUNCTIONS++] = f;
+}
+
+static inline void make_functions(void)
+{
+    static const function described[] = {
+#define FUNCTION(id, most, ...) { .name = "mslip_" #id, .call = call_##id, .directions = most, .argument = { __VA_ARGS__ } },
 #include "functions.h"
-};
+    };
+    for (int others = 0; others < 2; ++others) {
+        for (size_t i = 0; i < LENGTH(described); ++i) {
+            function f = described[i];
+            f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : strstr(f.name, "iwan") ? IS_IWAN : 0;
+            for (const argument *a = f.argument; a->name != NULL; ++a) {
+                f.takes |= 1u << a->kind;
+            }
+            const int is_other = !(f.takes & (1 << ARG_CONTACT | 1 << ARG_ELEMENT)) || !(f.takes & 1 << ARG_OUTPUT);
+            const int has_rule = (f.takes & TAKES_WORKSPACE) || strstr(f.name, "workspace");
+            const int rules = f.takes & IS_ELEMENT ? f.directions * 2 : has_rule ? 2 : 1;
+            for (int rule = 0; is_other == others && rule < rules; ++rule) {
+                add_function(f, rule);
+            }
+        }
+        FUNCTIONS = others ? FUNCTIONS : ALL_FUNCTIONS;
+    }
+}
 
 static inline const function *find(const char *name, int rule)
 {
-    for (int i = 0; i < FUNCTIONS; ++i) {
+    for (int i = 0; i < ALL_FUNCTIONS; ++i) {
         if (strcmp(functions[i].name, name) == 0 && functions[i].rule == rule) {
             return &functions[i];
         }
     }
     fprintf(stderr, "no function %s\n", name);
     exit(2);
+}
+
+static inline const argument *argument_of(const function *f, int kind)
+{
+    const argument *a = f->argument;
+    while (a->name != NULL && a->kind != kind) {
+        ++a;
+    }
+    return a;
 }
 
 static inline size_t items_of(const function *f)
@@ -322,20 +374,22 @@ static inline size_t workspace_length_of(const function *f, size_t harmonics, si
 static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
 {
     CHECK((f->takes & IS_ELEMENT
-               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, length, workspace)
+               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, PERIODS, length,
+                                              workspace)
                : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
 }
 
 /* The length of the workspace that the calls of the table have; 0 if the function takes none. */
 static inline size_t workspace_length(const function *f)
 {
-    return f->takes & TAKES_WORKSPACE ? workspace_length_of(f, HARMONICS, SAMPLES) : 0;
+    return strstr(f->name, "workspace") || (f->takes & TAKES_WORKSPACE) ? workspace_length_of(f, HARMONICS, SAMPLES) : 0;
 }
 
 static inline void make_regions(void)
 {
-    size_t longest = 0;
-    for (int i = 0; i < FUNCTIONS; ++i) {
+    size_t longest = STATE;
+    make_functions();
+    for (int i = 0; i < ALL_FUNCTIONS; ++i) {
         const size_t length = workspace_length(&functions[i]);
         longest = length > longest ? length : longest;
     }
@@ -392,7 +446,13 @@ static inline int kind_of_input(const function *f, size_t i)
     const int normal = share == 1 ? APPROACH : APPROACH_COEFFICIENT;
     const size_t m = components_of(f);
     const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % m == m - 1;
-    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_APPROACH ? normal : normal + 1;
+    return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
+}
+
+/* The status of input i if it is not finite. */
+static inline int32_t status_of_input(const function *f, size_t i)
+{
+    return kind_of_input(f, i) == NORMAL_FORCE ? MSLIP_BAD_NORMAL_FORCE : argument_of(f, ARG_INPUT)->status;
 }
 
 /* Lengths of the shortest state, and of one for the reversals or pieces in use. */
@@ -433,33 +493,49 @@ static inline double decaying(int reversals)
     return (reversals % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * reversals);
 }
 
-/* A rising load with displacements to and fro, all sticking: each step adds a piece. */
-static inline void fill_element_state(const mslip_element *element, double *state)
+/* A state of USED nested reversals; of an element one of USED_PIECES pieces, by a rising load with displacements to and fro, all
+   sticking. */
+static inline void fill_state(const function *f, const void *law, double *state)
 {
-    const int by_force = element->normal_input == MSLIP_NORMAL_FORCE;
+    const mslip_element *element = law;
+    if (!(f->takes & IS_ELEMENT)) {
+        CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
+        for (int k = 0; k <= USED; ++k) {
+            CHECK(mslip_masing_update(law, STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
+        }
+        return;
+    }
     CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
     for (int k = 0; k < USED_PIECES; ++k) {
         const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);
-        const double w = (by_force ? element->normal_force : element->approach) * (0.1 + 0.15 * k);
+        const double whole = element->normal_input == MSLIP_INPUT_NORMAL_FORCE ? element->normal_force : element->approach;
+        const double w = whole * (0.1 + 0.15 * k);
         const double step[COMPONENTS] = { u, element->directions == 1 ? w : 0.7 * u, w };
         CHECK(mslip_element_update(element, STATE, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
     }
 }
 
-/* Initialises the states and advances each to USED nested reversals, or USED_PIECES pieces. */
+/* Fills the states for the contacts or elements of the call. */
 static inline void fill_states(const function *f)
 {
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
-        double *state = STATES + i * STATE;
-        if (f->takes & IS_ELEMENT) {
-            fill_element_state(&call.elements[i], state);
-            continue;
-        }
-        CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
-        for (int k = 0; k <= USED; ++k) {
-            CHECK(mslip_masing_update(&call.contacts[i], STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
-        }
+        fill_state(f, law_at(f, i), STATES + i * STATE);
     }
+}
+
+/* The state of a contact or element of the list, as filled for the first call. */
+static inline const double *state_of(const function *f, int kind)
+{
+    static double states[VARIANTS + 1][KINDS][STATE];
+    static int is_filled[VARIANTS + 1][KINDS];
+    const int variant = f->takes & IS_ELEMENT ? f->rule : VARIANTS;
+    if (!is_filled[variant][kind]) {
+        const mslip_contact contact = contact_of(kind);
+        memset(states[variant][kind], 0x5a, sizeof states[variant][kind]);
+        fill_state(f, f->takes & IS_ELEMENT ? (const void *)element_of(kind, variant) : &contact, states[variant][kind]);
+        is_filled[variant][kind] = 1;
+    }
+    return states[variant][kind];
 }
 
 /* Initialises the table of the shape of the contact. */
@@ -480,7 +556,7 @@ static inline void fill_outputs(void)
 static inline double valid_value(int kind, size_t i, double slip_force)
 {
     switch (kind) {
-        case POSITION: return 1e-4 * ((double)i - 2.0);
+        case X: return 1e-4 * ((double)i - 2.0);
         case FORCE: return slip_force * (0.2 * (double)i - 0.35);
         case FORCE_AMPLITUDE: return 0.2 * slip_force * (double)i;
         case DISPLACEMENT: return 1e-8 * (1.3 * (double)(i % 4) - 2.0);
@@ -496,47 +572,102 @@ static inline double valid_value(int kind, size_t i, double slip_force)
 /* The kind of the first contact or element of each call. */
 static int first_kind;
 
-/* Valid arguments, each just before its protected page. Items have contacts or elements of three kinds by turns. */
+/* Memory for an argument, just before a protected page. */
+static inline void set_pointer(const argument *a, region *r, size_t bytes)
+{
+    r->in_use = 1;
+    void *const memory = last(r, bytes);
+    memcpy((char *)&call + a->field, &memory, sizeof memory);
+}
+
+static inline void set_up_argument(const function *f, const argument *a)
+{
+    const size_t items = items_of(f);
+    const double slip_force = (f->takes & IS_ELEMENT) ? 0.0 : contact_of(first_kind % 3).slip_force;
+    const mslip_parameters p = flat_parameters();
+    const mslip_elliptic_parameters e = elliptic_parameters();
+    switch (a->kind) {
+        case ARG_CONTACT:
+        case ARG_ELEMENT:
+            set_pointer(a, a->kind == ARG_ELEMENT ? element_region : contact_region, items * law_size(f));
+            for (size_t i = 0; i < items; ++i) {
+                set_law(f, i, (first_kind + (int)i) % 3);
+            }
+            break;
+        case ARG_PARAMETERS:
+        case ARG_ELLIPTIC_PARAMETERS: {
+            const size_t bytes = a->kind == ARG_PARAMETERS ? sizeof p : sizeof e;
+            set_pointer(a, input_region, bytes);
+            memcpy(last(input_region, bytes), a->kind == ARG_PARAMETERS ? (const void *)&p : &e, bytes);
+            break;
+        }
+        case ARG_NEW_CONTACT: set_pointer(a, contact_region, sizeof(mslip_contact)); break;
+        case ARG_NEW_ELEMENT: set_pointer(a, element_region, sizeof(mslip_element)); break;
+        case ARG_INDEX:
+        case ARG_ACTIVE:
+            set_pointer(a, a->kind == ARG_INDEX ? index_region : active_region, items * sizeof(int32_t));
+            for (size_t i = 0; i < items; ++i) {
+                *(a->kind == ARG_INDEX ? &INDICES[i] : &ACTIVE[i]) = a->kind == ARG_INDEX ? (int32_t)i : 1;
+            }
+            break;
+        case ARG_STATE:
+            set_pointer(a, state_region, items * STATE * sizeof(double));
+            for (size_t i = 0; i < items; ++i) {
+                memcpy(STATES + i * STATE, state_of(f, (first_kind + (int)i) % 3), STATE * sizeof(double));
+            }
+            break;
+        case ARG_WORKSPACE:
+            set_pointer(a, workspace_region, workspace_length(f) * sizeof(double));
+            init_workspace(f, HARMONICS, SAMPLES, workspace_length(f), call.workspace);
+            break;
+        case ARG_TABLE:
+            set_pointer(a, table_region, call.table_length * sizeof(double));
+            fill_table(f);
+            break;
+        case ARG_BUFFER:
+            set_pointer(a, strstr(f->name, "table") ? table_region : workspace_region,
+                        (strstr(f->name, "table") ? call.table_length : strstr(f->name, "state") ? STATE : workspace_length(f))
+                            * sizeof(double));
+            break;
+        case ARG_VALUE: call.scalar = valid_value(f->scalar, 3, slip_force); break;
+        case ARG_INPUT:
+            set_pointer(a, input_region, f->inputs * sizeof(double));
+            for (size_t i = 0; i < f->inputs; ++i) {
+                INPUT[i] = valid_value(kind_of_input(f, i), i, slip_force);
+            }
+            break;
+        case ARG_NEW_STATE: set_pointer(a, out_regions[0], f->out[0] * sizeof(double)); break;
+        case ARG_OUTPUT: {
+            const size_t k = (a->field - offsetof(arguments, out)) / sizeof(double *);
+            set_pointer(a, out_regions[k], f->out[k] * sizeof(double));
+            break;
+        }
+        case ARG_FOUND_CHOICE: set_pointer(a, out_regions[*a->name == 'd'], sizeof(int32_t)); break;
+        case ARG_FOUND_SIZE: set_pointer(a, out_regions[*a->name == 'p' ? 4 : 2 + (*a->name == 'h')], sizeof(size_t)); break;
+        default: break;
+    }
+}
+
+/* Valid arguments. Items have contacts or elements of three kinds by turns. */
 static inline void set_up(const function *f)
 {
     const int is_element = (f->takes & IS_ELEMENT) != 0;
-    void *laws = last(is_element ? element_region : contact_region, items_of(f) * law_size(f));
-    int32_t *index = last(index_region, ITEMS * sizeof *index), *flags = last(active_region, ITEMS * sizeof *flags);
-    double *values = last(input_region, f->inputs * sizeof *values);
-
     memset(&call, 0, sizeof call);
     call.n = call.n_contacts = ITEMS;
     call.state_length = STATE;
-    call.contacts = is_element ? NULL : laws;
-    call.elements = is_element ? laws : NULL;
-    for (size_t i = 0; i < items_of(f); ++i) {
-        set_law(f, i, (first_kind + (int)i) % 3);
+    call.workspace_length = workspace_length(f);
+    call.table_length = mslip_stiffness_table_length();
+    call.harmonics = HARMONICS;
+    call.samples = SAMPLES;
+    call.periods = PERIODS;
+    call.directions = is_element ? directions_for(f) : 0;
+    call.normal_input = normal_input_of(f->rule);
+    call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : f->rule;
+    for (int i = 0; i < regions_made; ++i) {
+        regions[i].in_use = 0;
     }
-    const double slip_force = is_element ? 0.0 : call.contacts->slip_force;
-    for (size_t i = 0; i < ITEMS; ++i) {
-        index[i] = (int32_t)i;
-        flags[i] = 1;
-    }
-    call.index = f->takes & IS_BATCH ? index : NULL;
-    call.active = f->takes & IS_BATCH ? flags : NULL;
-    for (size_t i = 0; i < f->inputs; ++i) {
-        values[i] = valid_value(kind_of_input(f, i), i, slip_force);
-    }
-    call.input = f->inputs > 0 ? values : NULL;
-    call.scalar = valid_value(f->scalar, 3, slip_force);
-    if (f->takes & TAKES_STATE) {
-        call.state = last(state_region, items_of(f) * STATE * sizeof(double));
-        fill_states(f);
-    }
-    if (f->takes & TAKES_WORKSPACE) {
-        const size_t length = workspace_length(f);
-        call.workspace = last(workspace_region, length * sizeof(double));
-        init_workspace(f, HARMONICS, SAMPLES, length, call.workspace);
-    }
-    call.table = f->takes & TAKES_TABLE ? last(table_region, mslip_stiffness_table_length() * sizeof(double)) : NULL;
-    fill_table(f);
-    for (int i = 0; i < OUTPUTS; ++i) {
-        call.out[i] = f->out[i] > 0 ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
+    for (const argument *a = f->argument; a->name != NULL; ++a) {
+        set_up_argument(f, a);
     }
 }
 
@@ -556,7 +687,7 @@ static inline int is_written(const function *f, int k, size_t skipped)
     const region *r = out_regions[k];
     const size_t length = f->out[k], bytes = length * sizeof(double), share = length / items_of(f);
     const double *values = last(r, bytes), *before = (const double *)(const void *)(r->before + r->bytes - bytes);
-    int holds = memcmp(r->start, r->before, r->bytes - bytes) == 0;
+    int holds = !r->in_use || memcmp(r->start, r->before, r->bytes - bytes) == 0;
     for (size_t i = 0; i < length; ++i) {
         const size_t item = i / share;
         const int is_used = k > 0 || i % share < written_state(f, &values[item * share]);
@@ -568,8 +699,9 @@ static inline int is_written(const function *f, int k, size_t skipped)
 /* The call succeeds and writes its outputs only, for all items but the skipped one. */
 static inline void accepted_except(const function *f, size_t skipped, const char *what)
 {
-    const region *const inputs[] = { contact_region, element_region, index_region, active_region, input_region, state_region,
-                                     table_region };
+    const region *const outputs[] = { workspace_region, f->takes & 1 << ARG_NEW_CONTACT ? contact_region : workspace_region,
+                                      f->takes & 1 << ARG_NEW_ELEMENT ? element_region : workspace_region,
+                                      f->takes & 1 << ARG_BUFFER ? table_region : workspace_region };
     int32_t status;
     int flags, holds;
     fill_outputs();
@@ -578,10 +710,14 @@ static inline void accepted_except(const function *f, size_t skipped, const char
     status = f->call();
     flags = raised();
     holds = status == MSLIP_OK && flags == 0;
-    for (size_t i = 0; i < LENGTH(inputs); ++i) {
-        holds &= is_unchanged(inputs[i]);
+    for (int i = 0; i < regions_made - OUTPUTS; ++i) { /* the outputs were made last */
+        int is_output = 0;
+        for (size_t k = 0; k < LENGTH(outputs); ++k) {
+            is_output |= &regions[i] == outputs[k];
+        }
+        holds &= is_output || is_unchanged(&regions[i]);
     }
-    for (int i = 0; i < OUTPUTS; ++i) {
+    for (int i = 0; i < OUTPUTS && !(f->takes & 1 << ARG_FOUND_SIZE); ++i) {
         holds &= is_written(f, i, skipped);
     }
     if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {

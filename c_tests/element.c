@@ -40,6 +40,7 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
     if (isnan(v[A])) {
         mslip_elliptic_parameters p;
         const double scale = normal_force > 0.0 ? cbrt(normal_force / v[N_REF]) : 1.0;
+        mslip_elliptic_parameters_default(&p);
         p.semi_axis_x = scale * v[SEMI_X];
         p.semi_axis_y = scale * v[SEMI_Y];
         p.normal_force = normal_force > 0.0 ? normal_force : v[N_REF];
@@ -183,7 +184,7 @@ static void replay(const history *h, int32_t normal_input, double factor, tolera
     static mslip_element element, at_largest;
     static results r;
     const double mu = h->row[0][MU], slip_force = mu * h->largest_force;
-    const int by_force = normal_input == MSLIP_NORMAL_FORCE;
+    const int by_force = normal_input == MSLIP_INPUT_NORMAL_FORCE;
     init_from_row(h->row[0], mu, factor * h->largest_force, normal_input, &element);
     init_from_row(h->row[0], mu, h->largest_force, normal_input, &at_largest);
     for (int i = 0; i < h->steps; ++i) {
@@ -215,7 +216,7 @@ static void replay(const history *h, int32_t normal_input, double factor, tolera
 
 static void replay_all_ways(const history *h)
 {
-    const int32_t given = h->by_force ? MSLIP_NORMAL_FORCE : MSLIP_APPROACH;
+    const int32_t given = h->by_force ? MSLIP_INPUT_NORMAL_FORCE : MSLIP_INPUT_APPROACH;
     replay(h, given, 1.0, tight);
     /* Tables for a million times this load, or as large as the length allows, and for a thousandth. */
     replay(h, given, 1e6, tight);
@@ -223,7 +224,7 @@ static void replay_all_ways(const history *h)
     if (!h->opens) {
         /* The other input is rounded. */
         const tolerances rounded = { 1e-13, 1e-13, 1e-12, 1e-11 };
-        replay(h, h->by_force ? MSLIP_APPROACH : MSLIP_NORMAL_FORCE, 1.0, rounded);
+        replay(h, h->by_force ? MSLIP_INPUT_APPROACH : MSLIP_INPUT_NORMAL_FORCE, 1.0, rounded);
     }
 }
 
@@ -289,7 +290,7 @@ static void init_kind_of(int kind, double friction_coefficient, int32_t directio
 {
     static const double flats[] = { 0.0, 6e-5, 5e-4 };
     if (kind == SPHERE) {
-        const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } } };
+        const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } }, 0, 0 };
         CHECK(mslip_element_init_elliptic(&p, directions, normal_input, element) == MSLIP_OK);
     } else {
         mslip_parameters p;
@@ -325,7 +326,7 @@ static void test_separation(void)
     static const double vanishing[] = { 0.0, -0.0, 5e-324, 1e-310, 1e-300, 1e-150, 1e-70, 1e-55 };
     double state[STATE], fresh[STATE], force[2], expected[2], energy, total;
     for (int kind = 0; kind < KINDS; ++kind) {
-        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+        for (int input = MSLIP_INPUT_APPROACH; input <= MSLIP_INPUT_NORMAL_FORCE; ++input) {
             init_kind(kind, 0.5, input, &element);
             const double unit = 400.0 / element.tangential_stiffness, whole = input ? 800.0 : element.approach;
             for (size_t k = 0; k < sizeof vanishing / sizeof *vanishing; ++k) {
@@ -356,7 +357,7 @@ static void test_separation(void)
             }
         }
         /* Open from w = w0 to w = -w0: the path is at no load half-way. */
-        init_kind(kind, 0.5, MSLIP_APPROACH, &element);
+        init_kind(kind, 0.5, MSLIP_INPUT_APPROACH, &element);
         const double w = element.approach, u = 0.2 * 400.0 / element.tangential_stiffness;
         init_state(STATE, state);
         CHECK(advance(&element, state, u, -w, force, &energy) == MSLIP_OK);
@@ -386,9 +387,9 @@ static void test_largest_load(void)
         p.flat_half_width = 5e-4 * flat;
         while (high - low > 1e-13 * high) {
             p.normal_force = 0.5 * (low + high);
-            *(mslip_element_init(&p, 1, MSLIP_NORMAL_FORCE, &elements[0]) == MSLIP_OK ? &low : &high) = p.normal_force;
+            *(mslip_element_init(&p, 1, MSLIP_INPUT_NORMAL_FORCE, &elements[0]) == MSLIP_OK ? &low : &high) = p.normal_force;
         }
-        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+        for (int input = MSLIP_INPUT_APPROACH; input <= MSLIP_INPUT_NORMAL_FORCE; ++input) {
             for (int k = 0; k < 2; ++k) {
                 p.normal_force = low * (k ? 1e-3 : 1.0);
                 CHECK(mslip_element_init(&p, 1, input, &elements[k]) == MSLIP_OK);
@@ -414,7 +415,7 @@ static void test_frictionless(void)
     static mslip_element element;
     for (int kind = 0; kind < KINDS; ++kind) {
         double state[STATE], force[2], tangent[4], energy, normal[2];
-        init_kind(kind, 0.0, MSLIP_APPROACH, &element);
+        init_kind(kind, 0.0, MSLIP_INPUT_APPROACH, &element);
         init_state(STATE, state);
         for (int i = 0; i < 10; ++i) {
             const double step[2] = { (i % 3 - 1) * 1e-7, element.approach * (0.3 * (i % 5) - 0.2) };
@@ -435,7 +436,7 @@ static void test_merged_pieces(void)
     CHECK(mslip_element_state_length(1, PIECES) == STATE && mslip_element_state_length(1, 4) == least);
     for (int kind = 0; kind < KINDS; ++kind) {
         double state[STATE], shortest[STATE], force[2], merged[2], error = 0.0, none;
-        init_kind(kind, 0.5, MSLIP_NORMAL_FORCE, &element);
+        init_kind(kind, 0.5, MSLIP_INPUT_NORMAL_FORCE, &element);
         const double unit = 400.0 / element.tangential_stiffness;
         init_state(STATE, state);
         init_state(least, shortest);
@@ -484,7 +485,7 @@ static void test_two_directions(void)
     const size_t length = mslip_element_state_length(2, 0);
     CHECK(length > 0 && length <= LONGEST && mslip_element_state_length(2, 1000) == length);
     for (int kind = 0; kind < KINDS; ++kind) {
-        for (int input = MSLIP_APPROACH; input <= MSLIP_NORMAL_FORCE; ++input) {
+        for (int input = MSLIP_INPUT_APPROACH; input <= MSLIP_INPUT_NORMAL_FORCE; ++input) {
             double path[STEPS_OF_TWO][3], forces[STEPS_OF_TWO][3], tangents[STEPS_OF_TWO][9], energies[STEPS_OF_TWO];
             double all_forces[STEPS_OF_TWO][3], all_tangents[STEPS_OF_TWO][9], all_energies[STEPS_OF_TWO];
             init_kind_of(kind, 0.5, 2, input, &element);
@@ -497,7 +498,7 @@ static void test_two_directions(void)
                 const double *s = steps_of_two[i], unit = 400.0 / element.tangential_stiffness;
                 path[i][0] = unit * s[0];
                 path[i][1] = unit * s[1];
-                path[i][2] = s[2] * (input == MSLIP_NORMAL_FORCE ? 800.0 : element.approach);
+                path[i][2] = s[2] * (input == MSLIP_INPUT_NORMAL_FORCE ? 800.0 : element.approach);
                 /* The state is discarded; with a new state; in place, with all outputs and with none. */
                 CHECK(mslip_element_update(&element, length, state, path[i], NULL, force, tangent, &energy) == MSLIP_OK);
                 memcpy(states, state, sizeof state);
@@ -510,7 +511,7 @@ static void test_two_directions(void)
                 CHECK(mslip_element_update(&element, length, states, path[i], states, NULL, tangent, NULL) == MSLIP_OK);
                 CHECK(same(states, other, length) && same(tangent, tangents[i], 9));
                 CHECK(hypot(force[0], force[1]) <= 0.5 * force[2] * (1.0 + 1e-12) && energy >= 0.0 && isfinite(energy));
-                if (input == MSLIP_APPROACH) {
+                if (input == MSLIP_INPUT_APPROACH) {
                     CHECK(mslip_normal_force(&element, 1, &path[i][2], &normal[0], &normal[1], NULL) == MSLIP_OK);
                 } else {
                     normal[0] = path[i][2];
@@ -563,7 +564,7 @@ static void test_tractions(void)
         static const double steps[][2] = { { 0.1, 0.4 }, { 0.3, 0.9 }, { 0.7, 0.8 }, { 0.5, 1.1 }, { -0.2, 0.9 }, { 0.3, 1.0 } };
         double state[STATE], force[2], sum[2] = { 0.0, 0.0 };
         int holds = 1;
-        init_kind(kind, 0.5, MSLIP_NORMAL_FORCE, &element);
+        init_kind(kind, 0.5, MSLIP_INPUT_NORMAL_FORCE, &element);
         init_state(STATE, state);
         for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
             const double u = steps[i][0] * 400.0 / element.tangential_stiffness;

@@ -272,16 +272,17 @@ static void reject(int environment)
             set_up(f);
             const size_t place = last_value && f->inputs > 0 ? f->inputs - 1 : 0;
             double *number = f->scalar != NONE && !last_value ? &call.scalar : INPUT + place;
-            const int kind = f->scalar != NONE && !last_value ? f->scalar : kind_of_input(f, place);
+            const int is_scalar = f->scalar != NONE && !last_value, kind = is_scalar ? f->scalar : kind_of_input(f, place);
+            const int32_t status = is_scalar ? argument_of(f, ARG_VALUE)->status : status_of_input(f, place);
             for (int k = 0; kind != NONE && k < NON_FINITE; ++k) {
                 memcpy(number, &non_finite[k], sizeof *number);
                 feclearexcept(FE_ALL_EXCEPT);
-                CHECK(f->call() == status_of_non_finite(kind));
+                CHECK(f->call() == status);
                 check_environment(environment, f->name, control);
             }
             if (kind == AMPLITUDE || kind == FORCE_AMPLITUDE || kind == NORMAL_FORCE) {
                 memcpy(number, &least_negative, sizeof *number);
-                CHECK(f->call() == status_of_non_finite(kind));
+                CHECK(f->call() == status);
                 check_environment(environment, f->name, control);
             }
         }
@@ -408,7 +409,7 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
                 for (size_t k = 0; k < f->inputs; ++k) {
                     const int kind = kind_of_input(f, k);
                     const int alternates = f->kind == DISPLACEMENT && (f->takes & IS_ELEMENT ? k / components_of(f) : k) % 2 == 1;
-                    INPUT[k] = kind == POSITION ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
+                    INPUT[k] = kind == X ? contact.half_width * amplitudes[a] : alternates ? -0.6 * value : value;
                     if (kind >= APPROACH) {
                         /* Up to the load of the parameters. */
                         const int by_force = kind == NORMAL_FORCE || kind == FORCE_COEFFICIENT;

@@ -133,7 +133,7 @@ static void shorten(int32_t directions)
         line.length = sqrt(low) * sqrt(high);
         line.normal_force = load * line.length;
         const int is_long = directions == 0 ? mslip_contact_init(&line, &contact) == MSLIP_OK
-                                            : mslip_element_init(&line, directions, MSLIP_APPROACH, elements) == MSLIP_OK;
+                                            : mslip_element_init(&line, directions, MSLIP_INPUT_APPROACH, elements) == MSLIP_OK;
         *(is_long ? &high : &low) = line.length;
     }
     line.length = high * (1.0 + (one_in(2) ? uniform(0.0, 4.0) : log_uniform(1e-16, 1.0)));
@@ -217,7 +217,7 @@ static double value_of(const function *f, const mslip_element *element, size_t i
                                         : element->friction_coefficient * element->normal_force / element->tangential_stiffness;
     const double far = one_in(16) ? log_uniform(1.0, 1e100) : uniform(0.0, 3.0);
     switch (kind) {
-        case POSITION: return sign() * 1.1 * share() * (element == NULL ? contact.half_width : element->half_width);
+        case X: return sign() * 1.1 * share() * (element == NULL ? contact.half_width : element->half_width);
         case FORCE: return sign() * share() * contact.slip_force;
         case FORCE_AMPLITUDE: return share() * contact.slip_force;
         case DISPLACEMENT: return fmax(-1e150, fmin(sign() * share() * far * slip, 1e150));
@@ -234,7 +234,7 @@ static double value_of(const function *f, const mslip_element *element, size_t i
     }
 }
 
-static size_t accepted_calls[FUNCTIONS];
+static size_t accepted_calls[LENGTH(functions)];
 
 /* A history of calls; each continues from the states of the one before. */
 static void make_calls(int which)
@@ -290,7 +290,7 @@ static void check_smallest(void)
     for (int variant = 0; variant < VARIANTS; ++variant) {
         const mslip_element *element = element_of(CYLINDER, variant);
         const int32_t directions = directions_of(variant);
-        const double whole = normal_input_of(variant) == MSLIP_APPROACH ? element->approach : element->normal_force;
+        const double whole = normal_input_of(variant) == MSLIP_INPUT_APPROACH ? element->approach : element->normal_force;
         const double smallest = whole * (directions == 1 ? 0x1p-150 : 0x1p-80), inputs[] = { smallest, smallest * (1.0 + 1e-15) };
         for (int closed = 0; closed < 2; ++closed) {
             double state[STATE], force[COMPONENTS], displacement[COMPONENTS] = { 0.0, inputs[closed], inputs[closed] };

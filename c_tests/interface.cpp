@@ -89,7 +89,7 @@ std::vector<double> results_of(const mslip_contact &contact, double *workspace)
 std::vector<double> element_workspace(std::int32_t directions)
 {
     std::vector<double> values(mslip_element_workspace_length(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING));
-    accept(mslip_element_workspace_init(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING, values.size(), values.data()));
+    accept(mslip_element_workspace_init(directions, harmonics, samples, MSLIP_UNIFORM_SAMPLING, 0, values.size(), values.data()));
     return values;
 }
 
@@ -119,7 +119,7 @@ std::vector<double> results_of(const mslip_element &element, ElementWorkspaces &
     accept(mslip_element_path(&element, state.size(), state.data(), steps, path.data(), state.data(), results.data(), tangent,
                               energy));
     accept(mslip_element_harmonic_force(&element, workspaces.values[m - 2].data(), displacement.data(), force, jacobian,
-                                        jacobian + all * all));
+                                        jacobian + all * all, nullptr));
     results.insert(results.end(), state.begin(), state.end());
     return results;
 }
@@ -142,7 +142,7 @@ void test_threads()
         const mslip_parameters p = parameters_of(i);
         shared.push_back(initialised(i));
         alone.push_back(results_of(shared.back(), workspace.data()));
-        accept(mslip_element_init(&p, 1 + static_cast<std::int32_t>(i % 2), MSLIP_APPROACH, &elements[i]));
+        accept(mslip_element_init(&p, 1 + static_cast<std::int32_t>(i % 2), MSLIP_INPUT_APPROACH, &elements[i]));
         elements_alone.push_back(results_of(elements[i], of_elements));
     }
     std::vector<std::thread> pool;
@@ -173,7 +173,7 @@ void test_rejection()
     CHECK(mslip_contact_init(&p, &contact) == MSLIP_BAD_FLAT_HALF_WIDTH);
     CHECK(mslip_contact_init(nullptr, &contact) == MSLIP_NULL_POINTER);
     mslip_element element;
-    CHECK(mslip_element_init(&p, 1, MSLIP_APPROACH, &element) == MSLIP_BAD_FLAT_HALF_WIDTH);
+    CHECK(mslip_element_init(&p, 1, MSLIP_INPUT_APPROACH, &element) == MSLIP_BAD_FLAT_HALF_WIDTH);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ OFFSET(mslip_parameters, normal_force, 24);
 OFFSET(mslip_parameters, friction_coefficient, 32);
 OFFSET(mslip_parameters, material, 40);
 OFFSET(mslip_parameters, displacement_reference, 72);
-OFFSET(mslip_parameters, reserved, 76);
+OFFSET(mslip_parameters, springs, 76);
 SIZE(mslip_parameters, 80);
 
 OFFSET(mslip_elliptic_parameters, semi_axis_x, 0);
@@ -28,7 +28,9 @@ OFFSET(mslip_elliptic_parameters, semi_axis_y, 8);
 OFFSET(mslip_elliptic_parameters, normal_force, 16);
 OFFSET(mslip_elliptic_parameters, friction_coefficient, 24);
 OFFSET(mslip_elliptic_parameters, material, 32);
-SIZE(mslip_elliptic_parameters, 64);
+OFFSET(mslip_elliptic_parameters, springs, 64);
+OFFSET(mslip_elliptic_parameters, reserved, 68);
+SIZE(mslip_elliptic_parameters, 72);
 
 OFFSET(mslip_contact, composite_modulus, 0);
 OFFSET(mslip_contact, half_width, 8);
@@ -51,7 +53,7 @@ OFFSET(mslip_element, normal_input, 60);
 OFFSET(mslip_element, reserved, 64);
 AT_COMPILE_TIME(mslip_element_directions_size, sizeof(((mslip_element *)0)->directions) == 4);
 AT_COMPILE_TIME(mslip_element_normal_input_size, sizeof(((mslip_element *)0)->normal_input) == 4);
-SIZE(mslip_element, 44328);
+SIZE(mslip_element, 44336);
 
 /* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)
@@ -76,7 +78,8 @@ int main(int argc, char **argv)
 
     mslip_parameters_default(&memory.parameters);
     mslip_elliptic_parameters_default(&memory.elliptic);
-    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT && memory.parameters.reserved == 0);
+    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT && memory.parameters.springs == 0);
+    CHECK(memory.elliptic.springs == 0 && memory.elliptic.reserved == 0);
     memory.parameters.flat_half_width = 0.0;
     memory.parameters.edge_radius = 5e-3;
     memory.parameters.length = 2e-2;
@@ -90,13 +93,13 @@ int main(int argc, char **argv)
     CHECK_RELATIVE(memory.contact.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.contact.slip_force, 50.0, 1e-15);
 
-    CHECK(mslip_element_init(&memory.parameters, 1, MSLIP_NORMAL_FORCE, &memory.element) == MSLIP_OK);
+    CHECK(mslip_element_init(&memory.parameters, 1, MSLIP_INPUT_NORMAL_FORCE, &memory.element) == MSLIP_OK);
     CHECK_RELATIVE(memory.element.composite_modulus, 2e11 / 1.5, 1e-15);
     CHECK_RELATIVE(memory.element.half_width, memory.contact.half_width, 1e-13);
     CHECK_RELATIVE(memory.element.tangential_stiffness, memory.contact.initial_stiffness, 1e-13);
     CHECK(memory.element.friction_coefficient == 0.5 && memory.element.normal_force == 100.0);
     CHECK(memory.element.approach > 0.0 && memory.element.normal_stiffness > memory.element.tangential_stiffness);
-    CHECK(memory.element.directions == 1 && memory.element.normal_input == MSLIP_NORMAL_FORCE);
+    CHECK(memory.element.directions == 1 && memory.element.normal_input == MSLIP_INPUT_NORMAL_FORCE);
 
     CHECK(memcmp(memory.before, guard, sizeof guard) == 0 && memcmp(memory.between, guard, sizeof guard) == 0);
     CHECK(memcmp(memory.gap_before_element, guard, sizeof guard) == 0);

@@ -83,14 +83,14 @@
 #define mslip_element_tractions(...) with_outputs_element_tractions(__VA_ARGS__, NULL, NULL)
 #define with_outputs_element_tractions(a, b, c, d, e, f, g, ...) \
     mslip_element_tractions(a, b, c, d, e, f, g)
-#define mslip_element_harmonic_force(...) with_outputs_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL)
-#define with_outputs_element_harmonic_force(a, b, c, d, e, f, ...) \
-    mslip_element_harmonic_force(a, b, c, d, e, f)
+#define mslip_element_harmonic_force(...) with_outputs_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL)
+#define with_outputs_element_harmonic_force(a, b, c, d, e, f, g, ...) \
+    mslip_element_harmonic_force(a, b, c, d, e, f, g)
 #define mslip_batch_element_update(...) with_outputs_batch_element_update(__VA_ARGS__, NULL, NULL, NULL)
 #define with_outputs_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l, ...) \
     mslip_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l)
-#define mslip_batch_element_harmonic_force(...) with_outputs_batch_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL)
-#define with_outputs_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, ...) \
-    mslip_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j)
+#define mslip_batch_element_harmonic_force(...) with_outputs_batch_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k, ...) \
+    mslip_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k)
 
 #endif

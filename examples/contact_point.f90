@@ -5,7 +5,7 @@
 !
 ! State variables, for m = directions + 1 components of the displacement:
 !   1               energy dissipated so far [J]
-!   2 ... m+1       displacement of the last step: [u, w] or [u, v, w] [m]; the last is N [N] with MSLIP_NORMAL_FORCE
+!   2 ... m+1       displacement of the last step: [u, w] or [u, v, w] [m]; the last is N [N] with MSLIP_INPUT_NORMAL_FORCE
 !   m+2 ...         state of the library
 ! `contact_variables(directions)` of them are needed. All are 0 at the start of an analysis: then the state is initialised here.
 module contact_point

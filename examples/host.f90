@@ -180,7 +180,7 @@ contains
     law(1) = amplitude*cos(phase)
     if (m == 3) law(2) = 0.7_wp*amplitude*sin(phase)
     normal = min(1.0_wp, t/0.1_wp, (1 - t)/0.1_wp) - 0.3_wp
-    if (model%elements(point)%normal_input == MSLIP_APPROACH) then
+    if (model%elements(point)%normal_input == MSLIP_INPUT_APPROACH) then
       if (t > 0.6_wp .and. t < 0.7_wp) normal = normal - 2*sin(pi*(t - 0.6_wp)/0.1_wp)
       law(m) = model%elements(point)%approach*normal*(1 + 0.3_wp*sin(1.7_wp*phase)) - model%offset(m)
     else
@@ -249,7 +249,7 @@ contains
       do j = 1, h%n
         d = matmul(model%to_law(:, :, i), h%x(:, i, j)) + model%offset
         closing = j == 1
-        if (model%elements(i)%normal_input == MSLIP_NORMAL_FORCE) then
+        if (model%elements(i)%normal_input == MSLIP_INPUT_NORMAL_FORCE) then
           closing = .not. d_last > 0
           d_last = d(size(d))
           d(size(d)) = max(d_last, 0.0_wp)

@@ -17,8 +17,6 @@ module microslip
   !! is not computed. Sections with strides are allowed. But of an associate name, `associate (row => table(1, :))`,
   !! gfortran 12 may lose the stride: pass `table(1, :)` itself.
   !!
-  !! **Names** are those of C, except `mslip_normal_force_at`: Fortran ignores case, and `MSLIP_NORMAL_FORCE` is a constant.
-  !!
   !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states, workspaces
   !! and tables are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or
   !! an element are results; do not set them. Memory that comes from outside the process is validated in full by the
@@ -84,7 +82,7 @@ module microslip
   public :: mslip_element_init
   public :: mslip_element_init_elliptic
   public :: mslip_element_check
-  public :: mslip_normal_force_at
+  public :: mslip_normal_force
   public :: mslip_normal_approach
   public :: mslip_element_state_length
   public :: mslip_element_state_init
@@ -126,6 +124,7 @@ module microslip
     !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
+  integer(mslip_int), parameter, public :: MSLIP_BAD_SPRINGS = 14  !! springs must be 0, 8, 12 or 16
   integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
     !! invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
@@ -160,12 +159,15 @@ module microslip
     !! an index must refer to one of the n_contacts contacts or n_elements elements
   integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42
     !! directions must be 1 or 2, equal for all elements, states and workspaces of a call
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43  !! normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43
+    !! normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
+  integer(mslip_int), parameter, public :: MSLIP_BAD_PERIODS = 44
+    !! the number of periods before the one that counts must be at most 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
     !! array sizes do not agree (in Fortran), or an array is too long to be addressed
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
     !! misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
-  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 3
+  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 4
     !! Version of this interface: incremented whenever a name, a meaning or a size changes.
   integer(mslip_int), parameter, public :: MSLIP_CENTRE_POINT = 0
     !! Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
@@ -175,9 +177,9 @@ module microslip
     !! Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
   integer(mslip_int), parameter, public :: MSLIP_EVENT_DRIVEN = 1
     !! Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
-  integer(mslip_int), parameter, public :: MSLIP_APPROACH = 0
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_APPROACH = 0
     !! The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
-  integer(mslip_int), parameter, public :: MSLIP_NORMAL_FORCE = 1
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_NORMAL_FORCE = 1
     !! The normal component of a displacement is the normal force [N] itself.
   integer(mslip_int), parameter, public :: MSLIP_BY_NORMAL_FORCE = 1
     !! Row of a sensitivity: derivative with respect to the normal force N.
@@ -216,7 +218,8 @@ module microslip
     type(mslip_material) :: material(2)  !! The two bodies.
     integer(mslip_int) :: displacement_reference = MSLIP_CENTRE_POINT
       !! `MSLIP_CENTRE_POINT`, as in the paper, or `MSLIP_RIGID_STRIP`.
-    integer(mslip_int) :: reserved = 0  !! Leave 0.
+    integer(mslip_int) :: springs = 0
+      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
   end type mslip_parameters
 
   type, bind(c), public :: mslip_elliptic_parameters
@@ -227,6 +230,9 @@ module microslip
     real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact.
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
+    integer(mslip_int) :: springs = 0
+      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    integer(mslip_int) :: reserved = 0  !! Leave 0.
   end type mslip_elliptic_parameters
 
   ! The reserved components are public, because `write` rejects types with private ones.
@@ -256,8 +262,8 @@ module microslip
       !! dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
-    integer(mslip_int) :: normal_input = 0  !! MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
-    real(mslip_real) :: reserved(5533) = 0  !! Internal tables.
+    integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
+    real(mslip_real) :: reserved(2159) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -298,11 +304,11 @@ module microslip
     module procedure complex_stiffness_tabulated_array, complex_stiffness_tabulated_scalar
   end interface mslip_complex_stiffness_tabulated
 
-  interface mslip_normal_force_at
+  interface mslip_normal_force
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
-    module procedure normal_force_at_array, normal_force_at_scalar
-  end interface mslip_normal_force_at
+    module procedure normal_force_array, normal_force_scalar
+  end interface mslip_normal_force
 
   interface mslip_normal_approach
     !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
@@ -588,28 +594,28 @@ module microslip
       integer(c_size_t) :: c_element_workspace_length
     end function c_element_workspace_length
 
-    function c_element_workspace_init(directions, harmonics, samples, rule, workspace_length, workspace) &
+    function c_element_workspace_init(directions, harmonics, samples, rule, periods, workspace_length, workspace) &
       bind(c, name='mslip_element_workspace_init')
       import
       integer(c_int32_t), value :: directions, rule
-      integer(c_size_t), value :: harmonics, samples, workspace_length
+      integer(c_size_t), value :: harmonics, samples, periods, workspace_length
       type(c_ptr), value :: workspace
       integer(c_int32_t) :: c_element_workspace_init
     end function c_element_workspace_init
 
-    function c_element_workspace_size(workspace, directions, harmonics, samples, rule) &
+    function c_element_workspace_size(workspace, directions, harmonics, samples, rule, periods) &
       bind(c, name='mslip_element_workspace_size')
       import
       real(c_double), intent(in) :: workspace(*)
-      type(c_ptr), value :: directions, harmonics, samples, rule
+      type(c_ptr), value :: directions, harmonics, samples, rule, periods
       integer(c_int32_t) :: c_element_workspace_size
     end function c_element_workspace_size
 
-    function c_element_harmonic_force(element, workspace, displacement, force, jacobian, dissipated) &
+    function c_element_harmonic_force(element, workspace, displacement, force, jacobian, dissipated, drift) &
       bind(c, name='mslip_element_harmonic_force')
       import
       type(mslip_element), intent(in) :: element
-      type(c_ptr), value :: workspace, force, jacobian, dissipated
+      type(c_ptr), value :: workspace, force, jacobian, dissipated, drift
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_element_harmonic_force
     end function c_element_harmonic_force
@@ -779,11 +785,11 @@ module microslip
     end function c_batch_element_update
 
     function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, displacement, force, &
-      jacobian, dissipated) bind(c, name='mslip_batch_element_harmonic_force')
+      jacobian, dissipated, drift) bind(c, name='mslip_batch_element_harmonic_force')
       import
       integer(c_size_t), value :: n, n_elements
       type(mslip_element), intent(in) :: elements(*)
-      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated, drift
       real(c_double), intent(in) :: displacement(*)
       integer(c_int32_t) :: c_batch_element_harmonic_force
     end function c_batch_element_harmonic_force
@@ -823,14 +829,14 @@ contains
   ! Defaults, and sizes of workspaces
 
   subroutine mslip_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`.
+    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`, default springs.
     type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_parameters_default(parameters)
   end subroutine mslip_parameters_default
 
   subroutine mslip_elliptic_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name).
+    !! Every value unset (NaN, so that a forgotten one is rejected by name), default springs.
     type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_elliptic_parameters_default(parameters)
@@ -863,16 +869,17 @@ contains
     rule = its_rule
   end subroutine mslip_harmonic_workspace_size
 
-  subroutine mslip_element_workspace_size(workspace, directions, harmonics, samples, rule, status)
+  subroutine mslip_element_workspace_size(workspace, directions, harmonics, samples, rule, periods, status)
     !! The arguments with which a workspace of elements was initialised.
     real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
     integer(mslip_int), intent(inout) :: directions  !! Number of tangential directions.
     integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
     integer(mslip_size), intent(inout) :: samples  !! Samples per period.
     integer(mslip_int), intent(inout) :: rule  !! `MSLIP_UNIFORM_SAMPLING`.
+    integer(mslip_size), intent(inout) :: periods  !! Periods before the one that counts, > 0.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, `MSLIP_BAD_WORKSPACE` or `MSLIP_WORKSPACE_TOO_SHORT`.
 
-    integer(mslip_size), target :: sizes(2)
+    integer(mslip_size), target :: sizes(3)
     integer(mslip_int), target :: kinds(2)
     integer(mslip_size) :: n
 
@@ -881,7 +888,8 @@ contains
     ! C reads the header, which the shortest workspaces contain.
     if (n < min(c_element_workspace_length(1_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING), &
       c_element_workspace_length(2_mslip_int, 1_mslip_size, 3_mslip_size, MSLIP_UNIFORM_SAMPLING))) return
-    status = c_element_workspace_size(workspace, c_loc(kinds(1)), c_loc(sizes(1)), c_loc(sizes(2)), c_loc(kinds(2)))
+    status = c_element_workspace_size(workspace, c_loc(kinds(1)), c_loc(sizes(1)), c_loc(sizes(2)), c_loc(kinds(2)), &
+      c_loc(sizes(3)))
     if (status /= MSLIP_OK) return
     if (n < c_element_workspace_length(kinds(1), sizes(1), sizes(2), kinds(2))) then
       status = MSLIP_WORKSPACE_TOO_SHORT
@@ -891,6 +899,7 @@ contains
     harmonics = sizes(1)
     samples = sizes(2)
     rule = kinds(2)
+    periods = sizes(3)
   end subroutine mslip_element_workspace_size
 
   ! <generated: procedures>
@@ -1699,8 +1708,8 @@ contains
     !! Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is
     !! the largest force for which the element is tabulated; larger ones are exact, but slower, and with two directions
     !! less accurate. directions is the number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w],
-    !! a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_APPROACH, w is the normal approach [m], or
-    !! MSLIP_NORMAL_FORCE, w is the normal force [N].
+    !! a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_INPUT_APPROACH, w is the normal approach [m], or
+    !! MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
     !!
     !! In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80.
     !! With two directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a
@@ -1708,7 +1717,7 @@ contains
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
-      !! The normal component of a displacement: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+      !! The normal component of a displacement: `MSLIP_INPUT_APPROACH` or `MSLIP_INPUT_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
@@ -1725,7 +1734,7 @@ contains
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
-      !! The normal component of a displacement: `MSLIP_APPROACH` or `MSLIP_NORMAL_FORCE`.
+      !! The normal component of a displacement: `MSLIP_INPUT_APPROACH` or `MSLIP_INPUT_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
@@ -1743,7 +1752,7 @@ contains
     status = c_element_check(element)
   end subroutine mslip_element_check
 
-  subroutine normal_force_at_array(element, approach, status, normal_force, stiffness, half_width)
+  subroutine normal_force_array(element, approach, status, normal_force, stiffness, half_width)
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
     type(mslip_element), intent(in) :: element  !! An initialised element.
@@ -1765,9 +1774,9 @@ contains
     if (present(stiffness)) call check_array(stiffness, n, ptr(2), status)
     if (present(half_width)) call check_array(half_width, n, ptr(3), status)
     if (status == MSLIP_OK) status = c_normal_force(element, n, approach, ptr(1), ptr(2), ptr(3))
-  end subroutine normal_force_at_array
+  end subroutine normal_force_array
 
-  subroutine normal_force_at_scalar(element, approach, status, normal_force, stiffness, half_width)
+  subroutine normal_force_scalar(element, approach, status, normal_force, stiffness, half_width)
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
     type(mslip_element), intent(in) :: element  !! An initialised element.
@@ -1781,7 +1790,7 @@ contains
 
     status = c_normal_force(element, 1_mslip_size, [approach], address_of(normal_force), address_of(stiffness), &
       address_of(half_width))
-  end subroutine normal_force_at_scalar
+  end subroutine normal_force_scalar
 
   subroutine normal_approach_array(element, normal_force, status, approach, compliance, half_width)
     !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
@@ -2038,24 +2047,28 @@ contains
     length = max(c_element_workspace_length(directions, harmonics, samples, rule_or_default(rule)), 0_mslip_size)
   end function mslip_element_workspace_length
 
-  subroutine mslip_element_workspace_init(directions, harmonics, samples, workspace, status, rule)
+  subroutine mslip_element_workspace_init(directions, harmonics, samples, periods, workspace, status, rule)
     !! Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory.
-    !! Each thread needs its own.
+    !! Each thread needs its own. periods is the number of periods that are walked before the one that counts, at most
+    !! 65536; 0 is the default, 1. With one direction more than one changes nothing, and costs nothing.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
+    integer(mslip_size), intent(in) :: periods
+      !! Periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! The workspace, of at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, or MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN,
-      !! MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_WORKSPACE_TOO_SHORT.
+      !! MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_WORKSPACE_TOO_SHORT.
     integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING`, the default and the only one.
 
-    status = c_element_workspace_init(directions, harmonics, samples, rule_or_default(rule), size(workspace, &
-      kind=mslip_size), address_of(workspace))
+    status = c_element_workspace_init(directions, harmonics, samples, rule_or_default(rule), periods, &
+      size(workspace, kind=mslip_size), address_of(workspace))
   end subroutine mslip_element_workspace_init
 
-  subroutine mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, dissipated)
+  subroutine mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, dissipated, &
+    drift)
     !! Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold
     !! component after component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential
     !! direction m = 2 components, u [m] and w, T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N
@@ -2064,9 +2077,16 @@ contains
     !! one-sided at corners. dissipated [J] is the energy per period.
     !!
     !! Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such
-    !! sample) with no tangential displacement, is displaced to that sample at constant normal force, and advances
-    !! through two periods from there; the second one counts. The Jacobian is that for a fixed start. If w is constant,
-    !! any swing of it moves the start to another sample, and the mean tangential force may depend on the start.
+    !! sample) with no tangential displacement, is displaced to that sample at constant normal force, and advances from
+    !! there through the periods of the workspace and one more, which counts. The Jacobian is that for a fixed start. If
+    !! w is constant, any swing of it moves the start to another sample, and the mean tangential force may depend on the
+    !! start.
+    !!
+    !! With one direction the period that counts is the steady state. With two, a mean tangential force beside a
+    !! vibration across it is shaken out over many periods: drift is the largest difference of the tangential force
+    !! between the last period and the one before, over mu times the largest normal force; 0 with one direction, and for
+    !! a contact that opens, because it forgets. With the default number of periods the one before is the first, and the
+    !! drift contains the first loading. A drift is not an error.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -2081,6 +2101,9 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
       !! (k, k): Derivatives of the force coefficients with respect to the displacement coefficients.
     real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
+    real(mslip_real), intent(inout), optional, target :: drift
+      !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
+      !! force.
 
     integer(mslip_size) :: k
     type(c_ptr) :: ptr(2)
@@ -2092,7 +2115,7 @@ contains
     if (present(force)) call check_array(force, k, ptr(1), status)
     if (present(jacobian)) call check_array(jacobian, [k, k], ptr(2), status)
     if (status == MSLIP_OK) status = c_element_harmonic_force(element, address_of(workspace), displacement, ptr(1), &
-      ptr(2), address_of(dissipated))
+      ptr(2), address_of(dissipated), address_of(drift))
   end subroutine mslip_element_harmonic_force
 
   subroutine mslip_batch_element_update(elements, states_old, displacement, states_new, status, index, active, &
@@ -2184,10 +2207,10 @@ contains
   end subroutine mslip_batch_element_advance
 
   subroutine mslip_batch_element_harmonic_force(elements, workspace, displacement, status, index, active, force, &
-    jacobian, dissipated)
+    jacobian, dissipated, drift)
     !! mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one
     !! tangential direction, 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian
-    !! (m(2H+1))^2, dissipated one.
+    !! (m(2H+1))^2, dissipated and drift one.
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -2207,10 +2230,13 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
       !! (k, k, n): Derivatives of the force coefficients with respect to the displacement coefficients.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated per period [J].
+    real(mslip_real), intent(inout), optional, target, contiguous :: drift(:)
+      !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
+      !! force.
 
     integer(mslip_size) :: k, n
     integer(mslip_int), allocatable, target :: from_zero(:)
-    type(c_ptr) :: ptr(5)
+    type(c_ptr) :: ptr(6)
 
     call count_element_coefficients(workspace, k, status)
     if (status /= MSLIP_OK) return
@@ -2222,8 +2248,9 @@ contains
     if (present(force)) call check_array(force, [k, n], ptr(3), status)
     if (present(jacobian)) call check_array(jacobian, [k, k, n], ptr(4), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
+    if (present(drift)) call check_array(drift, n, ptr(6), status)
     if (status == MSLIP_OK) status = c_batch_element_harmonic_force(n, size(elements, kind=mslip_size), elements, &
-      ptr(1), ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
+      ptr(1), ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
   end subroutine mslip_batch_element_harmonic_force
   ! </generated>
 
@@ -2315,12 +2342,12 @@ contains
     integer(mslip_size), intent(out) :: m
     integer(mslip_int), intent(out) :: status
 
-    integer(mslip_size) :: samples
+    integer(mslip_size) :: samples, periods
     integer(mslip_int) :: directions, rule
 
     m = 0
     directions = 0
-    call mslip_element_workspace_size(workspace, directions, m, samples, rule, status)
+    call mslip_element_workspace_size(workspace, directions, m, samples, rule, periods, status)
     m = (directions + 1)*(2*m + 1)
   end subroutine count_element_coefficients
 

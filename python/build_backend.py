@@ -1,4 +1,4 @@
-"""The build backend: maturin's, which fetches a toolchain of Rust if there is none. Here the user is told what is missing."""
+"""The build backend: maturin's, which fetches a toolchain of Rust if it finds no other. Here the user is told what is missing."""
 
 import shutil
 import sys

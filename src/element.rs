@@ -171,6 +171,7 @@ impl Element {
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
         self.init(&flat.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
+        self.springs = springs_of(parameters.springs, directions);
         (self.shift_per_approach, self.shift_per_load) = (1.0, flat.shift_less_approach());
         (self.flat, self.ellipse) = (flat, HertzEllipse::EMPTY);
         Ok(())
@@ -202,6 +203,7 @@ impl Element {
         self.init(&ellipse.plane(), [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
+        self.springs = springs_of(parameters.springs, directions);
         (self.shift_per_approach, self.shift_per_load) = (ellipse.tangential_ratio(), 0.0);
         (self.flat, self.ellipse) = (RoundedFlat::EMPTY, ellipse);
         Ok(())
@@ -247,7 +249,6 @@ impl Element {
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
-        self.springs = if directions == Directions::Two { SPRINGS } else { 0 };
         self.key = key_of(&[
             normal_force,
             friction_coefficient,
@@ -682,6 +683,15 @@ const EMPTY: Element = Element {
     key: 0.0,
     springs: 0,
 };
+
+/// The number of springs of parameters that were checked.
+fn springs_of(requested: i32, directions: Directions) -> usize {
+    match (directions, requested) {
+        (Directions::One, _) => 0,
+        (Directions::Two, 0) => SPRINGS,
+        (Directions::Two, springs) => springs.unsigned_abs() as usize,
+    }
+}
 
 /// A number from 1 to 2 that depends on the bits of all values.
 fn key_of(values: &[f64]) -> f64 {

@@ -61,6 +61,7 @@ status_codes! {
     LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:
         "length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness";
     OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
+    BadSprings, MSLIP_BAD_SPRINGS = 14: "springs must be 0, 8, 12 or 16";
     BadContact, MSLIP_BAD_CONTACT = 20:
         "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
     BadState, MSLIP_BAD_STATE = 21:
@@ -91,7 +92,8 @@ status_codes! {
         "not available for this kind of contact; elements have uniform sampling only, and no tractions for two directions";
     BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2, equal for all elements, states and workspaces of a call";
-    BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_APPROACH or MSLIP_NORMAL_FORCE";
+    BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE";
+    BadPeriods, MSLIP_BAD_PERIODS = 44: "the number of periods before the one that counts must be at most 65536";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
         "array sizes do not agree (in Fortran), or an array is too long to be addressed";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";

@@ -2,8 +2,17 @@
 //!
 //! All functions check every input before they write: a rejected call leaves all outputs unchanged. Unsafe code
 //! is here, for the pointers of the caller, and once in `simd`.
+//!
+//! # Safety
+//! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what it
+//! stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
 
 #![allow(unsafe_code, non_camel_case_types)]
+#![allow(
+    clippy::missing_safety_doc,
+    unsafe_op_in_unsafe_fn,
+    reason = "one contract, above; other reasons stand at their blocks"
+)]
 
 mod pointers;
 
@@ -30,7 +39,7 @@ use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
-pub const MSLIP_ABI_VERSION: i32 = 3;
+pub const MSLIP_ABI_VERSION: i32 = 4;
 
 /// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 pub const MSLIP_CENTRE_POINT: i32 = 0;
@@ -43,9 +52,9 @@ pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
 pub const MSLIP_EVENT_DRIVEN: i32 = 1;
 
 /// The normal component of a displacement is the normal approach \[m\]; if it is not positive, the contact is open.
-pub const MSLIP_APPROACH: i32 = 0;
+pub const MSLIP_INPUT_APPROACH: i32 = 0;
 /// The normal component of a displacement is the normal force \[N\] itself.
-pub const MSLIP_NORMAL_FORCE: i32 = 1;
+pub const MSLIP_INPUT_NORMAL_FORCE: i32 = 1;
 
 /// Row of a sensitivity: derivative with respect to the normal force N.
 pub const MSLIP_BY_NORMAL_FORCE: i32 = 0;
@@ -105,7 +114,7 @@ pub struct mslip_element {
     pub tangential_stiffness: f64,
     /// Number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
     pub directions: i32,
-    /// MSLIP_APPROACH or MSLIP_NORMAL_FORCE.
+    /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
     pub reserved: [f64; 2159],
@@ -123,8 +132,9 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 80 && size_of::<EllipticParameters>() == 64);
+    assert!(size_of::<Parameters>() == 80 && size_of::<EllipticParameters>() == 72);
     assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, displacement_reference) == 72);
+    assert!(offset_of!(Parameters, springs) == 76 && offset_of!(EllipticParameters, springs) == 64);
     assert!(offset_of!(EllipticParameters, material) == 32);
 };
 

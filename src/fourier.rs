@@ -23,6 +23,9 @@ pub struct HarmonicOutput<'a> {
     pub jacobian: Option<&'a mut [f64]>,
     /// Energy dissipated per period \[J\].
     pub dissipated: Option<&'a mut f64>,
+    /// The largest difference of the tangential force between the last period and the one before, over mu times the largest normal
+    /// force; 0 but for two directions.
+    pub drift: Option<&'a mut f64>,
 }
 
 impl HarmonicOutput<'_> {

@@ -37,8 +37,8 @@ pub struct Parameters {
     pub material: [Material; 2],
     /// `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     pub displacement_reference: i32,
-    /// Not read; set to 0.
-    pub reserved: i32,
+    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    pub springs: i32,
 }
 
 /// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -55,9 +55,13 @@ pub struct EllipticParameters {
     pub friction_coefficient: f64,
     /// The two bodies.
     pub material: [Material; 2],
+    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    pub springs: i32,
+    /// Not read; set to 0.
+    pub reserved: i32,
 }
 
-/// Default of all parameters: NaN, so that an omitted parameter is rejected by its own error.
+/// Default of the numbers: NaN, so that an omitted parameter is rejected by its own error.
 const UNSET: f64 = f64::NAN;
 
 const UNSET_MATERIAL: Material = Material { young_modulus: UNSET, poisson_ratio: UNSET };
@@ -72,7 +76,7 @@ impl Default for Parameters {
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
             displacement_reference: CENTRE_POINT,
-            reserved: 0,
+            springs: 0,
         }
     }
 }
@@ -85,6 +89,8 @@ impl Default for EllipticParameters {
             normal_force: UNSET,
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
+            springs: 0,
+            reserved: 0,
         }
     }
 }
@@ -121,6 +127,10 @@ fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
     Ok(())
 }
 
+fn check_springs(springs: i32) -> Result<(), Error> {
+    if matches!(springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
+}
+
 impl Parameters {
     /// Checks the ranges of all parameters.
     ///
@@ -134,7 +144,7 @@ impl Parameters {
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         check_materials(&self.material)?;
         match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => Ok(()),
+            CENTRE_POINT | RIGID_STRIP => check_springs(self.springs),
             _ => Err(Error::BadDisplacementReference),
         }
     }
@@ -150,7 +160,8 @@ impl EllipticParameters {
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)
+        check_materials(&self.material)?;
+        check_springs(self.springs)
     }
 }
 
@@ -219,6 +230,24 @@ mod tests {
         assert_eq!(one.check(), Err(Error::BadDisplacementReference));
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
+        for springs in [0, 8, 12, 16] {
+            assert_eq!(Parameters { springs, ..steel() }.check(), Ok(()));
+        }
+        for springs in [-8, 1, 13, 24] {
+            assert_eq!(Parameters { springs, ..steel() }.check(), Err(Error::BadSprings));
+            let Parameters { normal_force, friction_coefficient, material, .. } = steel();
+            let ellipse = EllipticParameters {
+                semi_axis_x: 1e-4,
+                semi_axis_y: 1e-4,
+                normal_force,
+                friction_coefficient,
+                material,
+                springs,
+                reserved: 0,
+            };
+            assert_eq!(ellipse.check(), Err(Error::BadSprings));
+            assert_eq!(EllipticParameters { springs: 12, ..ellipse }.check(), Ok(()));
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
 
 /// Version of the layout of contacts, states, workspaces and tables.
-pub(crate) const LAYOUT: u64 = 3;
+pub(crate) const LAYOUT: u64 = 4;
 
 /// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +19,7 @@ pub(crate) enum Kind {
     StiffnessTable = 0x4d54,
     TwoDirectionsState = 0x4d58,
     TwoDirectionsSampling = 0x4d57,
+    Periods = 0x4d50,
 }
 
 const COUNT_BITS: u32 = 40;
@@ -47,7 +48,7 @@ impl Kind {
 mod tests {
     use super::*;
 
-    const KINDS: [Kind; 9] = [
+    const KINDS: [Kind; 10] = [
         Kind::State,
         Kind::ElementState,
         Kind::UniformSampling,
@@ -57,6 +58,7 @@ mod tests {
         Kind::StiffnessTable,
         Kind::TwoDirectionsState,
         Kind::TwoDirectionsSampling,
+        Kind::Periods,
     ];
 
     #[test]

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{step, unloaded};
+use common::{Random, step, unloaded};
 use microslip::constant_load::state::{state_check, state_error};
 use microslip::{Contact, EllipticParameters, Material, Parameters};
 use std::sync::Mutex;
@@ -41,6 +41,7 @@ fn contacts() -> [(&'static str, Contact); 4] {
         normal_force: 100.0,
         friction_coefficient: 0.5,
         material,
+        ..EllipticParameters::default()
     };
     let sphere = Contact::elliptic(&sphere).unwrap();
     [("cylinder", cylinder), ("flat", flat(2e-4, 0.02)), ("slim cylinder", slim), ("sphere", sphere)]
@@ -159,48 +160,34 @@ fn a_decaying_vibration() {
     }
 }
 
-/// Pseudorandom numbers from -1 to 1.
-struct Scattered(u64);
-
-impl Scattered {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn below(&mut self, bound: usize) -> usize {
-        ((0.5 + 0.5 * self.next()) * bound as f64) as usize
-    }
-}
-
 #[test]
 fn random_histories() {
     for (name, contact) in contacts() {
         let mut worst = f64::NEG_INFINITY;
         for seed in 0..3000 {
-            let mut scattered = Scattered(seed);
+            let mut random = Random(seed);
             let reversals: Vec<usize> = (2..=8).collect();
-            let steps = 20 + scattered.below(100);
+            let steps = 20 + random.below(100);
             let mut histories = Histories::new(&contact, steps, &reversals);
             // Nested, nearly nested, or any reversals; in some histories after gross slip.
             let (mut low, mut high) = (-1.0, 1.0);
-            if scattered.below(2) == 0 {
-                histories.advance(3.0 * scattered.next());
+            if random.below(2) == 0 {
+                histories.advance(3.0 * random.signed());
             }
-            let kind = scattered.below(3);
+            let kind = random.below(3);
             let mut displacement: f64 = 0.0;
             let mut path = Vec::new();
             for step in 0..steps {
-                let share = 0.5 + 0.5 * scattered.next();
+                let share = random.next();
                 let share = if kind == 1 { share.powi(4) } else { share };
                 let target = match kind {
-                    0 => scattered.next(),
+                    0 => random.signed(),
                     1 if step % 2 == 0 => high - share * (high - displacement).max(0.0),
                     1 => low + share * (displacement - low).max(0.0),
-                    _ => (displacement + 0.5 * scattered.next()).clamp(-1.0, 1.0),
+                    _ => (displacement + 0.5 * random.signed()).clamp(-1.0, 1.0),
                 };
                 (low, high) = if step % 2 == 0 { (low, target) } else { (target, high) };
-                if scattered.below(30) == 0 {
+                if random.below(30) == 0 {
                     (low, high) = (-1.0, 1.0);
                 }
                 displacement = target;

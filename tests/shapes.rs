@@ -38,8 +38,14 @@ fn normal_law_and_tangential_shift() {
             errors(&RoundedFlat::new(&parameters).unwrap(), &row)
         } else {
             let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
-            let parameters =
-                EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
+            let parameters = EllipticParameters {
+                semi_axis_x,
+                semi_axis_y,
+                normal_force,
+                friction_coefficient,
+                material,
+                ..EllipticParameters::default()
+            };
             errors(&HertzEllipse::new(&parameters).unwrap(), &row)
         };
         // A dozen roundings each; a force from its approach has up to 3/2 of the relative error of that.

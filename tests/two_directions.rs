@@ -1,14 +1,17 @@
-//! The law for two tangential directions: judged paths, motion on a line, symmetries, energy, restart, tangents.
+//! The law for two tangential directions: motion on a line, symmetries, energy, restart, tangents. `verification/validation` compares
+//! it with boundary elements.
 
-#[path = "golden/table.rs"]
-mod table;
+mod common;
 
+use common::Random;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Material, Parameters};
-use microslip::two_directions::{PathOutput, Step, advance, path, state_check, state_init, state_length};
+use microslip::two_directions::harmonic_force::{
+    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+};
+use microslip::two_directions::{Step, advance, state_check, state_init, state_length};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use table::{Row, geometry, table};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
@@ -21,7 +24,7 @@ fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Ele
         friction_coefficient: 0.4,
         material: [STEEL; 2],
         displacement_reference: CENTRE_POINT,
-        reserved: 0,
+        springs: 0,
     };
     Element::rounded_flat(&parameters, directions, input).unwrap()
 }
@@ -37,6 +40,7 @@ fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input:
         normal_force: 1000.0,
         friction_coefficient: 0.4,
         material: [STEEL; 2],
+        ..EllipticParameters::default()
     };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
@@ -73,15 +77,6 @@ impl Contact<'_> {
 
     fn trial(&self, displacement: [f64; 3]) -> Step {
         advance(self.element, &mut self.state.clone(), displacement).unwrap()
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 
@@ -183,39 +178,6 @@ fn history(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]
 /// The largest difference of tangential forces \[N\].
 fn apart(one: &Step, two: &Step) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
-}
-
-#[test]
-fn judged_paths_are_reproduced() {
-    let rows = table("two_directions");
-    let same = |one: &Row, two: &Row| one.text("path") == two.text("path") && one["a"] == two["a"];
-    for path in rows.chunk_by(same) {
-        let first = &path[0];
-        let largest = path.iter().map(|row| row["N"]).fold(0.0, f64::max);
-        let parameters = Parameters {
-            normal_force: largest,
-            friction_coefficient: first["mu"],
-            material: [Material { young_modulus: first["E"], poisson_ratio: first["nu"] }; 2],
-            ..geometry(first)
-        };
-        let element = Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap();
-        let mut contact = Contact::new(&element);
-        contact.to([first["u"], first["v"], 0.0]);
-        let (mut worst, mut loss, mut expected) = (0.0f64, 0.0, 0.0);
-        for row in path {
-            let step = contact.to([row["u"], row["v"], row["N"]]);
-            worst = worst.max((step.force[0] - row["Tx"]).hypot(step.force[1] - row["Ty"]) / slip_force(&element));
-            (loss, expected) = (loss + step.dissipated, expected + row["dissipated"]);
-        }
-        println!(
-            "a {} {}: force {worst:.4}, loss {:+.1} %",
-            first["a"],
-            first.text("path"),
-            100.0 * (loss / expected - 1.0)
-        );
-        // The error of the law with its few points of slip, most of it in steps of 15 degrees at full sliding; that of the judge is 0.1 %.
-        assert!(worst <= 0.012 && (loss / expected - 1.0).abs() <= 0.06);
-    }
 }
 
 /// Error of the bank of fine springs over mu N, up to the normal force of the parameters and beyond, with longer secants: 1.4e-4 and 2.8e-4
@@ -333,6 +295,7 @@ fn mirror_images_and_other_units_give_the_same_bits() {
             normal_force: 1000.0 * newton,
             friction_coefficient: 0.4,
             material,
+            ..EllipticParameters::default()
         };
         let (element, scaled) = (
             ellipse_of(1e-3, 3e-3, Directions::Two, input),
@@ -389,8 +352,11 @@ fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] 
     contact.to([period[0], period[1], 0.0]);
     let (mut force, mut dissipated) = (vec![0.0; 3 * n + 3], vec![0.0; n + 1]);
     for _ in 0..20 {
-        let output = PathOutput { force: Some(&mut force), tangent: None, dissipated: Some(&mut dissipated) };
-        path(element, &mut contact.state, &period, output).unwrap();
+        for (k, displacement) in period.as_chunks().0.iter().enumerate() {
+            let step = contact.to(*displacement);
+            force[3 * k..][..3].copy_from_slice(&step.force);
+            dissipated[k] = step.dissipated;
+        }
     }
     let chord = |k: usize| (0..2).map(move |i| [3 * k + i, 3 * k + 3 + i]);
     let work: f64 = (0..n).flat_map(chord).map(|[i, j]| 0.5 * (force[i] + force[j]) * (period[j] - period[i])).sum();
@@ -430,7 +396,7 @@ fn sticking_steps_divide_and_separation_erases() {
             parts.to([0.5995 * unit, 0.1995 * unit, full]);
             let (one, two) =
                 (whole.to([0.599 * unit, 0.199 * unit, full]), parts.to([0.599 * unit, 0.199 * unit, full]));
-            // Only the first of both terms of the difference is a rounding error; in the energy there is none.
+            // Only the first of both terms of the difference is a rounding error; the energy has no such term.
             assert!(apart(&one, &two) < 1e-14 * slip_force(element) && one.dissipated == 0.0, "{one:?} {two:?}");
             // Open, by exactly 0, and closed again at the same place: the force is that of a new contact.
             let (mut old, mut new) = (prepared(), Contact::new(element));
@@ -441,6 +407,154 @@ fn sticking_steps_divide_and_separation_erases() {
             }
             assert!(old.state.iter().zip(&new.state).all(|(one, two)| one == two));
             assert_eq!(old.to([0.4 * unit, -0.1 * unit, full]), new.to([0.4 * unit, -0.1 * unit, full]));
+        }
+    }
+}
+
+const HARMONICS: usize = 1;
+const SAMPLES: usize = 32;
+/// Of one component, and of all.
+const ROW: usize = 2 * HARMONICS + 1;
+const COEFFICIENTS: usize = 3 * ROW;
+
+struct Harmonic {
+    force: [f64; COEFFICIENTS],
+    jacobian: [f64; COEFFICIENTS * COEFFICIENTS],
+    dissipated: f64,
+    drift: f64,
+}
+
+fn harmonic(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Harmonic {
+    let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
+    workspace_init(HARMONICS, SAMPLES, periods, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    let mut result = Harmonic {
+        force: [f64::NAN; COEFFICIENTS],
+        jacobian: [f64::NAN; COEFFICIENTS * COEFFICIENTS],
+        dissipated: f64::NAN,
+        drift: f64::NAN,
+    };
+    let output = HarmonicOutput {
+        force: Some(&mut result.force),
+        jacobian: Some(&mut result.jacobian),
+        dissipated: Some(&mut result.dissipated),
+        drift: Some(&mut result.drift),
+    };
+    harmonic_force(element, &mut workspace, motion, output).unwrap();
+    result
+}
+
+fn by_approach_and_force() -> Vec<Element> {
+    vec![flat(1e-4, NormalInput::Approach, Directions::Two), ellipse(3.0)]
+}
+
+/// A mean displacement along x beside a vibration across it, under a normal input that swings about 0.7 of that of the tables.
+fn shaken(element: &Element, swing: f64) -> [f64; COEFFICIENTS] {
+    let (u, normal) = (unit(element), |share: f64| normal_input(element, share));
+    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(0.7), normal(0.7 + swing) - normal(0.7), 0.0]
+}
+
+/// The forces at the samples of a motion, by steps: those of the last period and of the one before.
+fn walked(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> [Vec<[f64; 3]>; 2] {
+    let at = |sample: usize| {
+        let (sin, cos) = (TAU * sample as f64 / SAMPLES as f64).sin_cos();
+        [0, 1, 2].map(|c| motion[c * ROW] + motion[c * ROW + 1] * cos + motion[c * ROW + 2] * sin)
+    };
+    let first = (0..SAMPLES).fold(0, |first, sample| if at(sample)[2] > at(first)[2] { sample } else { first });
+    let mut contact = Contact::new(element);
+    contact.to([0.0, 0.0, at(first)[2]]);
+    contact.to(at(first));
+    let mut forces = [vec![[0.0; 3]; SAMPLES], vec![[0.0; 3]; SAMPLES]];
+    for _ in 0..=periods {
+        forces.swap(0, 1);
+        for sample in (first + 1..=first + SAMPLES).map(|sample| sample % SAMPLES) {
+            forces[0][sample] = contact.to(at(sample)).force;
+        }
+    }
+    forces
+}
+
+#[test]
+fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
+    for element in by_approach_and_force() {
+        for swing in [0.0, 0.25] {
+            let motion = shaken(&element, swing);
+            let mut before = f64::INFINITY;
+            for periods in [1, 2, 4, 8] {
+                let Harmonic { force, drift, .. } = harmonic(&element, periods, &motion);
+                let [last, other] = walked(&element, periods, &motion);
+                let slip_force = element.friction_coefficient * last.iter().fold(0.0, |n: f64, force| n.max(force[2]));
+                let apart = |one: &[f64; 3], two: &[f64; 3]| (one[0] - two[0]).hypot(one[1] - two[1]);
+                let expected =
+                    last.iter().zip(&other).map(|(one, two)| apart(one, two)).fold(0.0, f64::max) / slip_force;
+                // Steps in the same order: they differ by the roundings of the samples.
+                assert!((drift - expected).abs() < 1e-10, "{swing} {periods}: {drift:e} {expected:e}");
+                let mean = last.iter().map(|force| force[0]).sum::<f64>() / SAMPLES as f64;
+                assert!((force[0] - mean).abs() < 1e-10 * slip_force, "{swing} {periods}: {} {mean}", force[0]);
+                assert!(drift < 0.8 * before, "{swing} {periods}: {drift:e} after {before:e}");
+                before = drift;
+            }
+            let [by_default, one, many] = [0, 1, 400].map(|periods| harmonic(&element, periods, &motion));
+            assert_eq!((by_default.force, by_default.dissipated), (one.force, one.dissipated));
+            // Constant normal force: that much of the energy is the shaking out.
+            let excess = one.dissipated / many.dissipated - 1.0;
+            assert!(many.drift < 1e-4 && (swing > 0.0 || excess > 0.5), "{:e} {excess}", many.drift);
+        }
+    }
+}
+
+#[test]
+fn nothing_drifts_on_a_line_or_after_separation() {
+    let element = ellipse(1.0);
+    let (u, full) = (unit(&element), element.normal_force);
+    let opening = [0.4 * u, 0.05 * u, 0.0, 0.0, 0.45 * u, 0.1 * u, 0.4 * full, 0.4 * full, 0.0];
+    let line = [0.4 * u, 0.05 * u, 0.4 * u, 0.0, 0.0, 0.0, 0.5 * full, 0.2 * full, 0.0];
+    for motion in [&opening, &line] {
+        let one = harmonic(&element, 1, motion);
+        for periods in [1, 2, 7] {
+            let more = harmonic(&element, periods, motion);
+            assert_eq!((more.drift, more.force, more.dissipated), (0.0, one.force, one.dissipated));
+            // The springs of a motion on a line, which give the stiffness across it, are those of the periods.
+            assert!(more.jacobian == one.jacobian || motion == &line);
+        }
+    }
+    // Alone, the drift is written too.
+    let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
+    workspace_init(HARMONICS, SAMPLES, 2, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    for motion in [&opening, &line] {
+        let mut drift = f64::NAN;
+        let output = HarmonicOutput { force: None, jacobian: None, dissipated: None, drift: Some(&mut drift) };
+        harmonic_force(&element, &mut workspace, motion, output).unwrap();
+        assert_eq!(drift, 0.0);
+    }
+    // By steps, the first period of the opening contact contains the first loading, all others are equal.
+    let [[one, before], [last, other]] = [1, 2].map(|periods| walked(&element, periods, &opening));
+    assert!(one != before && one == last && last == other);
+}
+
+#[test]
+fn jacobians_are_derivatives_after_any_number_of_periods() {
+    for element in by_approach_and_force() {
+        let (motion, slip_force) = (shaken(&element, 0.25), slip_force(&element));
+        for periods in [0, 1, 3, 10] {
+            let jacobian = harmonic(&element, periods, &motion).jacobian;
+            for j in 0..COEFFICIENTS {
+                let scale = if j < 2 * ROW { unit(&element) } else { normal_input(&element, 1.0) };
+                let moved = |h: f64| {
+                    let mut motion = motion;
+                    motion[j] += h;
+                    harmonic(&element, periods, &motion).force
+                };
+                let h = 1e-6 * scale;
+                let (high, low) = (moved(h), moved(-h));
+                for i in 0..COEFFICIENTS {
+                    let difference = (high[i] - low[i]) / (2.0 * h);
+                    // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-10 of the force.
+                    let error = (difference - jacobian[i + COEFFICIENTS * j]).abs() * scale / slip_force;
+                    assert!(error < 1e-6, "{periods} periods, entry {i} {j}: {error:e}");
+                }
+            }
         }
     }
 }

@@ -26,8 +26,6 @@ rust() {
     step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
     step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test bounded_memory
     step 'references of the interfaces' tools/docs.sh
-    step 'audit' tools/audit.sh
-    step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all
 }
 
 installed() {
@@ -44,6 +42,8 @@ installed() {
     step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1
     step 'uninstall leaves no file' uninstall
+    step 'audit' tools/audit.sh
+    step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all
 }
 
 step 'library: build, install, move' install_and_move

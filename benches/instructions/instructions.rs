@@ -237,7 +237,7 @@ fn element() -> &'static mslip_element {
     let mut element = Box::new(MaybeUninit::uninit());
     // SAFETY: valid pointers; the element is initialised if the status is MSLIP_OK.
     unsafe {
-        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_APPROACH, element.as_mut_ptr()), MSLIP_OK);
+        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
         Box::leak(element.assume_init())
     }
 }
@@ -338,9 +338,11 @@ fn element_harmonics(open: bool, requested: usize) -> Call {
     let u = motion.map(|u| u * e.approach);
     let [force, jacobian, dissipated] = outputs(requested);
     unsafe {
-        assert_eq!(mslip_element_workspace_init(1, HARMONICS, POINTS, UNIFORM, length, workspace), MSLIP_OK);
+        assert_eq!(mslip_element_workspace_init(1, HARMONICS, POINTS, UNIFORM, 0, length, workspace), MSLIP_OK);
     }
-    prepared(move || unsafe { mslip_element_harmonic_force(e, workspace, u.as_ptr(), force, jacobian, dissipated) })
+    prepared(move || unsafe {
+        mslip_element_harmonic_force(e, workspace, u.as_ptr(), force, jacobian, dissipated, std::ptr::null_mut())
+    })
 }
 
 const UNIFORM: i32 = MSLIP_UNIFORM_SAMPLING;

@@ -40,7 +40,7 @@ pub struct Axis {
 pub struct Line {
     /// Number of the stroke, which has the same meaning in all panels.
     pub stroke: usize,
-    /// Entry of the legend; empty if there is none, or if another panel has it.
+    /// Entry of the legend; empty for a line without an entry, or with one in another panel.
     pub name: String,
     /// The line is interrupted at points that are not finite.
     pub points: Vec<Point>,

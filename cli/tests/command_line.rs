@@ -42,7 +42,14 @@ fn flat_parameters() -> Parameters {
 fn elliptic_parameters() -> EllipticParameters {
     let material = [(200e3, 0.3); 2].map(material);
     let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
-    EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
+    EllipticParameters {
+        semi_axis_x,
+        semi_axis_y,
+        normal_force,
+        friction_coefficient,
+        material,
+        ..EllipticParameters::default()
+    }
 }
 
 fn flat() -> Contact {
@@ -312,17 +319,13 @@ fn histories_equal_those_of_the_library() {
 
 /// `[T, N]`, the stiffness and the dissipated energy of each step of a path.
 fn element_path(element: &Element, path: &[f64]) -> Vec<[f64; 4]> {
-    let n = path.len() / 2;
-    let mut state = vec![0.0; element_state::state_length(n)];
-    let (mut force, mut tangent, mut dissipated) = (vec![0.0; 2 * n], vec![0.0; 4 * n], vec![0.0; n]);
+    let mut state = vec![0.0; element_state::state_length(path.len() / 2)];
     element_state::state_init(&mut state).unwrap();
-    let output = element_state::PathOutput {
-        force: Some(&mut force),
-        tangent: Some(&mut tangent),
-        dissipated: Some(&mut dissipated),
+    let step = |displacement: &[f64; 2]| {
+        let step = element_state::advance(element, &mut state, *displacement, true).unwrap();
+        [step.force[0], step.force[1], step.tangent[0], step.dissipated]
     };
-    element_state::path(element, &mut state, path, output).unwrap();
-    (0..n).map(|i| [force[2 * i], force[2 * i + 1], tangent[4 * i], dissipated[i]]).collect()
+    path.as_chunks().0.iter().map(step).collect()
 }
 
 #[test]
@@ -651,6 +654,7 @@ fn the_command_in_a_result_repeats_it() {
             "history contact.toml --displacements two.csv --column u --approach-column 2 --relative",
             "history contact.toml --displacements two.csv --column u --column-y v --normal-force-column N",
             "history contact.toml --displacements two.csv --column u --column-y v --approach-column N --relative",
+            "history contact.toml --displacements two.csv --column u --column-y v --normal-force-column N --springs 16",
             "history contact.toml --displacements two.csv --column u --column-y 2",
             "normal contact.toml --points 5",
             "normal contact.toml --force 7",
@@ -702,6 +706,7 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("normal $FLAT --force 10,-2", "--force -2: ", Error::BadNormalForce, ""),
         ("normal $FLAT --approach nan", "--approach NaN: ", Error::BadDisplacement, ""),
         ("normal $FLAT --to 1", "--to 1: ", Error::LengthTooShort, ""),
+        ("contact $FLAT --springs 13", "", Error::BadSprings, ""),
         ("loop $FLAT --phase 0 --normal-amplitude -5%", "--normal-amplitude -7.5: ", Error::BadForceAmplitude, ""),
     ] {
         shell.check_error(&format!("microslip {arguments}"), 1, &format!("{before}{error}{after}"));

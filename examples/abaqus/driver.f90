@@ -199,7 +199,7 @@ program driver
 
   do directions = 1, 2
     call mslip_element_init(mslip_parameters(0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, mslip_material(1e9_wp, 0.3_wp)), directions, &
-      MSLIP_APPROACH, element, status)
+      MSLIP_INPUT_APPROACH, element, status)
     call check_status('directions', status, MSLIP_OK)
     call run(uel_model())
     call test_uel_flags()
@@ -236,7 +236,7 @@ contains
 
     model = new_model('UEL', 6, 6)
     do i = 1, points
-      model%elements(i) = element_of(constants_of(i), MSLIP_APPROACH)
+      model%elements(i) = element_of(constants_of(i), MSLIP_INPUT_APPROACH)
       model%to_law(:, :, i) = rows(i)
       model%from_law(:, :, i) = transpose(rows(i))
     end do
@@ -254,7 +254,7 @@ contains
     model = new_model('UINTER', directions + 1, 0)
     model%share = areas/area
     do i = 1, points
-      model%elements(i) = element_of(flat, MSLIP_APPROACH)
+      model%elements(i) = element_of(flat, MSLIP_INPUT_APPROACH)
       do j = 1, directions + 1
         model%to_law(j, 1 + modulo(j, directions + 1), i) = 1
       end do
@@ -273,7 +273,7 @@ contains
     model%share = areas/area
     model%called_if_open = .false.
     do i = 1, points
-      model%elements(i) = element_of(flat, MSLIP_NORMAL_FORCE)
+      model%elements(i) = element_of(flat, MSLIP_INPUT_NORMAL_FORCE)
       do j = 1, directions + 1
         model%to_law(j, j, i) = 1
         model%from_law(j, j, i) = model%share(i)
@@ -348,9 +348,9 @@ contains
 
     ! The first increment starts from the interference, not from an open contact.
     call call_uel(1, 0*x, x, 0*before, after, f, k, dissipated, ratio)
-    call check('UEL, first increment', norm2(f - matmul(transpose(rows(1)), two_steps(element_of(constants_of(1), MSLIP_APPROACH), &
-      [(0.0_wp, i=1, directions), interference], matmul(rows(1), x) + [(0.0_wp, i=1, directions), interference]))) <= &
-      1e-12_wp*norm2(f))
+    call check('UEL, first increment', norm2(f - matmul(transpose(rows(1)), &
+      two_steps(element_of(constants_of(1), MSLIP_INPUT_APPROACH), [(0.0_wp, i=1, directions), interference], &
+      matmul(rows(1), x) + [(0.0_wp, i=1, directions), interference]))) <= 1e-12_wp*norm2(f))
   end subroutine test_uel_flags
 
   !> The force of the library after two steps.
@@ -402,8 +402,8 @@ contains
       call call_uinter(i, x0, x, before, after, stress, k, dissipated, ratio)
       total = total + stress
     end do
-    associate (force => two_steps(element_of(flat, MSLIP_APPROACH), cshift(x0, 1) + [(0.0_wp, i=1, directions), interference], &
-        cshift(x, 1) + [(0.0_wp, i=1, directions), interference]))
+    associate (force => two_steps(element_of(flat, MSLIP_INPUT_APPROACH), &
+        cshift(x0, 1) + [(0.0_wp, i=1, directions), interference], cshift(x, 1) + [(0.0_wp, i=1, directions), interference]))
       call check('UINTER, first increment: sum over the points', norm2(cshift(total, 1) - force) <= 1e-14_wp*norm2(force))
     end associate
   end subroutine test_uinter
@@ -446,7 +446,7 @@ contains
     real(wp) :: force(directions + 1)
     integer :: i
 
-    force = two_steps(element_of(flat, MSLIP_NORMAL_FORCE), [(0.0_wp, i=1, directions), pressure*area], &
+    force = two_steps(element_of(flat, MSLIP_INPUT_NORMAL_FORCE), [(0.0_wp, i=1, directions), pressure*area], &
       [displacement, 2*pressure*area])
     call check(name, norm2(tau*area - force(:directions)) <= 1e-12_wp*norm2(force))
   end subroutine check_friction

@@ -43,7 +43,7 @@ contains
     last(:ndim-1) = first(:ndim-1) + slip_increment
     last(ndim) = max(pressure, 0.0_mslip_real)*properties(10)
     if (.not. first(ndim) > 0) before(ndim+2:) = 0
-    call contact_step(properties(:9), MSLIP_RIGID_STRIP, ndim - 1, MSLIP_NORMAL_FORCE, first, last, before, finish, force, &
+    call contact_step(properties(:9), MSLIP_RIGID_STRIP, ndim - 1, MSLIP_INPUT_NORMAL_FORCE, first, last, before, finish, force, &
       tangent, energy, status)
     if (status /= MSLIP_OK) return
     shear = force(:ndim-1)/properties(10)
@@ -70,8 +70,8 @@ contains
 
     first = [displacement_start(:ndim-1), displacement_start(ndim) + approach]
     last = [displacement(:ndim-1), displacement(ndim) + approach]
-    call contact_step(properties(:9), MSLIP_RIGID_STRIP, ndim - 1, MSLIP_APPROACH, first, last, start, finish, force, tangent, &
-      energy, status)
+    call contact_step(properties(:9), MSLIP_RIGID_STRIP, ndim - 1, MSLIP_INPUT_APPROACH, first, last, start, finish, &
+      force, tangent, energy, status)
     if (status /= MSLIP_OK) return
     stress = force/properties(10)
     stiffness = tangent/properties(10)

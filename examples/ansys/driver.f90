@@ -87,10 +87,10 @@ program driver
 
   call check('state variables: start and finish of a point fit into an element', 2*contact_variables(2) <= 840)
   do directions = 1, 2
-    call new_element(MSLIP_APPROACH, element, status)
+    call new_element(MSLIP_INPUT_APPROACH, element, status)
     call check_status('directions', status, MSLIP_OK)
-    call run(model('friction', MSLIP_NORMAL_FORCE))
-    call run(model('interaction', MSLIP_APPROACH))
+    call run(model('friction', MSLIP_INPUT_NORMAL_FORCE))
+    call run(model('interaction', MSLIP_INPUT_APPROACH))
     call test_closing()
   end do
   call report()
@@ -131,9 +131,9 @@ contains
         model%to_law(j, j, i) = 1
         model%from_law(j, j, i) = model%share(i)
       end do
-      if (normal_input == MSLIP_NORMAL_FORCE) model%to_law(m, m, i) = properties(10)*penalty
+      if (normal_input == MSLIP_INPUT_NORMAL_FORCE) model%to_law(m, m, i) = properties(10)*penalty
     end do
-    if (normal_input == MSLIP_APPROACH) then
+    if (normal_input == MSLIP_INPUT_APPROACH) then
       model%offset(m) = -gap
       model%call_user => call_interaction
     else

@@ -41,35 +41,34 @@ program compare
 
 contains
 
-  subroutine initialise_contact()
+  !> The parameters in a file of results.
+  function parameters_of(name) result(p)
+    character(len=*), intent(in) :: name
     type(mslip_parameters) :: p
     real(wp) :: c(9)
-    integer :: unit, status
+    integer :: unit
 
-    open (newunit=unit, file=trim(results)//'/law.inp', status='old', action='read')
+    open (newunit=unit, file=trim(results)//'/'//name, status='old', action='read')
     read (unit, *)  ! the keyword
     read (unit, *) c
     close (unit)
     p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
       material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
-    call mslip_contact_init(p, contact, status)
+  end function parameters_of
+
+  subroutine initialise_contact()
+    integer :: status
+
+    call mslip_contact_init(parameters_of('law.inp'), contact, status)
     call require(status)
   end subroutine initialise_contact
 
   !> The element with one or two directions of sliding.
   subroutine initialise_element(directions)
     integer, intent(in) :: directions
-    type(mslip_parameters) :: p
-    real(wp) :: c(10)
-    integer :: unit, status
+    integer :: status
 
-    open (newunit=unit, file=trim(results)//'/element.inp', status='old', action='read')
-    read (unit, *)  ! the keyword
-    read (unit, *) c
-    close (unit)
-    p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
-      material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
-    call mslip_element_init(p, directions, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters_of('element.inp'), directions, MSLIP_INPUT_APPROACH, element, status)
     call require(status)
     m = directions + 1
   end subroutine initialise_element
@@ -185,16 +184,10 @@ contains
       'displacement of the contact', 'force of the contact']
     real(wp) :: own(5, size(table, 2)), state(mslip_state_length(30_mslip_size)), largest
     real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
-    real(wp), dimension(size(mass, 1), size(mass, 1)) :: matrix, inverse
+    real(wp) :: inverse(size(mass, 1), size(mass, 1))
     integer :: i, status
 
-    matrix = stiffness + rate**2*mass
-    inverse = 0
-    do i = 1, size(mass, 1)
-      inverse(i, i) = 1
-    end do
-    call dposv('U', size(mass, 1), size(mass, 1), matrix, size(mass, 1), inverse, size(mass, 1), status)
-    if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
+    inverse = inverse_of(stiffness + rate**2*mass)
     call mslip_state_init(state, status)
     u = 0
     velocity = 0
@@ -217,6 +210,21 @@ contains
     end do
   end subroutine compare_motion
 
+  function inverse_of(matrix) result(inverse)
+    real(wp), intent(in) :: matrix(:, :)
+    real(wp), dimension(size(matrix, 1), size(matrix, 1)) :: factors, inverse
+    integer :: i, n, status
+
+    n = size(matrix, 1)
+    factors = matrix
+    inverse = 0
+    do i = 1, n
+      inverse(i, i) = 1
+    end do
+    call dposv('U', n, n, factors, n, inverse, n, status)
+    if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
+  end function inverse_of
+
   !> As compare_motion, with the element: forces at the tip in y and z, or x, y and z; it slides in y, or y and x, and closes in -z.
   subroutine compare_lifting(job, stiffness, mass)
     character(len=*), intent(in) :: job
@@ -225,7 +233,7 @@ contains
     real(wp), allocatable :: loads(:, :), table(:, :), own(:, :)
     real(wp) :: state(mslip_element_state_length(m - 1, 64_mslip_size)), rate, largest, side(size(mass, 1), m)
     real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
-    real(wp), dimension(size(mass, 1), size(mass, 1)) :: matrix, inverse
+    real(wp) :: inverse(size(mass, 1), size(mass, 1))
     integer :: tip_equations(m), axes(m), i, j, status
 
     call read_table(trim(jobs)//'/'//job//'_load.csv', m + 1, loads)
@@ -238,13 +246,7 @@ contains
       tip_equations(j) = equation('113.'//achar(iachar('3') - m + j))
       side(equation('103.'//achar(iachar('0') + axes(j))), j) = merge(-1, 1, j == m)
     end do
-    matrix = stiffness + rate**2*mass
-    inverse = 0
-    do i = 1, size(mass, 1)
-      inverse(i, i) = 1
-    end do
-    call dposv('U', size(mass, 1), size(mass, 1), matrix, size(mass, 1), inverse, size(mass, 1), status)
-    if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
+    inverse = inverse_of(stiffness + rate**2*mass)
     call mslip_element_state_init(m - 1, state, status)
     allocate (own, mold=table)
     u = 0

@@ -72,7 +72,7 @@ contains
       call mslip_contact_init(p, law%contact, status)
       law%initial_stiffness(1) = law%contact%initial_stiffness
     else
-      call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_APPROACH, law%element, status)
+      call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_INPUT_APPROACH, law%element, status)
       law%offset(law%components) = constants(10)
       if (status == MSLIP_OK) call stick(law, status)
     end if

@@ -6,11 +6,11 @@
  *   element = microslip('element_elliptic', p, directions, normal_input)
  *   fields = microslip('fields', object)                          the named fields of a contact or an element
  *   approach = microslip('approach', element, force)              normal approach under normal forces
- *   [force, jacobian, dissipated] = microslip('harmonic_force', object, samples, displacement, rule)
+ *   [force, jacobian, dissipated, drift] = microslip('harmonic_force', object, samples, displacement, rule, periods)
  *
  * p is a struct with the fields of mslip_parameters or mslip_elliptic_parameters; in place of material it has young_modulus and
  * poisson_ratio, one value or one for each body. A contact and an element are uint8 arrays, which may be saved. directions, 1, and
- * normal_input, MSLIP_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING.
+ * normal_input, MSLIP_INPUT_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING, and periods, 0, the default.
  *
  * displacement has a column for each component, with 2H+1 rows [c0; cos1; sin1; cos2; ...], and so has the force; jacobian is
  * d force(:) / d displacement(:). What the library rejects is an error with its message and the identifier microslip:status. */
@@ -76,7 +76,8 @@ static void read_material(const mxArray *values, double *first, double *second)
 }
 
 /* Fields that the struct does not have stay NaN; the library rejects them by name. */
-static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference)
+static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference,
+                            int32_t *springs)
 {
     require(mxIsStruct(p) && mxGetNumberOfElements(p) == 1, "the parameters are a struct");
     for (int i = 0; i < mxGetNumberOfFields(p); i++) {
@@ -93,6 +94,8 @@ static void read_parameters(const mxArray *p, const field *fields, void *paramet
             read_material(value, &material[0].poisson_ratio, &material[1].poisson_ratio);
         } else if (reference && strcmp(name, "displacement_reference") == 0) {
             *reference = constant(value, name);
+        } else if (strcmp(name, "springs") == 0) {
+            *springs = constant(value, name);
         } else {
             mexErrMsgIdAndTxt("microslip:argument", "unknown parameter %s", name);
         }
@@ -103,7 +106,7 @@ static mslip_parameters line_parameters(const mxArray *p)
 {
     mslip_parameters parameters;
     mslip_parameters_default(&parameters);
-    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference);
+    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference, &parameters.springs);
     return parameters;
 }
 
@@ -111,7 +114,7 @@ static mslip_elliptic_parameters elliptic_parameters(const mxArray *p)
 {
     mslip_elliptic_parameters parameters;
     mslip_elliptic_parameters_default(&parameters);
-    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL);
+    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL, &parameters.springs);
     return parameters;
 }
 
@@ -131,7 +134,7 @@ static const void *object(const mxArray *array, size_t size)
 static void init(int elliptic, int is_element, mxArray **result, int n, const mxArray *const *arguments)
 {
     int32_t directions = n > 1 ? constant(arguments[1], "directions is a number") : 1;
-    int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_APPROACH;
+    int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_INPUT_APPROACH;
     void *memory = bytes(result, is_element ? sizeof(mslip_element) : sizeof(mslip_contact));
     if (elliptic) {
         mslip_elliptic_parameters p = elliptic_parameters(arguments[0]);
@@ -192,7 +195,7 @@ static mxArray *approach(const mxArray *element, const mxArray *force)
 /* The workspace of the last call serves the next one if that has the same size. directions is 0 for a contact. */
 static struct {
     int32_t directions, rule;
-    size_t harmonics, samples;
+    size_t harmonics, samples, periods;
     double *memory;
 } workspace;
 
@@ -202,12 +205,12 @@ static void free_workspace(void)
     workspace.memory = NULL;
 }
 
-static double *workspace_for(int32_t directions, size_t harmonics, size_t samples, int32_t rule)
+static double *workspace_for(int32_t directions, size_t harmonics, size_t samples, int32_t rule, size_t periods)
 {
     size_t length;
     int32_t status;
     if (workspace.memory && workspace.directions == directions && workspace.harmonics == harmonics &&
-        workspace.samples == samples && workspace.rule == rule)
+        workspace.samples == samples && workspace.rule == rule && workspace.periods == periods)
         return workspace.memory;
     free_workspace();
     length = directions ? mslip_element_workspace_length(directions, harmonics, samples, rule)
@@ -216,8 +219,8 @@ static double *workspace_for(int32_t directions, size_t harmonics, size_t sample
     workspace.memory = malloc((length ? length : 1) * sizeof(double));
     require(workspace.memory != NULL, "out of memory");
     workspace.directions = directions, workspace.rule = rule;
-    workspace.harmonics = harmonics, workspace.samples = samples;
-    status = directions ? mslip_element_workspace_init(directions, harmonics, samples, rule, length, workspace.memory)
+    workspace.harmonics = harmonics, workspace.samples = samples, workspace.periods = periods;
+    status = directions ? mslip_element_workspace_init(directions, harmonics, samples, rule, periods, length, workspace.memory)
                         : mslip_harmonic_workspace_init(harmonics, samples, rule, length, workspace.memory);
     if (status != MSLIP_OK) free_workspace();
     check(status);
@@ -230,13 +233,15 @@ static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *
     const mslip_element *element = object(arguments[0], sizeof *element);
     size_t samples = count(arguments[1], "the number of samples is a number"), rows = mxGetM(arguments[2]);
     int32_t rule = n > 3 ? constant(arguments[3], "the rule is a number") : MSLIP_UNIFORM_SAMPLING;
+    size_t periods = n > 4 ? count(arguments[4], "the number of periods is a number") : 0;
     size_t components = element ? (size_t)element->directions + 1 : 1;
-    double *memory, *jacobian = NULL, *dissipated = NULL;
+    double *memory, *jacobian = NULL, *dissipated = NULL, *drift = NULL;
 
+    require(n <= 4 || mxGetScalar(arguments[4]) >= 0, "the number of periods is not negative");
     require(contact || element, "the object is neither a contact nor an element");
     require(mxIsDouble(arguments[2]) && !mxIsComplex(arguments[2]) && rows % 2 == 1 && mxGetN(arguments[2]) == components,
             "the displacement has 2H+1 rows, and a column for each component");
-    memory = workspace_for(element ? element->directions : 0, rows / 2, samples, rule);
+    memory = workspace_for(element ? element->directions : 0, rows / 2, samples, rule, periods);
     result[0] = mxCreateDoubleMatrix(rows, components, mxREAL);
     if (outputs > 1) {
         result[1] = mxCreateDoubleMatrix(rows * components, rows * components, mxREAL);
@@ -246,7 +251,12 @@ static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *
         result[2] = mxCreateDoubleMatrix(1, 1, mxREAL);
         dissipated = mxGetPr(result[2]);
     }
-    check(element ? mslip_element_harmonic_force(element, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated)
+    if (outputs > 3) {
+        result[3] = mxCreateDoubleMatrix(1, 1, mxREAL);
+        drift = mxGetPr(result[3]); /* of a contact it remains 0 */
+    }
+    check(element ? mslip_element_harmonic_force(element, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated,
+                                                 drift)
                   : mslip_harmonic_force(contact, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated));
 }
 
@@ -269,7 +279,7 @@ void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments
         result[0] = fields(arguments[0]);
     } else if (strcmp(command, "approach") == 0 && n == 2) {
         result[0] = approach(arguments[0], arguments[1]);
-    } else if (strcmp(command, "harmonic_force") == 0 && (n == 3 || n == 4)) {
+    } else if (strcmp(command, "harmonic_force") == 0 && n >= 3 && n <= 5) {
         harmonic_force(outputs, result, n, arguments);
     } else {
         mexErrMsgIdAndTxt("microslip:argument", "no command %s with %d more arguments", command, n);

@@ -72,6 +72,10 @@ function [F, jacobian, w] = contact_force(element, coefficients, N)
     if isfield(element, 'rule')
         rule = element.rule;
     end
-    [force, jacobian] = microslip('harmonic_force', element.object, N, displacement, rule);
+    periods = 0;
+    if isfield(element, 'periods')
+        periods = element.periods;
+    end
+    [force, jacobian] = microslip('harmonic_force', element.object, N, displacement, rule, periods);
     F = reshape(w*force.', [], 1);
 end

@@ -56,7 +56,7 @@ const CLOSED: f64 = 0.1;
 /// order, so that an error of its square, a percent of the force, remains.
 const LARGEST_SWING: f64 = 0.1;
 
-/// A loop of gross slip has so many times the relative area of one without, which a lag of some samples makes negative.
+/// Least ratio of the relative areas of a loop of gross slip and of a loop without, which a lag of some samples makes negative.
 const OPEN: f64 = 4.0;
 
 /// Samples of a branch; of more, successive ones are averaged.

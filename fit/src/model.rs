@@ -124,6 +124,7 @@ impl Family {
                     normal_force,
                     friction_coefficient,
                     material,
+                    ..EllipticParameters::default()
                 })
             }
         };

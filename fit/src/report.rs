@@ -42,7 +42,7 @@ pub struct Estimate {
     pub value: f64,
     /// Lower end of the interval.
     pub lower: f64,
-    /// Upper end of the interval; `None` if there is none.
+    /// Upper end of the interval; `None` if the interval is unbounded.
     pub upper: Option<f64>,
     /// Whether the data determine it.
     pub status: Status,

@@ -184,8 +184,8 @@ fn explanation(fit: &Fit) -> Explanation {
     }
 }
 
-/// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if there is none,
-/// and the loops have a plateau.
+/// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if no
+/// such fit is admitted: the loops have a plateau.
 fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -> f64) -> Option<Candidate<'a>> {
     let slips = |fit: &Fit| fit.slip_ratios().iter().any(|ratio| *ratio > 1.0 + SHORTEST_PLATEAU);
     let mut candidate = Candidate { fit: best.clone(), chi_squared: best.chi_squared() };

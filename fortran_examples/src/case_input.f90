@@ -31,7 +31,7 @@ module case_input
     integer :: response_dof = 0
     integer, allocatable :: loaded_dof(:)                                   !! static loads; empty without the group &static_load
     real(wp), allocatable :: static_load(:)                                 !! N
-    integer :: harmonics = 5, samples = 128
+    integer :: harmonics = 5, samples = 128, periods = 1
     real(wp) :: tolerance = 1.0e-9_wp
     real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp             !! Hz, of &sweep
     real(wp), allocatable :: load_factors(:), excitation_factors(:)        !! of &sweep; empty without the group
@@ -176,18 +176,19 @@ contains
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law, second_direction, displacement_reference
-      integer :: dof(6), count
+      integer :: dof(6), count, springs
       logical :: load_varied
       integer :: m
       real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
       type(contact_input) :: c
       namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, flat_half_width, &
-        edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference
+        edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference, springs
 
       law = ' '
       second_direction = with_friction
       displacement_reference = 'rigid strip'
+      springs = 0
       count = 1
       load_varied = .true.
       angle = 0.0_wp
@@ -242,25 +243,29 @@ contains
         c%parameters%material%poisson_ratio = poisson_ratio
         c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
                                                     displacement_reference == 'rigid strip')
+        c%parameters%springs = springs
         data%contacts = [data%contacts, c]
       end do
     end subroutine read_contacts
 
     subroutine read_harmonic_balance()
-      integer :: harmonics, samples
+      integer :: harmonics, samples, periods
       real(wp) :: tolerance
-      namelist /harmonic_balance/ harmonics, samples, tolerance
+      namelist /harmonic_balance/ harmonics, samples, periods, tolerance
 
       harmonics = data%harmonics
       samples = data%samples
+      periods = data%periods
       tolerance = data%tolerance
       call start('harmonic_balance')
       read (unit, nml=harmonic_balance, iostat=status, iomsg=message)
       if (.not. found(.false.)) return
       call require(harmonics >= 1 .and. samples > 2 * harmonics, 'harmonics must be 1 or more, samples above twice that')
+      call require(periods >= 1, 'periods must be 1 or more')
       call require(tolerance >= 1.0e-13_wp .and. tolerance <= 1.0e-3_wp, 'tolerance must be from 1e-13 to 1e-3')
       data%harmonics = harmonics
       data%samples = samples
+      data%periods = periods
       data%tolerance = tolerance
     end subroutine read_harmonic_balance
 
@@ -377,7 +382,7 @@ contains
     problem%model = data%model
     problem%harmonics = harmonics
     problem%tolerance = data%tolerance
-    call problem%contacts%prepare(data%contacts, load_factor, harmonics, samples)
+    call problem%contacts%prepare(data%contacts, load_factor, harmonics, samples, data%periods)
     associate (first => problem%contacts%first, last => problem%contacts%last)
       allocate (problem%incidence(dofs, maxval(last)), source=0.0_wp)
       do i = 1, size(data%contacts)

@@ -22,6 +22,8 @@ program forced_response
 
   character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
   integer, parameter :: loop_points = 256
+  !> The forces of elements change by more than this from period to period: too few are walked before the one that counts.
+  real(wp), parameter :: large_drift = 1.0e-3_wp
   character(len=:), allocatable :: prefix
   type(case_data) :: data
   type(balance_problem) :: problem
@@ -62,14 +64,15 @@ contains
       end do
       call progress(trim(data%name)//' '//text(i)//'/'//text(size(data%frequencies))//': '// &
                     text(data%frequencies(i), '(f12.3)')//' Hz, '//trim(data%model%dof_name(data%response_dof))// &
-                    ' '//text(series_peak(response(:, data%response_dof)), '(es11.4)')//' m')
+                    ' '//text(series_peak(response(:, data%response_dof)), '(es11.4)')//' m'// &
+                    drift_message(problem%contacts%drift))
     end do
     close (table)
   end subroutine solve_points
 
   subroutine solve_sweep()
     type(response_path) :: path
-    real(wp) :: omega, seconds, contact_seconds
+    real(wp) :: omega, seconds, contact_seconds, drift
     real(wp), allocatable :: displacement(:,:), amplitude(:)
     character(len=:), allocatable :: header
     integer(int64) :: start, finish, rate
@@ -91,8 +94,10 @@ contains
       call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
       points = points + path%points
       allocate (amplitude(path%points))
+      drift = 0.0_wp
       do i = 1, path%points
         call write_row(responses, load, path%omega(i), path%displacement(:, :, i), amplitude(i))
+        drift = max(drift, problem%contacts%drift)
       end do
       call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
       deallocate (amplitude)
@@ -102,7 +107,7 @@ contains
       call progress(trim(data%name)//' '//text(load)//'/'//text(size(data%load_factors))//': load factor '// &
                     text(data%load_factors(load), '(f10.2)')//', excitation '//text(data%excitation_factors(load), '(f10.3)')// &
                     ', peak '//text(1.0e6_wp * amplitude(1), '(f10.2)')//' um at '// &
-                    text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points')
+                    text(omega / (2.0_wp * pi), '(f10.2)')//' Hz, '//text(path%points)//' points'//drift_message(drift))
       deallocate (amplitude)
       iterations = iterations + problem%evaluations
       contact_seconds = contact_seconds + problem%contact_seconds
@@ -116,6 +121,16 @@ contains
     close (peaks)
     close (loops)
   end subroutine solve_sweep
+
+  !> Empty if the drift is small.
+  function drift_message(drift) result(message)
+    real(wp), intent(in) :: drift
+    character(len=:), allocatable :: message
+
+    message = ''
+    if (drift > large_drift) message = ', not steady: drift '//text(drift, '(es8.1)')//' of mu N after '// &
+                                       text(data%periods)//' period(s): raise periods in &harmonic_balance'
+  end function drift_message
 
   function response_header() result(header)
     character(len=:), allocatable :: header, name

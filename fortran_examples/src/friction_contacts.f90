@@ -7,8 +7,7 @@
 !>     balance         mslip_batch_harmonic_force                      mslip_batch_element_harmonic_force in harmonic_force
 !>     time step       mslip_state_init, mslip_batch_masing_update     mslip_element_state_init,
 !>                                                                     mslip_batch_element_update         in start_history, try_step
-!>     results         mslip_monotonic_force, mslip_state_error        mslip_normal_force_at,
-!>                                                                     mslip_element_state_error
+!>     results         mslip_monotonic_force, mslip_state_error        mslip_normal_force, mslip_element_state_error
 !>
 !> A contact has one component, the tangential displacement; or two, that and the normal approach; or three, the displacements in
 !> two tangential directions and the normal approach. The components of all contacts are numbered one after the other. An element
@@ -51,7 +50,7 @@ module friction_contacts
     type(mslip_element), allocatable :: elements(:)
     real(wp), allocatable :: workspace(:)
     ! Arguments of the calls, item after item.
-    real(wp), allocatable :: u(:,:), f(:,:), df(:,:,:), energy(:)
+    real(wp), allocatable :: u(:,:), f(:,:), df(:,:,:), energy(:), drift(:)
   end type element_batch
 
   type :: element_states
@@ -72,6 +71,8 @@ module friction_contacts
     logical, allocatable :: is_linear(:)                    !! whether the force of a component is that of a spring,
     real(wp), allocatable :: spring(:)                      !! and its stiffness
     real(wp), allocatable :: workspace(:)
+    integer :: periods = 1                                  !! before the one that counts
+    real(wp) :: drift = 0.0_wp                              !! the largest one of the elements in the last harmonic force
     real(wp), allocatable :: fine_basis(:,:)                !! Fourier functions at the instants searched for extremes
     ! Arguments of the calls, item after item.
     real(wp), allocatable, private :: u(:,:), f(:,:), df(:,:,:), energy(:)
@@ -132,12 +133,12 @@ contains
     end if
   end subroutine add_incidence
 
-  !> `load_factor` multiplies the normal force of the contacts with `load_varied`.
-  subroutine prepare(self, inputs, load_factor, harmonics, samples)
+  !> `load_factor` multiplies the normal force of the contacts with `load_varied`; `periods` are walked before the one that counts.
+  subroutine prepare(self, inputs, load_factor, harmonics, samples, periods)
     class(contact_set), intent(inout) :: self
     type(contact_input), intent(in) :: inputs(:)
     real(wp), intent(in) :: load_factor
-    integer, intent(in) :: harmonics, samples
+    integer, intent(in) :: harmonics, samples, periods
     type(mslip_parameters) :: parameters
     type(mslip_element) :: element
     real(wp) :: normal_force, compliance
@@ -152,6 +153,7 @@ contains
     m = 2 * harmonics + 1
     self%name = inputs%name
     self%count = inputs%count
+    self%periods = periods
     self%last = [(sum(components(inputs(:i))), i=1, items)]
     self%first = self%last - components(inputs) + 1
     self%active = merge(1_mslip_int, 0_mslip_int, inputs%law == law_microslip)
@@ -184,7 +186,7 @@ contains
         end if
         normal_force = parameters%normal_force
         parameters%normal_force = load_range * normal_force
-        call mslip_element_init(parameters, directions, MSLIP_APPROACH, element, status)
+        call mslip_element_init(parameters, directions, MSLIP_INPUT_APPROACH, element, status)
         call require(status, self%name(i))
         call mslip_normal_approach(element, normal_force, status, compliance=compliance)
         call require(status, self%name(i))
@@ -210,13 +212,13 @@ contains
     allocate (self%u(m, items), self%f(m, items), self%df(m, m, items), self%energy(items))
     do i = 1, size(self%batches)
       associate (batch => self%batches(i))
-        if (allocated(batch%workspace)) deallocate (batch%workspace, batch%u, batch%f, batch%df, batch%energy)
+        if (allocated(batch%workspace)) deallocate (batch%workspace, batch%u, batch%f, batch%df, batch%energy, batch%drift)
         allocate (batch%workspace(mslip_element_workspace_length(batch%directions, h, n)))
-        call mslip_element_workspace_init(batch%directions, h, n, batch%workspace, status)
+        call mslip_element_workspace_init(batch%directions, h, n, int(periods, mslip_size), batch%workspace, status)
         call require(status, 'workspace')
         items = size(batch%elements)
         allocate (batch%u((i + 1) * m, items), batch%f((i + 1) * m, items), batch%df((i + 1) * m, (i + 1) * m, items))
-        allocate (batch%energy(items))
+        allocate (batch%energy(items), batch%drift(items))
       end associate
     end do
     call make_slider_tables(harmonics, samples, self%tables)
@@ -234,7 +236,7 @@ contains
     integer(mslip_int) :: status
 
     tangent = 0.0_wp
-    call mslip_element_init(parameters, directions, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init(parameters, directions, MSLIP_INPUT_NORMAL_FORCE, element, status)
     if (status == MSLIP_OK) call mslip_element_state_init(directions, state, status)
     if (status == MSLIP_OK) call mslip_element_advance(element, state, [0.0_wp, 0.0_wp, normal_force], status, tangent=tangent)
     call require(status, name)
@@ -291,6 +293,7 @@ contains
     if (.not. allowed) return
     call require(status, 'contacts')
     jacobian = 0.0_wp
+    self%drift = 0.0_wp
     do i = 1, size(self%count)
       j = self%first(i)
       do k = j, self%last(i)
@@ -318,10 +321,11 @@ contains
           batch%u(:, e) = reshape(displacement(:, batch%component(:, e)), [size(batch%u, 1)])
         end do
         call mslip_batch_element_harmonic_force(batch%elements, batch%workspace, batch%u, status, force=batch%f, &
-                                                jacobian=batch%df, dissipated=batch%energy)
+                                                jacobian=batch%df, dissipated=batch%energy, drift=batch%drift)
         allowed = in_range(status)
         if (.not. allowed) return
         call require(status, 'elements')
+        self%drift = max(self%drift, maxval(batch%drift))
         do e = 1, size(batch%elements)
           associate (count => self%count(batch%contact(e)), first => self%first(batch%contact(e)), places => batch%component(:, e))
             do q = 1, size(places)
@@ -434,7 +438,7 @@ contains
     end function rejected
   end subroutine try_step
 
-  !> History and forces, (instant, component), after two periods of a motion from the unloaded state: the second is steady.
+  !> History and forces, (instant, component), in a period of a motion from the unloaded state, after those that are walked before.
   !> As in mslip_element_harmonic_force, elements start in the instant of the largest normal force, to which they are pressed
   !> and then displaced.
   subroutine steady_cycle(self, displacement, history, force)
@@ -465,7 +469,7 @@ contains
         call require(status, self%name(self%batches(b)%contact(e)))
       end do
     end do
-    do period = 1, 2
+    do period = 0, self%periods
       do i = 1, size(displacement, 1)
         call self%try_step(history, displacement(i, :), f, tangent, next)
         history = next
@@ -508,7 +512,7 @@ contains
     open_fraction = 0.0_wp
     call self%find_element(i, b, e)
     if (e > 0) then
-      call mslip_normal_force_at(self%batches(b)%elements(e), approach, status, normal_force=normal_force)
+      call mslip_normal_force(self%batches(b)%elements(e), approach, status, normal_force=normal_force)
       call require(status, self%name(i))
       normal_force = self%count(i) * normal_force
       open_fraction = count(approach <= 0.0_wp) / real(size(approach), wp)

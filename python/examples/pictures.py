@@ -92,7 +92,7 @@ figure.savefig(DIRECTORY / "response.png")
 # The normal force swings around 400 N by half of it, in phase with the displacement or a quarter of a period ahead.
 
 # %%
-element = microslip.Element(**PARAMETERS, normal_input=microslip.NORMAL_FORCE)
+element = microslip.Element(**PARAMETERS, normal_input=microslip.INPUT_NORMAL_FORCE)
 time = 2 * np.pi * np.arange(3 * 200) / 200
 figure, axes = plt.subplots(layout="constrained")
 for phase, label in [(None, "constant"), (0, "in phase"), (np.pi / 2, "a quarter of a period ahead")]:

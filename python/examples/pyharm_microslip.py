@@ -6,7 +6,7 @@
 An entry of `connectors` has, beside pyHarm's `connect` (first node against the second one, or against the ground) and
 `coordinatesystem`:
 
-- `law`: a `microslip.Contact`, or a `microslip.Element` with `APPROACH`;
+- `law`: a `microslip.Contact`, or a `microslip.Element` with `INPUT_APPROACH`;
 - `dirs`: the tangential direction of a contact; one or two tangential directions and then the normal one of an element. The
   normal direction points into the second node: a positive relative displacement is an approach;
 - `interference` (elements): approach of the undeformed structure [m]; a gap is negative.
@@ -40,8 +40,8 @@ class Microslip(NodeToNodeElement):
         # The places of pyHarm's coefficients among all from 0 to the highest harmonic.
         places = np.concatenate([[2 * k - 1, 2 * k] if k else [0] for k in harmonics])
         if isinstance(self.law, microslip.Element):
-            if self.law.normal_input != microslip.APPROACH:
-                raise ValueError(f"{self.name}: the normal input of the element must be APPROACH")
+            if self.law.normal_input != microslip.INPUT_APPROACH:
+                raise ValueError(f"{self.name}: the normal input of the element must be INPUT_APPROACH")
             self.components = self.law.directions + 1
             self.workspace = microslip.ElementWorkspace(self.law.directions, highest, self.nti)
         else:

@@ -4,8 +4,8 @@
     vibration_system.add_nl_force(MicroslipForce(Q, T, microslip.Contact(...)))
 
 `Q` (local, N) gives the local displacements of the N degrees of freedom, `T` (N, local) the forces of the local ones. A
-`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `APPROACH` has one or
-two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
+`microslip.Contact` has one local displacement, so each row of `Q` is a contact; a `microslip.Element` with `INPUT_APPROACH` has one
+or two tangential ones and then the approach, so two or three rows are an element. `interference` is the approach [m] of the
 undeformed structure.
 
 Conventions. tmdsimpy orders harmonic coefficients by the harmonic, then by the degree of freedom: all c0, all cos1, all sin1, ...;
@@ -37,8 +37,8 @@ class MicroslipForce(HystereticForce):
             raise ValueError(f"T must have the shape {self.Q.shape[::-1]}, not {self.T.shape}")
         self.unloaded_at_mean = unloaded_at_mean
         self.is_element = isinstance(law, microslip.Element)
-        if self.is_element and law.normal_input != microslip.APPROACH:
-            raise ValueError("the normal input of the element must be APPROACH")
+        if self.is_element and law.normal_input != microslip.INPUT_APPROACH:
+            raise ValueError("the normal input of the element must be INPUT_APPROACH")
         self.components = law.directions + 1 if self.is_element else 1
         self.items, rest = divmod(self.Q.shape[0], self.components)
         if rest:
@@ -99,18 +99,22 @@ class MicroslipForce(HystereticForce):
         return self.T @ force, np.einsum("xia,iab,iby->xy", T, slope, Q)
 
 
+# fortran_examples/cases/two_dof.nml.
+CONTACT = {
+    "flat_half_width": 0.2e-3,
+    "edge_radius": 5e-3,
+    "length": 10e-3,
+    "normal_force": 150.0,
+    "friction_coefficient": 0.4,
+    "young_modulus": 114e9,
+    "poisson_ratio": 0.32,
+}
+
+
 def main():
     from spring_slider import harmonic_force, microseconds
 
-    law = microslip.Contact(
-        flat_half_width=0.2e-3,
-        edge_radius=5e-3,
-        length=10e-3,
-        normal_force=150.0,
-        friction_coefficient=0.4,
-        young_modulus=114e9,
-        poisson_ratio=0.32,
-    )
+    law = microslip.Contact(**CONTACT)
     force = MicroslipForce(np.eye(1), np.eye(1), law)
     U, h = law.slip_displacement * np.random.default_rng(1).standard_normal(11), np.arange(6)
     slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 3)

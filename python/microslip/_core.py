@@ -42,6 +42,7 @@ class Status(IntEnum):
     BAD_SEMI_AXIS_Y = 11
     LENGTH_TOO_SHORT = 12
     OUT_OF_RANGE = 13
+    BAD_SPRINGS = 14
     BAD_CONTACT = 20
     BAD_STATE = 21
     BAD_WORKSPACE = 22
@@ -64,6 +65,7 @@ class Status(IntEnum):
     BAD_INDEX = 41
     BAD_DIRECTIONS = 42
     BAD_NORMAL_INPUT = 43
+    BAD_PERIODS = 44
     BAD_ARRAY_SIZE = 90
     BAD_ALIGNMENT = 91
     # </generated>

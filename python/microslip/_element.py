@@ -56,9 +56,10 @@ class Element(_Law):
     """A friction contact element: the law of a flat with rounded edges, or of a cylinder, under a varying normal force.
 
     With `directions` = 1 a displacement is [u, w] and a force [T, N]; with 2 they are [u, v, w] and [Tx, Ty, N]. The normal
-    component w is the approach [m], open if w <= 0, with `normal_input` = `APPROACH`, or the normal force [N] with
-    `NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. The other parameters are those
-    of `Contact`. The element of an elliptical contact is made by `Element.elliptic`.
+    component w is the approach [m], open if w <= 0, with `normal_input` = `INPUT_APPROACH`, or the normal force [N] with
+    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. `springs` of
+    two directions are 8, 12 or 16, more accurate and slower; 0 is the default. The other parameters are those of `Contact`. The
+    element of an elliptical contact is made by `Element.elliptic`.
     """
 
     _type = "mslip_element"
@@ -73,7 +74,7 @@ class Element(_Law):
     normal_stiffness = Field[float]("dN/d(approach) under that force [N/m].")
     tangential_stiffness = Field[float]("dT/d(displacement) of a fully stuck contact under that force, x direction [N/m].")
     directions = Field[int]("Number of tangential directions, 1 or 2.")
-    normal_input = Field[int]("APPROACH or NORMAL_FORCE.")
+    normal_input = Field[int]("INPUT_APPROACH or INPUT_NORMAL_FORCE.")
 
     def __init__(
         self,
@@ -86,6 +87,7 @@ class Element(_Law):
         young_modulus: Pair,
         poisson_ratio: Pair,
         displacement_reference: Constant = 0,
+        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 0,
     ) -> None:
@@ -106,6 +108,7 @@ class Element(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 0,
     ) -> Element:
@@ -143,7 +146,9 @@ class Element(_Law):
 
         Displacement and force have the shape (m, 2H+1), a row [c0, cos1, sin1, ...] for each component. jacobian[i, j] is
         d force.ravel()[i] / d displacement.ravel()[j], (m(2H+1), m(2H+1)), None if not requested. The element is pressed by the
-        largest normal force of the period without a tangential displacement, then displaced.
+        largest normal force of the period without a tangential displacement, then displaced, and walks the periods of the workspace
+        and one more, which counts. With two directions a mean tangential force beside a vibration across it is shaken out over many
+        periods: `drift` says what the last one changed.
         """
         return self._harmonic_force(workspace, displacement, jacobian)
 

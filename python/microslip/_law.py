@@ -43,12 +43,14 @@ class Tractions(NamedTuple):
 
 class HarmonicForce(NamedTuple):
     """Coefficients of the force [N], jacobian[..., i, j] = d force_i / d displacement_j [N/m] (None if not requested), energy
-    dissipated per period [J].
+    dissipated per period [J], and drift: the largest difference of the tangential force between the last period and the one before,
+    over mu times the largest normal force. It is 0 but for elements of two directions.
     """
 
     force: Array
     jacobian: Values
     dissipated: Values
+    drift: Values
 
 
 class _Law(Value):
@@ -87,7 +89,10 @@ class _Law(Value):
         getattr(lib, f"{kind}_default")(parameters)
         for name in [name for name, _ in ffi.typeof(kind).fields if name in given]:
             value = given[name]
-            checked = choice(value, name, REFERENCES) if name == "displacement_reference" else number(value, name)
+            if name == "displacement_reference":
+                checked: float = choice(value, name, REFERENCES)
+            else:
+                checked = integer(value, name) if name == "springs" else number(value, name)
             setattr(parameters, name, checked)
         parameters.material = list(zip(*(pair(given[name], name) for name in ("young_modulus", "poisson_ratio"))))
         self._c = ffi.new(f"{self._type} *")
@@ -148,12 +153,13 @@ def _harmonic_force(name: str, head: list[Any], workspace: Any, displacement: Ar
     number_of_items = displacement.shape[: displacement.ndim - len(shape)]
     size = prod(shape)
     # Those of items that are skipped remain 0.
-    force, dissipated = np.zeros(displacement.shape), np.zeros(number_of_items)
+    force, dissipated, drift = np.zeros(displacement.shape), np.zeros(number_of_items), np.zeros(number_of_items)
     matrix = np.zeros((*number_of_items, size, size)) if boolean(jacobian, "jacobian") else None
-    arguments = map(pointer, (displacement, force, matrix, dissipated))
+    outputs = (force, matrix, dissipated, drift) if "element" in name else (force, matrix, dissipated)
+    arguments = map(pointer, (displacement, *outputs))
     with workspace._lock:
         check(getattr(lib, name)(*head, workspace._memory, *arguments))
-    return HarmonicForce(force, None if matrix is None else transposed(matrix), dissipated[()])
+    return HarmonicForce(force, None if matrix is None else transposed(matrix), dissipated[()], drift[()])
 
 
 class _LawArray(Value, Generic[L]):
@@ -238,7 +244,7 @@ class _LawArray(Value, Generic[L]):
         active: ArrayLike | None = None,
     ) -> HarmonicForce:
         """The harmonic forces of n items: displacement and force (n, 2H+1), of elements (n, m, 2H+1), jacobian (n, size, size) for
-        `size` coefficients of an item, dissipated (n).
+        `size` coefficients of an item, dissipated and drift (n).
         """
         shape = instance(workspace, self._item._workspace, "workspace")._shape
         displacement = doubles(displacement, "displacement", (None, *shape))

@@ -148,14 +148,13 @@ class _Workspace(Value):
     rule = Field[int]("UNIFORM_SAMPLING or EVENT_DRIVEN.")
 
     def __init__(self, **given: Any) -> None:
-        rule = choice(given.pop("rule"), "rule", RULES)
-        arguments = (*(integer(value, name) for name, value in given.items()), rule)
-        length = getattr(lib, f"{self._calls}_length")(*arguments)
+        arguments = {name: choice(value, name, RULES) if name == "rule" else integer(value, name) for name, value in given.items()}
+        length = getattr(lib, f"{self._calls}_length")(*(arguments[name] for name in arguments if name != "periods"))
         self._memory = ffi.new("double[]", length)
-        check(getattr(lib, f"{self._calls}_init")(*arguments, length, self._memory))
-        out = [ffi.new("int32_t *" if name in ("directions", "rule") else "size_t *") for name in (*given, "rule")]
+        check(getattr(lib, f"{self._calls}_init")(*arguments.values(), length, self._memory))
+        out = [ffi.new("int32_t *" if name in ("directions", "rule") else "size_t *") for name in given]
         check(getattr(lib, f"{self._calls}_size")(self._memory, *out))
-        self._values = SimpleNamespace(**{name: int(value[0]) for name, value in zip((*given, "rule"), out)})
+        self._values = SimpleNamespace(**{name: int(value[0]) for name, value in zip(given, out)})
         self._shape = (2 * self.harmonics + 1,)
         self._lock = threading.Lock()
         _workspaces[id(self)] = self
@@ -188,13 +187,15 @@ class Workspace(_Workspace):
 class ElementWorkspace(_Workspace):
     """Tables and scratch memory for harmonic forces of elements with 1 or 2 tangential `directions`.
 
-    `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. Calls with one workspace wait for each other:
-    use one per thread.
+    `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. `periods`, at most 65536, are walked before the
+    one that counts; 0 is the default, 1. With one direction more than one changes nothing. Calls with one workspace wait for each
+    other: use one per thread.
     """
 
     _calls = "mslip_element_workspace"
     directions = Field[int]("Number of tangential directions, 1 or 2.")
+    periods = Field[int]("Number of periods before the one that counts.")
 
-    def __init__(self, directions: int, harmonics: int, samples: int, rule: Constant = 0) -> None:
-        super().__init__(directions=directions, harmonics=harmonics, samples=samples, rule=rule)
+    def __init__(self, directions: int, harmonics: int, samples: int, rule: Constant = 0, periods: int = 0) -> None:
+        super().__init__(directions=directions, harmonics=harmonics, samples=samples, rule=rule, periods=periods)
         self._shape = (self.directions + 1, *self._shape)

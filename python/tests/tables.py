@@ -1,4 +1,4 @@
-"""Reader of the reference tables, tests/golden of the repository: inputs are exact doubles, outputs have 25 digits."""
+"""Reader of the reference tables in tests/golden: inputs are exact doubles, outputs have 25 digits. A contact for other tests."""
 
 from __future__ import annotations
 
@@ -10,6 +10,17 @@ from typing import Any
 import numpy as np
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+
+# A flat of different bodies.
+FLAT = {
+    "flat_half_width": 0.5e-3,
+    "edge_radius": 3e-3,
+    "length": 20e-3,
+    "normal_force": 800.0,
+    "friction_coefficient": 0.5,
+    "young_modulus": (2e11, 1.1e11),
+    "poisson_ratio": 0.3,
+}
 
 
 def rows_of(path: Path) -> list[dict[str, Any]]:

@@ -14,18 +14,9 @@ import microslip
 import numpy as np
 import pytest
 from microslip import _contact, _core, _element, _law, _memory
-from tables import REPOSITORY
+from tables import FLAT, REPOSITORY
 
 HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
-FLAT = {
-    "flat_half_width": 0.5e-3,
-    "edge_radius": 3e-3,
-    "length": 20e-3,
-    "normal_force": 800.0,
-    "friction_coefficient": 0.5,
-    "young_modulus": (2e11, 1.1e11),
-    "poisson_ratio": 0.3,
-}
 MATERIAL = {name: FLAT[name] for name in ("normal_force", "friction_coefficient", "young_modulus", "poisson_ratio")}
 ELLIPSE = {"semi_axis_x": 1e-3, "semi_axis_y": 2e-3, **MATERIAL}
 
@@ -41,7 +32,7 @@ SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 REFERENCE = {"displacement_reference": 1}
-DIRECTIONS = {"directions": 1, "normal_input": 0}
+DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 
@@ -88,7 +79,7 @@ def valid():
         "ElementState": {"directions": 1, "pieces": 8},
         "ElementState.from_bytes": {"data": bytes(element_state), "directions": 1},
         "ElementState.copy": {},
-        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0},
+        "ElementWorkspace": {"directions": 1, "harmonics": 1, "samples": 8, "rule": 0, "periods": 3},
         "ElementArray": {"elements": [element]},
         "ElementArray.states": {"n": 2, "pieces": 8},
         "ElementArray.update": {
@@ -219,7 +210,7 @@ def test_constants_are_given_by_number_or_word():
         for make in (microslip.Contact, microslip.Element):
             assert make(**FLAT, displacement_reference=wanted) == make(**FLAT, displacement_reference=word)
     assert microslip.Workspace(1, 8, "event_driven").rule == microslip.EVENT_DRIVEN
-    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.NORMAL_FORCE
+    assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.INPUT_NORMAL_FORCE
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -12,17 +12,8 @@ import numpy as np
 import pytest
 from microslip import _core
 from numpy.testing import assert_allclose
-from tables import REPOSITORY
+from tables import FLAT, REPOSITORY
 
-FLAT = {
-    "flat_half_width": 0.5e-3,
-    "edge_radius": 3e-3,
-    "length": 20e-3,
-    "normal_force": 800.0,
-    "friction_coefficient": 0.5,
-    "young_modulus": (2e11, 1.1e11),
-    "poisson_ratio": 0.3,
-}
 ELLIPSE = {
     "semi_axis_x": 1e-3,
     "semi_axis_y": 2e-3,
@@ -61,7 +52,8 @@ def test_status_codes_and_constants_are_those_of_the_header():
     version = ".".join(str(defined.pop(f"VERSION_{part}")) for part in ("MAJOR", "MINOR", "PATCH"))
     assert microslip.__version__ == version
     assert defined.pop("OK") == 0
-    for name in ["ABI_VERSION", "CENTRE_POINT", "RIGID_STRIP", "UNIFORM_SAMPLING", "EVENT_DRIVEN", "APPROACH", "NORMAL_FORCE"]:
+    references, rules = ["CENTRE_POINT", "RIGID_STRIP"], ["UNIFORM_SAMPLING", "EVENT_DRIVEN"]
+    for name in ["ABI_VERSION", *references, *rules, "INPUT_APPROACH", "INPUT_NORMAL_FORCE"]:
         assert getattr(microslip, name) == defined.pop(name)
     assert len(microslip.Parameter) == defined.pop("PARAMETER_COUNT")
     for parameter in microslip.Parameter:
@@ -172,6 +164,18 @@ def test_jacobians_of_elements_are_not_transposed(directions):
     assert batch.dissipated[1] == found.dissipated
 
 
+def test_the_drift_falls_with_the_periods():
+    # A mean shear beside a vibration across it.
+    u = np.array([[0.8 * SLIP, 0, 0], [0, 0, 0.2 * SLIP], [0.7 * element.approach, 0, 0]])
+    spaces = [microslip.ElementWorkspace(2, 1, 32, periods=periods) for periods in (0, 1, 3, 10)]
+    assert [space.periods for space in spaces] == [1, 1, 3, 10]
+    drifts = [both.harmonic_force(space, u).drift for space in spaces]
+    assert drifts[0] == drifts[1] > 2 * drifts[2] > 4 * drifts[3] > 0
+    assert (microslip.ElementArray([both]).harmonic_force(spaces[3], [u, u], index=[0, 0]).drift == drifts[3]).all()
+    assert element.harmonic_force(element_workspace, ELEMENT_HARMONICS).drift == 0
+    assert contact.harmonic_force(workspace, HARMONICS).drift == 0
+
+
 @pytest.mark.parametrize("directions", [1, 2])
 def test_tangents_are_not_transposed(directions):
     one = element if directions == 1 else both
@@ -273,7 +277,7 @@ def test_values_of_a_contact_can_only_be_read():
     with pytest.raises(AttributeError, match="can only be read"):
         contact.slip_force = 1.0
     assert microslip.Contact.slip_force.__doc__ == "mu N [N]."
-    assert (both.directions, both.normal_input) == (2, microslip.APPROACH)
+    assert (both.directions, both.normal_input) == (2, microslip.INPUT_APPROACH)
 
 
 def test_equivalents():

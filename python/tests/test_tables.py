@@ -192,7 +192,7 @@ def test_two_directions(group):
     element = microslip.Element(
         **flat(first, normal_force=normal_force, friction_coefficient=first["mu"]),
         directions=2,
-        normal_input=microslip.NORMAL_FORCE,
+        normal_input=microslip.INPUT_NORMAL_FORCE,
     )
     start = element.update(microslip.ElementState(2), [first["u"], first["v"], 0]).state
     path = element.update(start, np.column_stack([column(group, name) for name in ("u", "v", "N")]))

@@ -7,19 +7,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from tables import REPOSITORY, rows_of
-from tmdsimpy_microslip import MicroslipForce
+from tmdsimpy_microslip import CONTACT, MicroslipForce
 
-FLAT = {
-    "flat_half_width": 0.2e-3,
-    "edge_radius": 5e-3,
-    "length": 10e-3,
-    "normal_force": 150.0,
-    "friction_coefficient": 0.4,
-    "young_modulus": 114e9,
-    "poisson_ratio": 0.32,
-}
-contact = microslip.Contact(**FLAT)
-elements = [microslip.Element(**FLAT, directions=directions) for directions in (1, 2)]
+contact = microslip.Contact(**CONTACT)
+elements = [microslip.Element(**CONTACT, directions=directions) for directions in (1, 2)]
 SLIP = contact.slip_displacement
 random = np.random.default_rng(2)
 
@@ -56,8 +47,8 @@ def test_wrong_shapes_are_rejected():
         MicroslipForce(np.ones((1, 5)), np.ones((1, 5)), contact)
     with pytest.raises(ValueError, match="rows for each element"):
         MicroslipForce(np.ones((3, 5)), np.ones((5, 3)), elements[0])
-    with pytest.raises(ValueError, match="must be APPROACH"):
-        MicroslipForce(np.ones((2, 5)), np.ones((5, 2)), microslip.Element(**FLAT, normal_input=microslip.NORMAL_FORCE))
+    with pytest.raises(ValueError, match="must be INPUT_APPROACH"):
+        MicroslipForce(np.ones((2, 5)), np.ones((5, 2)), microslip.Element(**CONTACT, normal_input=microslip.INPUT_NORMAL_FORCE))
 
 
 def test_mean_displacement():

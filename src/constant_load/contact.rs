@@ -108,7 +108,7 @@ impl Contact {
     /// The error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material } =
+        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material, .. } =
             *parameters;
         check_moduli(material)?;
         let composite_modulus = Pair::new(material).composite_modulus;
@@ -316,6 +316,7 @@ pub(crate) mod tests {
             normal_force: 150.0,
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
+            ..EllipticParameters::default()
         })
         .unwrap()
     }
@@ -426,6 +427,7 @@ pub(crate) mod tests {
                             normal_force: three,
                             friction_coefficient: 0.3,
                             material,
+                            ..EllipticParameters::default()
                         }));
                     }
                 }
@@ -486,7 +488,7 @@ pub(crate) mod tests {
             friction_coefficient: 5.3e116,
             material: [body; 2],
             displacement_reference: 1,
-            reserved: 0,
+            springs: 0,
         };
         assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
     }
@@ -502,6 +504,7 @@ pub(crate) mod tests {
                 normal_force: 100.0,
                 friction_coefficient: 2f64.powi(exponent),
                 material: [soft, TITANIUM],
+                ..EllipticParameters::default()
             };
             match Contact::elliptic(&parameters) {
                 Ok(contact) => {

@@ -94,7 +94,7 @@ pub const MAX_SLIDERS: usize = 1 << 16;
 /// Checks a number of sliders.
 ///
 /// # Errors
-/// `BadCount` if there are none, or more than [`MAX_SLIDERS`].
+/// `BadCount` for 0 sliders, or more than [`MAX_SLIDERS`].
 pub fn check_count(sliders: usize) -> Result<(), Error> {
     if (1..=MAX_SLIDERS).contains(&sliders) { Ok(()) } else { Err(Error::BadCount) }
 }
@@ -301,6 +301,7 @@ mod tests {
             normal_force: 1e-10,
             friction_coefficient: 1e-10,
             material: [Material { young_modulus: 1e60, poisson_ratio: 0.3 }; 2],
+            ..EllipticParameters::default()
         })
         .unwrap();
         let of = |times: f64| jenkins(&contact, times * contact.slip_displacement).unwrap();

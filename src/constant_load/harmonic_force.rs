@@ -26,7 +26,7 @@ mod uniform_sampling;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::fourier::workspace::{TAGS, WorkspaceLayout};
+use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
 use crate::limits::check_coefficients;
 use crate::parameters::PARAMETERS;
 
@@ -48,9 +48,11 @@ impl Rule {
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         match self {
             Rule::UniformSampling => {
-                uniform_sampling::Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+                uniform_sampling::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
             }
-            Rule::EventDriven => event_driven::Layout::new(harmonics, samples).map_or(0, |layout| layout.length()),
+            Rule::EventDriven => {
+                event_driven::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
+            }
         }
     }
 
@@ -60,8 +62,8 @@ impl Rule {
     /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         match self {
-            Rule::UniformSampling => uniform_sampling::Layout::init(harmonics, samples, workspace),
-            Rule::EventDriven => event_driven::Layout::init(harmonics, samples, workspace),
+            Rule::UniformSampling => uniform_sampling::Layout::init(Size::new(harmonics, samples), workspace),
+            Rule::EventDriven => event_driven::Layout::init(Size::new(harmonics, samples), workspace),
         }
     }
 
@@ -141,6 +143,9 @@ pub fn harmonic_force(
     output.check(workspace.coefficients(), displacement)?;
     if let Some(jacobian) = &mut output.jacobian {
         jacobian.fill(0.0);
+    }
+    if let Some(drift) = &mut output.drift {
+        **drift = 0.0;
     }
     if contact.is_frictionless() {
         if let Some(force) = output.force {
@@ -230,8 +235,12 @@ pub(crate) mod tests {
     pub(super) fn compute(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> All {
         let n = displacement.len();
         let (mut force, mut jacobian, mut energy) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
-        let output =
-            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        let output = HarmonicOutput {
+            force: Some(&mut force),
+            jacobian: Some(&mut jacobian),
+            dissipated: Some(&mut energy),
+            drift: None,
+        };
         evaluate(contact, memory, displacement, output).unwrap();
         (force, jacobian, energy)
     }
@@ -302,6 +311,7 @@ pub(crate) mod tests {
                     force: Some(&mut force),
                     jacobian: Some(&mut jacobian),
                     dissipated: Some(&mut energy),
+                    drift: None,
                 };
                 assert_eq!(evaluate(&contact, &mut good, displacement, output), Err(error));
                 assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
@@ -324,7 +334,7 @@ pub(crate) mod tests {
             assert_eq!(compute(&contact, &mut memory, &motion(0.8)), first);
             // Omitted outputs do not change the others.
             let mut force = vec![0.0; 7];
-            let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+            let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None, drift: None };
             evaluate(&contact, &mut memory, &motion(0.8), output).unwrap();
             assert_eq!(force, first.0);
         }

@@ -136,7 +136,7 @@ pub(crate) mod tests {
                         friction_coefficient,
                         material,
                         displacement_reference,
-                        reserved: 0,
+                        springs: 0,
                     })
                     .unwrap()
                 };
@@ -153,6 +153,7 @@ pub(crate) mod tests {
                 normal_force,
                 friction_coefficient,
                 material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
+                ..EllipticParameters::default()
             })
             .unwrap()
         };

@@ -62,7 +62,7 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     check_tag(state.first().copied().unwrap_or(0.0), state.len())
 }
 
-/// Rejects the tag of what is no state of that length.
+/// Rejects a tag that no state of that length has.
 #[inline(always)]
 pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
     match Kind::State.count(tag) {

@@ -29,7 +29,7 @@ mod operators;
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
-use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, middle_powers};
+use crate::numerics::chebyshev::{Interpolant, MORE_AROUND_MIDDLE, Polynomial, TERMS};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
 use crate::shape::stick_zone::{Complement, StickZones};
 use crate::simd::{dispatch, plus};
@@ -320,7 +320,7 @@ fn powers<const N: usize, const R: usize>(series: &[f64; N]) -> Rows<R> {
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
     let mut sums = [0.0; FIRST];
     let used = series.get(..used.min(4 * R)).unwrap_or(&[]);
-    apply_columns(&mut sums, 1.0, middle_powers().as_flattened(), used, FIRST);
+    apply_columns(&mut sums, 1.0, MORE_AROUND_MIDDLE.as_flattened(), used, FIRST);
     let mut result = [[0.0; 4]; R];
     result.iter_mut().zip(sums.as_chunks().0).for_each(|(row, sum)| *row = *sum);
     result

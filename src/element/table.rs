@@ -5,6 +5,7 @@
 //! singular at x = 0 only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the
 //! middle has 16 terms, of which Chebyshev economization leaves 12.
 
+use crate::numerics::chebyshev::monic_powers;
 use crate::shape::{ORDER, Series};
 use wide::f64x2;
 
@@ -232,30 +233,7 @@ fn economized(series: &Series, middle: f64, half_length: f64) -> [f64; TERMS] {
 }
 
 /// Coefficients of T_k/2^(k-1) for k from `TERMS` on.
-static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = {
-    let (mut before, mut now) = ([0.0; ORDER], [0.0; ORDER]);
-    before[0] = 1.0;
-    now[1] = 1.0;
-    let mut table = [[0.0; ORDER]; ORDER - TERMS];
-    let mut degree = 1;
-    while degree < ORDER {
-        if degree >= TERMS {
-            table[degree - TERMS] = now;
-        }
-        // Monic: T_{k+1} = t T_k - T_{k-1}/4, and T_2 = t T_1 - T_0/2.
-        let factor = if degree == 1 { 0.5 } else { 0.25 };
-        let mut next = [0.0; ORDER];
-        let mut j = 0;
-        while j < ORDER {
-            next[j] = (if j > 0 { now[j - 1] } else { 0.0 }) - factor * before[j];
-            j += 1;
-        }
-        before = now;
-        now = next;
-        degree += 1;
-    }
-    table
-};
+static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 
 #[cfg(test)]
 mod tests {

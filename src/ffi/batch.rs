@@ -2,7 +2,7 @@
 
 use super::constant_load::cycle::write_complex_stiffness;
 use super::constant_load::history;
-use super::pointers::{self, check_alignment, check_length, input, optional_input, output, outputs, status, with_law};
+use super::pointers::{self, call, check_alignment, check_length, input, optional_input, output, outputs, with_law};
 use super::{element, mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
@@ -72,11 +72,8 @@ impl Law for Contact {
         state_new: *mut f64,
         [force, stiffness, dissipated]: [*mut f64; 3],
     ) {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-            history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
-        }
+        let state_old = ptr::slice_from_raw_parts(state_old, state_length);
+        history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
     }
 }
 
@@ -106,8 +103,7 @@ impl<L: ElementLaw> Law for L {
         state_new: *mut f64,
         outputs: [*mut f64; 3],
     ) {
-        // SAFETY: by the function's contract.
-        unsafe { element::update::<L>(element, state_length, state_old, displacement, state_new, outputs) };
+        element::update::<L>(element, state_length, state_old, displacement, state_new, outputs);
     }
 }
 
@@ -140,9 +136,7 @@ impl<'a, T> Items<'a, T> {
     ) -> Result<Items<'a, T>, Error> {
         // Of the largest items, before arrays of that length are assumed.
         check_length::<f64>(n)?;
-        // SAFETY: by the function's contract.
-        let (laws, index, active) =
-            unsafe { (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?) };
+        let (laws, index, active) = (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?);
         Ok(Items { n, laws, index, active })
     }
 
@@ -188,7 +182,7 @@ impl Items<'_, Element> {
 /// Advances the states of all active items.
 ///
 /// # Safety
-/// As for [`mslip_batch_masing_update`].
+/// That of the interface.
 #[inline(never)]
 unsafe fn update<L: Law>(
     items: Items<L::Item>,
@@ -258,23 +252,21 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
 ///
 /// # Safety
-/// As for [`mslip_batch_harmonic_force`].
+/// That of the interface.
 unsafe fn harmonic_forces<L: Law, W>(
     items: Items<L::Item>,
     workspace: &mut W,
     one: usize,
     displacement: *const f64,
-    [force, jacobian, dissipated]: [*mut f64; 3],
+    [force, jacobian, dissipated, drift]: [*mut f64; 4],
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-    // SAFETY: by the function's contract.
-    let (displacement, mut outputs) = unsafe {
-        let (force, jacobian) = (output(force, all)?, output(jacobian, square)?);
-        (input(displacement, all)?, Outputs { force, jacobian, dissipated: output(dissipated, items.n)? })
-    };
+    let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
+    let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
+    let mut outputs = Outputs { force, jacobian, dissipated, drift };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
     items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
     let mut active = items.with(displacement_of);
@@ -286,17 +278,19 @@ struct Outputs<'a> {
     force: Option<&'a mut [f64]>,
     jacobian: Option<&'a mut [f64]>,
     dissipated: Option<&'a mut [f64]>,
+    drift: Option<&'a mut [f64]>,
 }
 
 impl Outputs<'_> {
     /// Outputs of item i. Not inlined, to keep the loop over the items small.
     #[inline(never)]
     fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
-        let Outputs { force, jacobian, dissipated } = self;
+        let Outputs { force, jacobian, dissipated, drift } = self;
         HarmonicOutput {
             force: part(force, i, coefficients),
             jacobian: part(jacobian, i, coefficients * coefficients),
             dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
+            drift: part(drift, i, 1).and_then(<[f64]>::first_mut),
         }
     }
 }
@@ -310,10 +304,6 @@ fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Opti
 /// If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
-///
-/// # Safety
-/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for n items; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     n: size_t,
@@ -327,18 +317,17 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (items, amplitude, mut outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?, input(amplitude, n)?, outputs?)
-        };
+    call(|| {
+        let (items, amplitude, mut outputs) = (
+            Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
+            input(amplitude, n)?,
+            outputs([k_real, k_imag, dk_real, dk_imag], n)?,
+        );
         items.check::<Contact>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
         items
             .with(|i| amplitude.get(i))
             .try_for_each(|(i, contact, amplitude)| write_complex_stiffness(contact, *amplitude, i, &mut outputs))
-    };
-    status(compute())
+    })
 }
 
 /// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
@@ -346,10 +335,6 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
 /// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
-///
-/// # Safety
-/// `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the lengths above; states_new is states_old
-/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_masing_update(
     n: size_t,
@@ -365,14 +350,10 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let update = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
-        }
-    };
-    status(update())
+    call(|| {
+        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
+    })
 }
 
 /// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
@@ -380,10 +361,6 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 /// 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `contacts` is NULL or valid for n_contacts contacts, the others NULL or valid for the
-/// lengths above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_harmonic_force(
     n: size_t,
@@ -397,16 +374,13 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-            let (mut workspace, outputs) = (pointers::workspace(workspace)?, [force, jacobian, dissipated]);
-            let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
-            harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
-        }
-    };
-    status(compute())
+    call(|| {
+        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        let (mut workspace, outputs) =
+            (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
+        let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
+        harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
+    })
 }
 
 /// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
@@ -417,10 +391,6 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 ///
 /// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 /// mslip_element_update; all outputs are unchanged then.
-///
-/// # Safety
-/// `elements` is NULL or valid for n_elements elements, the others NULL or valid for the lengths above; states_new is states_old
-/// or, like the outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_update(
     n: size_t,
@@ -436,7 +406,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let update = || {
+    call(|| {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
@@ -445,20 +415,15 @@ pub unsafe extern "C" fn mslip_batch_element_update(
                 update::<L>(items, state_length, states_old, displacement, states_new, outputs)
             })
         }
-    };
-    status(update())
+    })
 }
 
 /// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
-/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated one. Item i uses
+/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one. Item i uses
 /// elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i is skipped.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
 /// directions than the workspace; all outputs are unchanged then.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `elements` is NULL or valid for n_elements elements, the others NULL or valid for the
-/// lengths above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     n: size_t,
@@ -471,12 +436,13 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     force: *mut f64,
     jacobian: *mut f64,
     dissipated: *mut f64,
+    drift: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         // SAFETY: by the function's contract; an element consists of doubles and integers.
         unsafe {
             let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            let outputs = [force, jacobian, dissipated];
+            let outputs = [force, jacobian, dissipated, drift];
             with_law!(pointers::element_workspace_size(workspace)?.0, L => {
                 let mut workspace = pointers::element_workspace::<L>(workspace)?;
                 let one = L::COMPONENTS * L::coefficients(&workspace);
@@ -484,6 +450,5 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
                 harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
             })
         }
-    };
-    status(compute())
+    })
 }

@@ -1,9 +1,9 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
 use super::pointers::{
-    self, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
+    self, call, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
 };
-use super::{MSLIP_APPROACH, MSLIP_NORMAL_FORCE, mslip_element};
+use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::{ElementLaw, PathOutput, Requested};
@@ -34,29 +34,27 @@ unsafe fn initialise<P>(
     element: *mut mslip_element,
     init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
-    let initialise = || {
-        // SAFETY: by the function's contract.
-        let parameters = unsafe { item(parameters) }?;
+    call(|| {
+        let parameters = item(parameters)?;
         check_alignment(element)?;
         // SAFETY: aligned; valid by the function's contract. It may be uninitialised, and is written before it is read.
         let element = unsafe { element.cast::<Element>().as_mut() }.ok_or(Error::NullPointer)?;
         let directions = directions_of(directions)?;
         let normal_input = match normal_input {
-            MSLIP_APPROACH => NormalInput::Approach,
-            MSLIP_NORMAL_FORCE => NormalInput::Force,
+            MSLIP_INPUT_APPROACH => NormalInput::Approach,
+            MSLIP_INPUT_NORMAL_FORCE => NormalInput::Force,
             _ => return Err(Error::BadNormalInput),
         };
         init(element, parameters, directions, normal_input)?;
         pointers::set_checksum(element);
         Ok(())
-    };
-    status(initialise())
+    })
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
 /// force for which the element is tabulated; larger ones are exact, but slower, and with two directions less accurate. directions
 /// is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
-/// normal_input is MSLIP_APPROACH, w is the normal approach \[m\], or MSLIP_NORMAL_FORCE, w is the normal force \[N\].
+/// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach \[m\], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 /// directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -64,9 +62,6 @@ unsafe fn initialise<P>(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the element is unchanged then.
-///
-/// # Safety
-/// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init(
     p: *const Parameters,
@@ -74,8 +69,7 @@ pub unsafe extern "C" fn mslip_element_init(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_rounded_flat) }
+    initialise(p, directions, normal_input, element, Element::init_rounded_flat)
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
@@ -84,9 +78,6 @@ pub unsafe extern "C" fn mslip_element_init(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
 /// MSLIP_OUT_OF_RANGE; the element is unchanged then.
-///
-/// # Safety
-/// `p` and `element` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init_elliptic(
     p: *const EllipticParameters,
@@ -94,31 +85,23 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, directions, normal_input, element, Element::init_elliptic) }
+    initialise(p, directions, normal_input, element, Element::init_elliptic)
 }
 
 /// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other
 /// functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
-///
-/// # Safety
-/// `element` is NULL or valid for an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { pointers::element(element) }.and_then(pointers::check_element))
+    status(pointers::element(element).and_then(pointers::check_element))
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
-/// approach <= 0 gives 0, 0, 0. In Fortran it is named mslip_normal_force_at, because MSLIP_NORMAL_FORCE is a constant.
+/// approach <= 0 gives 0, 0, 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 /// contact would be too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_normal_force(
     element: *const mslip_element,
@@ -128,18 +111,15 @@ pub unsafe extern "C" fn mslip_normal_force(
     stiffness: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        normal_law(
-            element,
-            n,
-            approach,
-            [normal_force, stiffness, half_width],
-            Element::check_approach,
-            Element::four_normal_forces,
-            |_, value| value,
-        )
-    }
+    normal_law(
+        element,
+        n,
+        approach,
+        [normal_force, stiffness, half_width],
+        Element::check_approach,
+        Element::four_normal_forces,
+        |_, value| value,
+    )
 }
 
 /// The inverse normal law: approach \[m\], compliance \[m/N\] and half-width \[m\] under normal_force\[n\] \[N\]. At 0 the
@@ -147,9 +127,6 @@ pub unsafe extern "C" fn mslip_normal_force(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
 /// contact would be too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_normal_approach(
     element: *const mslip_element,
@@ -159,18 +136,15 @@ pub unsafe extern "C" fn mslip_normal_approach(
     compliance: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        normal_law(
-            element,
-            n,
-            normal_force,
-            [approach, compliance, half_width],
-            Element::check_normal_force,
-            |element, given| given.map(|force| element.approach_under(force)),
-            |given, _| given,
-        )
-    }
+    normal_law(
+        element,
+        n,
+        normal_force,
+        [approach, compliance, half_width],
+        Element::check_normal_force,
+        |element, given| given.map(|force| element.approach_under(force)),
+        |given, _| given,
+    )
 }
 
 /// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
@@ -188,10 +162,9 @@ unsafe fn normal_law(
     law: impl Fn(&Element, &[f64; 4]) -> [NormalPoint; 4],
     normal_force: impl Fn(f64, f64) -> f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (element, given, [mut values, mut slopes, mut half_widths]) =
-            unsafe { (pointers::element(element)?, input(given, n)?, outputs(results, n)?) };
+            (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
         given.iter().try_for_each(|given| check(element, *given))?;
         for (block, given) in given.chunks(4).enumerate() {
             let mut four = [given.first().copied().unwrap_or(0.0); 4];
@@ -204,8 +177,7 @@ unsafe fn normal_law(
             }
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
@@ -224,18 +196,13 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 /// Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
-    let init = || {
+    call(|| {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let state = unsafe { memory(state_length, state) }?;
+        let state = memory(state_length, state)?;
         with_law!(directions, L => L::state_init(state))
-    };
-    status(init())
+    })
 }
 
 /// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
@@ -243,21 +210,16 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
-    let check = || {
+    call(|| {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let state = unsafe { state_input(state_length, state) }?;
+        let state = state_input(state_length, state)?;
         with_law!(directions, L => {
             check_header::<L>(state)?;
             L::state_check(state)
         })
-    };
-    status(check())
+    })
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
@@ -266,9 +228,6 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_error(
     directions: i32,
@@ -276,17 +235,15 @@ pub unsafe extern "C" fn mslip_element_state_error(
     state: *const f64,
     force_error: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         let directions = directions_of(directions)?;
-        // SAFETY: by the function's contract.
-        let (state, mut force_error) = unsafe { (state_input(state_length, state)?, output(force_error, 1)?) };
+        let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         with_law!(directions, L => {
             check_header::<L>(state)?;
             set(&mut force_error, 0, || L::force_error(state));
             Ok(())
         })
-    };
-    status(compute())
+    })
 }
 
 /// Checks the length and the tag of a state.
@@ -305,10 +262,6 @@ fn check_header<L: ElementLaw>(state: &[f64]) -> Result<(), Error> {
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 /// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
 /// too wide for its length.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_update(
     element: *const mslip_element,
@@ -320,22 +273,18 @@ pub unsafe extern "C" fn mslip_element_update(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let checked_update = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
-            })
-        }
-    };
-    status(checked_update())
+    call(|| {
+        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => {
+            checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
+        })
+    })
 }
 
 /// Checks all inputs of an update, then evaluates it.
 ///
 /// # Safety
-/// As for [`mslip_element_update`].
+/// That of the interface.
 #[inline(always)]
 unsafe fn checked_update<L: ElementLaw>(
     element: &Element,
@@ -398,10 +347,6 @@ pub(super) unsafe fn update<L: ElementLaw>(
 /// direction the path is then evaluated with a capacity of at most 256 pieces.
 ///
 /// Returns the codes of mslip_element_update; all outputs are unchanged then.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or the lengths above; state_new is state_old or, like the
-/// outputs, does not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_path(
     element: *const mslip_element,
@@ -414,20 +359,16 @@ pub unsafe extern "C" fn mslip_element_path(
     tangent: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let advance = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
-            })
-        }
-    };
-    status(advance())
+    call(|| {
+        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => {
+            path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
+        })
+    })
 }
 
 /// # Safety
-/// As for [`mslip_element_path`].
+/// That of the interface.
 unsafe fn path<L: ElementLaw>(
     element: &Element,
     state_length: usize,
@@ -439,12 +380,9 @@ unsafe fn path<L: ElementLaw>(
 ) -> Result<(), Error> {
     let times = |components: usize| n.checked_mul(components).ok_or(Error::BadArraySize);
     let (vectors, tangents) = (times(L::COMPONENTS)?, times(L::COMPONENTS * L::COMPONENTS)?);
-    // SAFETY: by the function's contract.
-    let (path, output) = unsafe {
-        let (path, force, tangent) =
-            (input(displacement, vectors)?, output(force, vectors)?, output(tangent, tangents)?);
-        (path, PathOutput { force, tangent, dissipated: output(dissipated, n)? })
-    };
+    let path = input(displacement, vectors)?;
+    let (force, tangent, dissipated) = (output(force, vectors)?, output(tangent, tangents)?, output(dissipated, n)?);
+    let output = PathOutput { force, tangent, dissipated };
     check_alignment(state_new)?;
     {
         // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
@@ -471,9 +409,6 @@ unsafe fn path<L: ElementLaw>(
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
 /// MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_tractions(
     element: *const mslip_element,
@@ -484,17 +419,14 @@ pub unsafe extern "C" fn mslip_element_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let element = unsafe { pointers::element(element) }?;
+    call(|| {
+        let element = pointers::element(element)?;
         if element.tangential_directions() == Directions::Two {
             return Err(Error::NotAvailable);
         }
-        // SAFETY: by the function's contract.
         let (state, x, [pressure, shear]) =
-            unsafe { (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?) };
+            (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?);
         check_header::<OneDirection>(state)?;
         tractions(element, state, x, pressure, shear)
-    };
-    status(compute())
+    })
 }

@@ -1,12 +1,12 @@
 //! Harmonic balance: workspaces and harmonic force.
 
 use super::element::directions_of;
-use super::pointers::{self, check_alignment, input, memory, output, status, with_law};
+use super::pointers::{self, call, check_alignment, input, memory, output, outputs, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::fourier::workspace::WorkspaceLayout;
+use crate::fourier::workspace::{Size, WorkspaceLayout};
 use crate::law::ElementLaw;
 use crate::parameters::PARAMETERS;
 use libc::size_t;
@@ -36,9 +36,6 @@ pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: si
 /// energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-///
-/// # Safety
-/// `workspace` is NULL or valid for workspace_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     harmonics: size_t,
@@ -47,20 +44,15 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_init(
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
-    let init = || {
+    call(|| {
         let rule = rule_of(rule)?;
-        // SAFETY: by the function's contract.
-        rule.workspace_init(harmonics, samples, unsafe { memory(workspace_length, workspace) }?)
-    };
-    status(init())
+        rule.workspace_init(harmonics, samples, memory(workspace_length, workspace)?)
+    })
 }
 
 /// Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     workspace: *const f64,
@@ -68,9 +60,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
     samples: *mut size_t,
     rule: *mut i32,
 ) -> i32 {
-    let read = || {
-        // SAFETY: by the function's contract.
-        let header = unsafe { pointers::workspace_header(workspace) }?;
+    call(|| {
+        let header = pointers::workspace_header(workspace)?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
         let (harmonics_found, samples_found, rule_found) = workspace_size(&header)?;
@@ -85,8 +76,7 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
             rule.as_mut().into_iter().for_each(|output| *output = constant);
         }
         Ok(())
-    };
-    status(read())
+    })
 }
 
 /// Checks what a workspace of an element is made for. An event-driven rule is not available.
@@ -109,7 +99,7 @@ pub extern "C" fn mslip_element_workspace_length(
 ) -> size_t {
     let length = |directions| {
         let length = with_law!(directions, L => {
-            <L as ElementLaw>::Layout::new(harmonics, samples).map(|layout| layout.length())
+            <L as ElementLaw>::Layout::new(Size::new(harmonics, samples)).map(|layout| layout.length())
         });
         length.unwrap_or(0)
     };
@@ -117,37 +107,33 @@ pub extern "C" fn mslip_element_workspace_length(
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-/// needs its own.
+/// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
+/// With one direction more than one changes nothing, and costs nothing.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
-/// MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
-///
-/// # Safety
-/// `workspace` is NULL or valid for workspace_length doubles.
+/// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_workspace_init(
     directions: i32,
     harmonics: size_t,
     samples: size_t,
     rule: i32,
+    periods: size_t,
     workspace_length: size_t,
     workspace: *mut f64,
 ) -> i32 {
-    let init = || {
+    call(|| {
         let directions = check_element_rule(directions, rule)?;
-        // SAFETY: by the function's contract.
-        let memory = unsafe { memory(workspace_length, workspace) }?;
-        with_law!(directions, L => <L as ElementLaw>::Layout::init(harmonics, samples, memory))
-    };
-    status(init())
+        let memory = memory(workspace_length, workspace)?;
+        let size = Size::new(harmonics, samples).with_periods(periods);
+        with_law!(directions, L => <L as ElementLaw>::Layout::init(size, memory))
+    })
 }
 
-/// Number of directions, of harmonics and of samples, and rule, of an initialised workspace of elements. Outputs may be NULL.
+/// Number of directions, of harmonics and of samples, rule, and number of periods before the one that counts (never 0), of an
+/// initialised workspace of elements. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the outputs are NULL or valid for one item.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_workspace_size(
     workspace: *const f64,
@@ -155,22 +141,22 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     harmonics: *mut size_t,
     samples: *mut size_t,
     rule: *mut i32,
+    periods: *mut size_t,
 ) -> i32 {
-    let read = || {
-        [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
+    call(|| {
+        [harmonics, samples, periods].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
-        // SAFETY: by the function's contract.
-        let (found, size, _) = unsafe { pointers::element_workspace_size(workspace) }?;
+        let (found, size, _) = pointers::element_workspace_size(workspace)?;
         // SAFETY: aligned; NULL or valid for one item by the function's contract.
         unsafe {
             directions.as_mut().into_iter().for_each(|output| *output = found as i32);
             harmonics.as_mut().into_iter().for_each(|output| *output = size.harmonics);
             samples.as_mut().into_iter().for_each(|output| *output = size.samples);
             rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
+            periods.as_mut().into_iter().for_each(|output| *output = size.periods);
         }
         Ok(())
-    };
-    status(read())
+    })
 }
 
 /// Harmonic force of an element in steady state, by alternating frequency/time (AFT). displacement and force hold component after
@@ -180,17 +166,18 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
 ///
 /// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
-/// tangential displacement, is displaced to that sample at constant normal force, and advances through two periods from there; the
-/// second one counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to another sample, and
-/// the mean tangential force may depend on the start.
+/// tangential displacement, is displaced to that sample at constant normal force, and advances from there through the periods of the
+/// workspace and one more, which counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to
+/// another sample, and the mean tangential force may depend on the start.
+///
+/// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
+/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
+/// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With the default
+/// number of periods the one before is the first, and the drift contains the first loading. A drift is not an error.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
 /// MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; `element` is NULL or valid for an element; the others are NULL or valid for the lengths
-/// above; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_harmonic_force(
     element: *const mslip_element,
@@ -199,36 +186,30 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     force: *mut f64,
     jacobian: *mut f64,
     dissipated: *mut f64,
+    drift: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        unsafe {
-            let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated]);
-            with_law!(element.tangential_directions(), L => {
-                element_harmonic_force::<L>(element, workspace, displacement, outputs)
-            })
-        }
-    };
-    status(compute())
+    call(|| {
+        let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated, drift]);
+        with_law!(element.tangential_directions(), L => {
+            element_harmonic_force::<L>(element, workspace, displacement, outputs)
+        })
+    })
 }
 
 /// # Safety
-/// As for [`mslip_element_harmonic_force`].
+/// That of the interface.
 unsafe fn element_harmonic_force<L: ElementLaw>(
     element: &Element,
     workspace: *mut f64,
     displacement: *const f64,
-    [force, jacobian, dissipated]: [*mut f64; 3],
+    [force, jacobian, dissipated, drift]: [*mut f64; 4],
 ) -> Result<(), Error> {
-    // SAFETY: by the function's contract.
-    let mut workspace = unsafe { pointers::element_workspace::<L>(workspace) }?;
+    let mut workspace = pointers::element_workspace::<L>(workspace)?;
     let n = L::COMPONENTS * L::coefficients(&workspace);
-    // SAFETY: by the function's contract.
-    let (displacement, output) = unsafe {
-        let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
-        let dissipated = output(dissipated, 1)?.and_then(<[f64]>::first_mut);
-        (input(displacement, n)?, HarmonicOutput { force, jacobian, dissipated })
-    };
+    let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
+    let [dissipated, drift] = outputs([dissipated, drift], 1)?.map(|output| output.and_then(<[f64]>::first_mut));
+    let output = HarmonicOutput { force, jacobian, dissipated, drift };
+    let displacement = input(displacement, n)?;
     L::harmonic_force(element, &mut workspace, displacement, output)
 }
 
@@ -244,10 +225,6 @@ unsafe fn element_harmonic_force<L: ElementLaw>(
 /// grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_force(
     contact: *const mslip_contact,
@@ -257,17 +234,15 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, mut workspace) = unsafe { (pointers::contact(contact)?, pointers::workspace(workspace)?) };
+    call(|| {
+        let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
-        // SAFETY: by the function's contract.
         let (displacement, force, jacobian, dissipated) =
-            unsafe { (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?) };
-        let output = HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut) };
+            (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?);
+        let output =
+            HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut), drift: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
-    };
-    status(compute())
+    })
 }
 
 /// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and
@@ -280,10 +255,6 @@ pub unsafe extern "C" fn mslip_harmonic_force(
 /// force.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// `workspace` is NULL or was initialised; the others are NULL or valid for the lengths above; outputs must not alias any other
-/// argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_harmonic_sensitivity(
     contact: *const mslip_contact,
@@ -292,19 +263,16 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
     force: *mut f64,
     sensitivity: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, mut workspace) = unsafe { (pointers::contact(contact)?, pointers::workspace(workspace)?) };
+    call(|| {
+        let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
         let n = workspace.coefficients();
-        // SAFETY: by the function's contract.
         let (displacement, force, sensitivity) =
-            unsafe { (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?) };
-        let output = HarmonicOutput { force, jacobian: None, dissipated: None };
+            (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?);
+        let output = HarmonicOutput { force, jacobian: None, dissipated: None, drift: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
         match sensitivity {
             Some(sensitivity) => harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
             None => Ok(()),
         }
-    };
-    status(compute())
+    })
 }

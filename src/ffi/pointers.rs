@@ -5,7 +5,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_extent};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
-use crate::fourier::workspace::{Size, WorkspaceLayout};
+use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
 use crate::law::ElementLaw;
 
 use crate::error::Error;
@@ -17,6 +17,12 @@ pub fn status(result: Result<(), Error>) -> i32 {
         Ok(()) => MSLIP_OK,
         Err(error) => error.code(),
     }
+}
+
+/// The status of a call.
+#[inline(always)]
+pub fn call(call: impl FnOnce() -> Result<(), Error>) -> i32 {
+    status(call())
 }
 
 /// Rejects lengths that exceed the address space.
@@ -70,8 +76,7 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
     if pointer.is_null() {
         return Ok(None);
     }
-    // SAFETY: by the function's contract.
-    unsafe { input(pointer, n) }.map(Some)
+    input(pointer, n).map(Some)
 }
 
 /// A state as an input; not NULL.
@@ -83,8 +88,7 @@ pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<
     if state.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: by the function's contract.
-    unsafe { input(state, state_length) }
+    input(state, state_length)
 }
 
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
@@ -108,8 +112,7 @@ pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f6
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: by the function's contract.
-    Ok(unsafe { output(pointer, length) }?.unwrap_or(&mut []))
+    Ok(output(pointer, length)?.unwrap_or(&mut []))
 }
 
 /// Outputs of n doubles each.
@@ -133,8 +136,7 @@ pub unsafe fn outputs<'a, const K: usize>(
 /// As for [`output`]; aligned, and of admissible length.
 #[inline(always)]
 pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
-    // SAFETY: by the function's contract.
-    if pointer.is_null() || n == 0 { None } else { Some(unsafe { slice::from_raw_parts_mut(pointer, n) }) }
+    if pointer.is_null() || n == 0 { None } else { Some(slice::from_raw_parts_mut(pointer, n)) }
 }
 
 /// An initialised contact.
@@ -183,8 +185,7 @@ impl From<Contact> for mslip_contact {
 /// # Safety
 /// The type has the alignment of a double and no padding.
 unsafe fn sum<T>(value: &T) -> u64 {
-    // SAFETY: by the function's contract.
-    let words = unsafe { slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>()) };
+    let words = slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>());
     words.iter().fold(0, |sum, word| sum.wrapping_add(*word))
 }
 
@@ -204,8 +205,7 @@ pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, 
 /// # Safety
 /// `pointer` is NULL or valid for a table if the first double is the tag of one.
 pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTable, Error> {
-    // SAFETY: by the function's contract.
-    if !StiffnessTable::is_tag(*unsafe { item(pointer) }?) {
+    if !StiffnessTable::is_tag(*item(pointer)?) {
         return Err(Error::BadTable);
     }
     // SAFETY: a table consists of doubles; valid by the function's contract.
@@ -243,25 +243,24 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
 /// Header of a workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for two doubles.
+/// `pointer` is NULL or valid for three doubles.
 #[inline(always)]
-pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; 2], Error> {
+pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
     check_alignment(pointer)?;
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, and valid for two doubles by the function's contract.
-    Ok(unsafe { pointer.cast::<[f64; 2]>().read() })
+    // SAFETY: aligned, and valid for three doubles by the function's contract.
+    Ok(unsafe { pointer.cast::<[f64; TAGS]>().read() })
 }
 
 /// An initialised workspace.
 ///
 /// # Safety
-/// `pointer` is NULL or valid for two doubles, and for the whole workspace if these are the header of one.
+/// `pointer` is NULL or valid for three doubles, and for the whole workspace if these are the header of one.
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
-    // SAFETY: by the function's contract.
-    let header = unsafe { workspace_header(pointer) }?;
+    let header = workspace_header(pointer)?;
     let extent = workspace_extent(&header)?;
     // SAFETY: the header of a workspace of that extent, by the function's contract.
     Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
@@ -272,8 +271,7 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
 /// # Safety
 /// As for [`workspace_header`].
 pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, Size, usize), Error> {
-    // SAFETY: by the function's contract.
-    let header = unsafe { workspace_header(pointer) }?;
+    let header = workspace_header(pointer)?;
     let read_as = |directions| {
         with_law!(directions, L => {
             let layout = <L as ElementLaw>::Layout::read(&header)?;
@@ -289,8 +287,7 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions,
 /// As for [`workspace`].
 #[inline(never)]
 pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
-    // SAFETY: by the function's contract.
-    let (directions, _, extent) = unsafe { element_workspace_size(pointer) }?;
+    let (directions, _, extent) = element_workspace_size(pointer)?;
     if directions != L::DIRECTIONS {
         return Err(Error::BadDirections);
     }

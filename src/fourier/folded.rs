@@ -137,7 +137,7 @@ impl<'a> FoldedFourier<'a> {
         continue_periodically(values, samples);
     }
 
-    /// Sums of the samples times 1, cos t, sin t, cos 2t, ... as many as fit in `sums`. Continues the values periodically.
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
         let fourier = self;

@@ -213,7 +213,7 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         (self.row_blocks / N).max(1)
     }
 
-    /// A strip of the terms, without any: the same number must be appended to each strip.
+    /// A strip of the terms, emptied: the same number must be appended to each strip.
     #[inline(always)]
     pub fn terms<const N: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
         let range = strip * self.capacity..(strip + 1) * self.capacity;

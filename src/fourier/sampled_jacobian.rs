@@ -47,7 +47,7 @@ impl<'a> Assembly<'a> {
     /// Extends the sums to the pairs of all orders.
     #[inline(always)]
     fn extend(&mut self) {
-        let Size { harmonics, samples } = self.size;
+        let Size { harmonics, samples, .. } = self.size;
         let weight = 1.0 / samples as f64;
         let Some((constant, sums)) = self.sums.split_first() else { return };
         let [z, w] = &mut self.pairs;

@@ -1,7 +1,7 @@
 //! Workspaces of the harmonic force: size, header and layout.
 //!
 //! ```text
-//! [tag with harmonics, tag with samples, 0, 0 | tables | scratch memory]
+//! [tag with harmonics, tag with samples, tag with periods, 0 | tables | scratch memory]
 //! ```
 //!
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`WorkspaceLayout`].
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::tag::Kind;
 
 /// Tags at the beginning.
-pub(crate) const TAGS: usize = 2;
+pub(crate) const TAGS: usize = 3;
 
 /// Doubles before the tables: the tags, padded so that the tables keep the alignment of the workspace.
 pub(crate) const HEADER: usize = 4;
@@ -18,14 +18,26 @@ pub(crate) const HEADER: usize = 4;
 /// Doubles in blocks of four.
 pub(crate) type Blocks = [[f64; 4]];
 
-/// Number of harmonics H, and of samples or nodes per period.
+/// Number of harmonics H, of samples or nodes per period, and of periods walked before the one that counts, which matters for two
+/// directions only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Size {
     pub harmonics: usize,
     pub samples: usize,
+    pub periods: usize,
 }
 
 impl Size {
+    /// With the default number of periods.
+    pub fn new(harmonics: usize, samples: usize) -> Size {
+        Size { harmonics, samples, periods: 1 }
+    }
+
+    /// With a number of periods, or the default for 0.
+    pub fn with_periods(self, periods: usize) -> Size {
+        Size { periods: periods.max(1), ..self }
+    }
+
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         2 * self.harmonics + 1
@@ -57,16 +69,21 @@ pub(crate) trait WorkspaceLayout: Sized {
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error>;
 
     /// # Errors
-    /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24.
-    fn new(harmonics: usize, samples: usize) -> Result<Self, Error> {
+    /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
+    fn new(size: Size) -> Result<Self, Error> {
         const LARGEST: usize = 1 << 24;
+        const MOST_PERIODS: usize = 1 << 16;
+        let Size { harmonics, samples, periods } = size;
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
         }
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
-        let layout = Self::of(Size { harmonics, samples });
+        if !(1..=MOST_PERIODS).contains(&periods) {
+            return Err(Error::BadPeriods);
+        }
+        let layout = Self::of(size);
         // With 32-bit addresses these sizes may still be too large. The workspace is smaller than eight times `max_rows` rows.
         let doubles = layout.max_rows().checked_mul(8 * (2 * harmonics + 8));
         if doubles.is_none_or(|doubles| doubles > isize::MAX as usize / 8) {
@@ -79,14 +96,15 @@ pub(crate) trait WorkspaceLayout: Sized {
     ///
     /// # Errors
     /// `WorkspaceTooShort`, and those of [`WorkspaceLayout::new`].
-    fn init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-        let layout = Self::new(harmonics, samples)?;
+    fn init(size: Size, workspace: &mut [f64]) -> Result<(), Error> {
+        let layout = Self::new(size)?;
         let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         let tables = buffers.get_mut(..layout.tables_length()).ok_or(Error::WorkspaceTooShort)?;
         layout.fill_tables(&mut Parts(tables))?;
-        *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), 0.0, 0.0];
+        let Size { harmonics, samples, periods } = size;
+        *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
     }
 
@@ -95,10 +113,10 @@ pub(crate) trait WorkspaceLayout: Sized {
     /// # Errors
     /// `BadWorkspace` if uninitialised.
     #[inline(always)]
-    fn read(&[first, second]: &[f64; TAGS]) -> Result<Self, Error> {
-        let (harmonics, samples) = (Self::KIND.count(first), Kind::Samples.count(second));
-        Self::new(harmonics.ok_or(Error::BadWorkspace)?, samples.ok_or(Error::BadWorkspace)?)
-            .map_err(|_| Error::BadWorkspace)
+    fn read(&[first, second, third]: &[f64; TAGS]) -> Result<Self, Error> {
+        let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
+        let (Some(harmonics), Some(samples), Some(periods)) = counts else { return Err(Error::BadWorkspace) };
+        Self::new(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)
     }
 
     /// Layout of an initialised workspace, and the memory behind its header.

@@ -9,7 +9,7 @@ pub(crate) const TERMS: usize = 20;
 /// A polynomial in rows of four coefficients.
 pub(crate) type Polynomial = Rows<{ TERMS / 4 }>;
 
-/// Coefficients of the powers of z in T_n(shift + scale z), at `[n][power]`: integers below 2⁵³.
+/// Coefficients of the powers of z in T_n(shift + scale z), at `[n][power]`: integers, exact below 2⁵³.
 const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
     let mut table = [[0.0; N]; N];
     table[0][0] = 1.0;
@@ -28,18 +28,27 @@ const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
     table
 }
 
+/// The same for the last M of them, divided by their leading coefficients.
+pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, scale: f64) -> [[f64; N]; M] {
+    let (powers, mut table) = (powers_in::<N>(shift, scale), [[0.0; N]; M]);
+    let mut n = N - M;
+    while n < N {
+        let mut k = 0;
+        while k <= n {
+            table[n + M - N][k] = powers[n][k] / powers[n][n];
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+}
+
 /// Expansion about the middle of (-1, 1), in powers of z.
 static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
+/// The same of 32 terms.
+pub(crate) static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
-
-/// Expansion of 32 terms about the middle.
-static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
-
-/// Powers of z in T_n, at `[n][power]`.
-pub(crate) fn middle_powers() -> &'static [[f64; 32]; 32] {
-    &MORE_AROUND_MIDDLE
-}
 
 /// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
 static PER_TWICE: [f64; TERMS] = {

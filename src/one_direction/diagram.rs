@@ -49,17 +49,18 @@ impl Knot {
 
     /// D of the piece that ends at this knot.
     pub fn slope_from(&self, inner: &Knot, friction_coefficient: f64) -> f64 {
-        let (falling, rising) = (inner.xi - self.xi, self.eta - inner.eta);
-        // Exactly ±mu in a slip zone, which is parallel to an axis.
-        if falling <= 0.0 && rising <= 0.0 {
-            0.0
-        } else if falling <= 0.0 {
-            friction_coefficient
-        } else if rising <= 0.0 {
-            -friction_coefficient
-        } else {
-            friction_coefficient * ((rising - falling) / (rising + falling))
-        }
+        friction_coefficient * slope(inner.xi - self.xi, self.eta - inner.eta)
+    }
+}
+
+/// D/mu of a piece by its lengths in both coordinates: exactly ±1 in a slip zone, which is parallel to an axis.
+#[inline(always)]
+pub(crate) fn slope(falling: f64, rising: f64) -> f64 {
+    match (falling > 0.0, rising > 0.0) {
+        (false, false) => 0.0,
+        (false, true) => 1.0,
+        (true, false) => -1.0,
+        (true, true) => (rising - falling) / (rising + falling).max(f64::MIN_POSITIVE),
     }
 }
 

@@ -37,7 +37,7 @@ use samples::{Part, Samples};
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
@@ -45,7 +45,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// # Errors
 /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Layout::init(harmonics, samples, workspace)
+    Layout::init(Size::new(harmonics, samples), workspace)
 }
 
 /// Lengths of the parts of a workspace.
@@ -85,7 +85,7 @@ impl WorkspaceLayout for Layout {
     }
 
     fn length(&self) -> usize {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         let path = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
         HEADER
             + self.tables_length()
@@ -98,7 +98,7 @@ impl WorkspaceLayout for Layout {
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         let table = tables.take(folded::table_length(samples, 2 * harmonics))?;
         folded::fill_table(table, samples, 2 * harmonics);
         fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
@@ -126,7 +126,7 @@ impl<'a> Workspace<'a> {
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
         let size = layout.0;
-        let Size { harmonics, samples: count } = size;
+        let Size { harmonics, samples: count, .. } = size;
         let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
         let rows = Rows::take(&mut parts, harmonics, count)?;
         fourier.take_scratch(&mut parts)?;
@@ -205,13 +205,8 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let coefficients = workspace.coefficients();
-    let HarmonicOutput { force, jacobian, dissipated } = output;
-    let n = 2 * coefficients;
-    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
-    if displacement.len() != n || !fits(&force, n) || !fits(&jacobian, n * n) {
-        return Err(Error::BadArraySize);
-    }
-    check_coefficients(displacement)?;
+    output.check(2 * coefficients, displacement)?;
+    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
     let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
     let has_friction = !motion.open && element.friction_coefficient > 0.0;
@@ -244,6 +239,9 @@ pub fn harmonic_force(
         let Workspace { samples, path, .. } = workspace;
         let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
         *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
+    }
+    if let Some(drift) = drift {
+        *drift = 0.0;
     }
     if let Some(force) = force {
         workspace.write_force(element, input, motion, part.as_ref(), force);

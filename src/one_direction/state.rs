@@ -44,7 +44,7 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
 /// Checks the length, the tag and the number of knots of a state.
 ///
 /// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that is no state of that length.
+/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for a tag that no state of that length has.
 #[inline(always)]
 pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
@@ -53,7 +53,7 @@ pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     check_tag(state.first().copied().unwrap_or(0.0), state.len())
 }
 
-/// Rejects the tag of what is no state of that length.
+/// Rejects a tag that no state of that length has.
 #[inline(always)]
 pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
     match Kind::ElementState.count(tag) {

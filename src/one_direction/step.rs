@@ -14,6 +14,30 @@ pub(crate) struct Point {
     pub error: f64,
 }
 
+/// Where a straight path crosses zero load.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Crossing {
+    pub displacement: f64,
+    /// Parts of the path before and behind it, by which it moves with the end and with the start of the path.
+    pub fraction: f64,
+    pub rest: f64,
+    /// Change of the displacement over that of the approach; 0 with the force as input, at whose open end the crossing is.
+    pub slope: f64,
+}
+
+impl Crossing {
+    /// Between two displacements, of which one closes the contact.
+    pub fn between(element: &Element, [u0, w0]: [f64; 2], [u1, w1]: [f64; 2]) -> Crossing {
+        let fraction = element.crossing(w0, w1);
+        let displacement = u0 + fraction * (u1 - u0);
+        if !element.by_approach() {
+            return Crossing { displacement, fraction, rest: 1.0 - fraction, slope: 0.0 };
+        }
+        let distance = w1 - w0;
+        Crossing { displacement, fraction, rest: w1 / distance, slope: (u1 - u0) / distance }
+    }
+}
+
 /// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
 #[inline(always)]
 pub(crate) fn step(
@@ -52,33 +76,35 @@ fn opening_or_closing(
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };
     let to = Point { displacement, input, normal, error: 0.0 };
-    // The straight path passes N = 0 at this fraction; with the force as input at its open end.
     let start = if was_closed { from.input } else { from.input.min(0.0) };
     let end = if closed { input } else { input.min(0.0) };
-    let fraction = if was_closed == closed { 0.0 } else { element.crossing(start, end) };
-    let crossing = from.displacement + fraction * (displacement - from.displacement);
+    let crossing = if was_closed == closed {
+        Crossing { displacement: from.displacement, fraction: 0.0, rest: 1.0, slope: 0.0 }
+    } else {
+        Crossing::between(element, [from.displacement, start], [displacement, end])
+    };
     let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
     if !closed || !friction {
         if with_energy && was_closed && friction {
-            let path = Path { shift: [from.normal.shift, 0.0], displacement: crossing - from.displacement };
+            let path =
+                Path { shift: [from.normal.shift, 0.0], displacement: crossing.displacement - from.displacement };
             step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
         diagram.replace(0, [Knot::centre(displacement)]);
         return (step, to);
     }
-    let centre = Knot::centre(crossing);
+    let centre = Knot::centre(crossing.displacement);
     let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
     if with_energy {
-        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing };
+        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing.displacement };
         step.dissipated = energy::dissipated(element, &touching.knots, &path);
     }
     let Response { force, mut by_displacement, mut by_input } =
         diagram::step(element, &mut touching, displacement, &normal);
-    if touching.sticks && element.by_approach() {
+    if touching.sticks {
         // The start of the path moves with its end.
-        let distance = end - start;
-        by_input -= by_displacement * ((displacement - from.displacement) / distance) * (start / distance);
-        by_displacement *= end / distance;
+        by_input += by_displacement * crossing.slope * crossing.fraction;
+        by_displacement *= crossing.rest;
     }
     step.force[0] = force;
     (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);

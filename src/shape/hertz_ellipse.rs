@@ -230,7 +230,14 @@ mod tests {
 
     fn initial_compliance(semi_axis_x: f64, semi_axis_y: f64, material: &[Material; 2]) -> f64 {
         let (normal_force, friction_coefficient, material) = (1.0, 0.3, *material);
-        let parameters = EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material };
+        let parameters = EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient,
+            material,
+            ..EllipticParameters::default()
+        };
         HertzEllipse::new(&parameters).unwrap().initial_compliance()
     }
 

@@ -118,6 +118,7 @@ fn the_harmonic_force() {
                         force: Some(&mut force),
                         jacobian: Some(&mut jacobian),
                         dissipated: dissipated.first_mut(),
+                        drift: None,
                     };
                     harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
                     let mut sensitivity = vec![0.0; 6 * n];
@@ -174,6 +175,7 @@ fn an_element() {
                     force: Some(&mut force),
                     jacobian: Some(&mut jacobian),
                     dissipated: dissipated.first_mut(),
+                    drift: None,
                 };
                 line::harmonic_force(&one, &mut workspace, &displacement, output).unwrap();
                 [force, jacobian, dissipated.to_vec()].concat()

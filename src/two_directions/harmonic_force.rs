@@ -32,36 +32,18 @@ pub use crate::fourier::HarmonicOutput;
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(harmonics, samples).map_or(0, |layout| layout.length())
+    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
 }
 
-/// Initialises a workspace: tables for the given harmonics and samples, and scratch memory. One period is walked before the one that
-/// counts.
+/// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
+/// default, 1), and scratch memory.
 ///
 /// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
-pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    workspace_init_with_periods(harmonics, samples, 1, workspace)
+/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more than 65536;
+/// `WorkspaceTooShort`.
+pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
+    Layout::init(Size::new(harmonics, samples).with_periods(periods), workspace)
 }
-
-/// The same with a number of periods before the one that counts; 0 for the default, 1.
-///
-/// # Errors
-/// As for [`workspace_init`].
-pub fn workspace_init_with_periods(
-    harmonics: usize,
-    samples: usize,
-    periods: usize,
-    workspace: &mut [f64],
-) -> Result<(), Error> {
-    Layout::init(harmonics, samples, workspace)?;
-    let place = workspace.get_mut(HEADER).ok_or(Error::WorkspaceTooShort)?;
-    *place = periods.clamp(1, MOST_PERIODS) as f64;
-    Ok(())
-}
-
-/// Counts of steps remain exact.
-const MOST_PERIODS: usize = 1 << 24;
 
 /// Columns that are advanced at once.
 const BLOCK: usize = 12;
@@ -111,7 +93,7 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables_length(&self) -> usize {
-        4 + padded(self.0.coefficients() * self.0.samples) + self.one_direction_length()
+        padded(self.0.coefficients() * self.0.samples) + self.one_direction_length()
     }
 
     fn length(&self) -> usize {
@@ -125,9 +107,8 @@ impl WorkspaceLayout for Layout {
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         let n = self.0.coefficients();
-        tables.take(4)?;
         let basis = tables.take(n * samples)?;
         for (sample, values) in basis.chunks_exact_mut(n).enumerate() {
             for (c, value) in values.iter_mut().enumerate() {
@@ -144,7 +125,6 @@ impl WorkspaceLayout for Layout {
 #[derive(Debug)]
 pub struct Workspace<'a> {
     size: Size,
-    periods: usize,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a [f64],
     one_direction: one_direction::Workspace<'a>,
@@ -166,12 +146,10 @@ impl<'a> Workspace<'a> {
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
         let (size, blocks) = (layout.0, layout.blocks());
-        let periods = (parts.take(4)?.first().copied().unwrap_or(1.0) as usize).clamp(1, MOST_PERIODS);
         let basis = parts.take(size.coefficients() * size.samples)?;
         let one_direction = one_direction::Workspace::new(parts.take(layout.one_direction_length())?)?;
         Ok(Workspace {
             size,
-            periods,
             basis,
             one_direction,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
@@ -252,8 +230,8 @@ impl<'a> Workspace<'a> {
 /// approach \[m\] or the normal force \[N\].
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
-/// with respect to the coefficients of the motion. Returned is the drift: the largest difference of the tangential force between the
-/// period that counts and the one before, over μ times the largest normal force.
+/// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
+/// counts and the one before, over μ times the largest normal force; 0 if the contact opens or moves on a line.
 ///
 /// # Errors
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
@@ -264,9 +242,9 @@ pub fn harmonic_force(
     workspace: &mut Workspace,
     displacement: &[f64],
     output: HarmonicOutput,
-) -> Result<f64, Error> {
+) -> Result<(), Error> {
     let n = workspace.coefficients();
-    let HarmonicOutput { mut force, mut jacobian, mut dissipated } = output;
+    let HarmonicOutput { mut force, mut jacobian, mut dissipated, mut drift } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
     if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
         return Err(Error::BadArraySize);
@@ -277,28 +255,30 @@ pub fn harmonic_force(
     if on_line {
         let with_jacobian = jacobian.is_some();
         line(element, workspace, displacement, force.as_deref_mut(), with_jacobian, dissipated.as_deref_mut())?;
+        if let Some(drift) = drift.take() {
+            *drift = 0.0;
+        }
         if !with_jacobian {
-            return Ok(0.0);
+            return Ok(());
         }
         (force, dissipated) = (None, None);
     }
-    let output = HarmonicOutput { force, jacobian: jacobian.as_deref_mut(), dissipated };
-    let drift = match element.springs {
+    let output = HarmonicOutput { force, jacobian: jacobian.as_deref_mut(), dissipated, drift };
+    match element.springs {
         8 => walk::<8>(element, workspace, output),
         12 => walk::<12>(element, workspace, output),
         _ => walk::<16>(element, workspace, output),
-    };
+    }
     if on_line && let Some(jacobian) = jacobian {
         merge_line(workspace, jacobian);
-        return Ok(0.0);
     }
-    Ok(drift)
+    Ok(())
 }
 
 /// The periods of a motion that was synthesised.
-fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) -> f64 {
-    let (n, count, periods) = (workspace.coefficients(), workspace.size.samples, workspace.periods);
-    let HarmonicOutput { force, jacobian, dissipated } = output;
+fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
+    let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
+    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
     // The first sample of largest normal force.
     let mut largest = 0;
@@ -311,7 +291,10 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
     let mut from = aligned::<N>(element, &Header::NONE, top_load);
     workspace.press(element, &from);
-    let (mut energy, mut drift) = (0.0, 0.0f64);
+    // A contact that opens forgets: whatever was before, the second period is the steady state.
+    let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
+    let periods = if opens { 1 } else { periods };
+    let (mut energy, mut largest_change) = (0.0, 0.0f64);
     if slides {
         let memory = core::mem::take(&mut workspace.springs);
         let (tables, neighbours) = memory.split_at_mut(memory.len() / 3);
@@ -379,7 +362,7 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                 if let Some([.., x_place, y_place, _]) = workspace.samples.get_mut(index) {
                     if counts {
                         let (dx, dy) = (x - *x_place, y - *y_place);
-                        drift = drift.max(dx * dx + dy * dy);
+                        largest_change = largest_change.max(dx * dx + dy * dy);
                     }
                     (*x_place, *y_place) = (x, y);
                 }
@@ -396,7 +379,9 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
     if let Some(jacobian) = jacobian {
         write_jacobian(workspace, slides.then_some(from.units.load * element.friction_coefficient), jacobian);
     }
-    if slides { drift.sqrt() / (element.friction_coefficient * top_load) } else { 0.0 }
+    if let Some(drift) = drift {
+        *drift = if slides && !opens { largest_change.sqrt() / (element.friction_coefficient * top_load) } else { 0.0 };
+    }
 }
 
 fn write_force(workspace: &Workspace, force: &mut [f64]) {
@@ -519,7 +504,7 @@ fn line(
     }
     let jacobian = if with_jacobian { Some(matrix) } else { None };
     let requested = force.is_some().then_some(&mut *result);
-    let output = HarmonicOutput { force: requested, jacobian, dissipated };
+    let output = HarmonicOutput { force: requested, jacobian, dissipated, drift: None };
     one_direction::harmonic_force(element, &mut workspace.one_direction, motion, output)?;
     if let Some(force) = force {
         force.fill(0.0);
@@ -575,7 +560,7 @@ mod tests {
                 friction_coefficient: 0.4,
                 material,
                 displacement_reference: CENTRE_POINT,
-                reserved: 0,
+                springs: 0,
             };
             Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
         };
@@ -618,7 +603,7 @@ mod tests {
 
     fn compute(element: &Element, motion: &[f64]) -> Result {
         let mut memory = vec![0.0; workspace_length(H, SAMPLES)];
-        workspace_init(H, SAMPLES, &mut memory).unwrap();
+        workspace_init(H, SAMPLES, 1, &mut memory).unwrap();
         let mut workspace = Workspace::new(&mut memory).unwrap();
         let mut result =
             Result { force: [0.0; COEFFICIENTS], jacobian: vec![0.0; COEFFICIENTS * COEFFICIENTS], dissipated: 0.0 };

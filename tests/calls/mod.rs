@@ -218,7 +218,7 @@ pub static FLAT: Parameters = Parameters {
     friction_coefficient: 0.5,
     material: [STEEL; 2],
     displacement_reference: MSLIP_CENTRE_POINT,
-    reserved: 0,
+    springs: 0,
 };
 
 pub static SPHERE: EllipticParameters = EllipticParameters {
@@ -227,6 +227,8 @@ pub static SPHERE: EllipticParameters = EllipticParameters {
     normal_force: 100.0,
     friction_coefficient: 0.3,
     material: [STEEL; 2],
+    springs: 0,
+    reserved: 0,
 };
 
 pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
@@ -234,6 +236,7 @@ pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
 pub const N: usize = 3;
 pub const HARMONICS: usize = 1;
 pub const SAMPLES: usize = 9;
+pub const PERIODS: usize = 2;
 
 /// A contact or an element, with its units, and the rule of a workspace.
 #[derive(Clone)]
@@ -298,15 +301,15 @@ pub fn contacts() -> &'static [Law; 3] {
 pub fn elements() -> &'static [Law; 3] {
     static ELEMENTS: OnceLock<[Law; 3]> = OnceLock::new();
     ELEMENTS.get_or_init(|| {
-        // The springs of both directions take too long under Miri: without friction there are none.
+        // Harmonic forces with the springs of both directions take too long under Miri: without friction there are none.
         let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
         [
-            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_APPROACH, element) }),
+            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_INPUT_APPROACH, element) }),
             element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_NORMAL_FORCE, element)
+                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_INPUT_NORMAL_FORCE, element)
             }),
             element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_APPROACH, element)
+                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_INPUT_APPROACH, element)
             }),
         ]
     })
@@ -315,7 +318,7 @@ pub fn elements() -> &'static [Law; 3] {
 pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> Law {
     let (memory, bytes) = initialised(init);
     let e: &mslip_element = &memory.values()[0];
-    let by_force = e.normal_input == MSLIP_NORMAL_FORCE;
+    let by_force = e.normal_input == MSLIP_INPUT_NORMAL_FORCE;
     Law {
         bytes,
         is_elliptic,
@@ -424,7 +427,7 @@ impl Law {
         let memory = Memory::new::<f64>(self.memory_length(call, "workspace"));
         let (n, start) = (memory.bytes / 8, memory.start.cast());
         let status = if call.is_of_element() {
-            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, n, start) }
+            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, PERIODS, n, start) }
         } else {
             unsafe { mslip_harmonic_workspace_init(HARMONICS, SAMPLES, self.rule, n, start) }
         };
@@ -433,18 +436,15 @@ impl Law {
     }
 
     fn table(&self) -> Memory {
-        static TABLES: OnceLock<[Vec<f64>; 3]> = OnceLock::new();
-        let tables = TABLES.get_or_init(|| {
-            contacts().each_ref().map(|law| {
-                let (contact, table) = (Memory::of_law(law, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
-                let status =
-                    unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
-                assert_eq!(status, MSLIP_OK);
-                table.values().to_vec()
-            })
-        });
+        static TABLES: [OnceLock<Vec<f64>>; 3] = [const { OnceLock::new() }; 3];
         let own = contacts().iter().position(|law| law.bytes == self.bytes).expect("a contact of the list");
-        Memory::of(&tables[own])
+        Memory::of(TABLES[own].get_or_init(|| {
+            let (contact, table) = (Memory::of_law(self, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
+            let status =
+                unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
+            assert_eq!(status, MSLIP_OK);
+            table.values().to_vec()
+        }))
     }
 }
 
@@ -486,7 +486,11 @@ impl Arguments {
                 Count => Ok(Slot::Size(N)),
                 Laws => Ok(Slot::Size(items)),
                 Length => Ok(Slot::Size(memory_length(argument.name))),
-                Size => Ok(Slot::Size(if argument.name == "harmonics" { HARMONICS } else { SAMPLES })),
+                Size => Ok(Slot::Size(match argument.name {
+                    "harmonics" => HARMONICS,
+                    "periods" => PERIODS,
+                    _ => SAMPLES,
+                })),
                 Choice => Ok(Slot::Choice(match argument.name {
                     "directions" => law.directions,
                     "normal_input" => law.normal_input,

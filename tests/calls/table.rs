@@ -544,12 +544,13 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_element_workspace_init(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
-     a[5].get()) },
+     a[5].get(), a[6].get()) },
         arguments: &[
             Argument { name: "directions", kind: Choice, extents: "", status: MSLIP_BAD_DIRECTIONS },
             Argument { name: "harmonics", kind: Size, extents: "", status: MSLIP_BAD_HARMONICS },
             Argument { name: "samples", kind: Size, extents: "", status: MSLIP_BAD_SAMPLES },
             Argument { name: "rule", kind: Choice, extents: "", status: MSLIP_BAD_RULE },
+            Argument { name: "periods", kind: Size, extents: "", status: MSLIP_BAD_PERIODS },
             Argument { name: "workspace_length", kind: Length, extents: "", status: MSLIP_WORKSPACE_TOO_SHORT },
             Argument { name: "workspace", kind: Buffer, extents: "", status: MSLIP_BAD_WORKSPACE },
         ],
@@ -558,13 +559,15 @@ pub const CALLS: &[Call] = &[
         name: "mslip_element_workspace_size",
         flat: false,
         one_direction: false,
-        function: |a| unsafe { mslip_element_workspace_size(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get()) },
+        function: |a| unsafe { mslip_element_workspace_size(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
+     a[5].get()) },
         arguments: &[
             Argument { name: "workspace", kind: Workspace, extents: "", status: MSLIP_BAD_WORKSPACE },
             Argument { name: "directions", kind: FoundChoice, extents: "", status: MSLIP_BAD_DIRECTIONS },
             Argument { name: "harmonics", kind: FoundSize, extents: "", status: MSLIP_BAD_HARMONICS },
             Argument { name: "samples", kind: FoundSize, extents: "", status: MSLIP_BAD_SAMPLES },
             Argument { name: "rule", kind: FoundChoice, extents: "", status: MSLIP_BAD_RULE },
+            Argument { name: "periods", kind: FoundSize, extents: "", status: MSLIP_BAD_PERIODS },
         ],
     },
     Call {
@@ -572,7 +575,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
-     a[5].get()) },
+     a[5].get(), a[6].get()) },
         arguments: &[
             Argument { name: "element", kind: Element, extents: "", status: MSLIP_BAD_ELEMENT },
             Argument { name: "workspace", kind: Workspace, extents: "", status: MSLIP_BAD_WORKSPACE },
@@ -580,6 +583,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "force", kind: Output, extents: "k", status: MSLIP_BAD_FORCE },
             Argument { name: "jacobian", kind: Output, extents: "kk", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "", status: MSLIP_OK },
+            Argument { name: "drift", kind: Output, extents: "", status: MSLIP_OK },
         ],
     },
     Call {
@@ -608,7 +612,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(),
-     a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+     a[4].get(), a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_elements", kind: Laws, extents: "", status: MSLIP_OK },
@@ -620,6 +624,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "force", kind: Output, extents: "kn", status: MSLIP_BAD_FORCE },
             Argument { name: "jacobian", kind: Output, extents: "kkn", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "drift", kind: Output, extents: "n", status: MSLIP_OK },
         ],
     },
 ];

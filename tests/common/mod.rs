@@ -1,4 +1,5 @@
-//! Calls of the library, each compiled once for all tests of a crate: the functions themselves are inlined into every caller.
+//! Calls of the library, each compiled once for all tests of a crate: the functions themselves are inlined into every caller; and
+//! random numbers.
 #![allow(dead_code, reason = "not every crate uses all of them")]
 
 use microslip::Contact;
@@ -13,10 +14,34 @@ pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f
     let mut memory = vec![0.0; rule.workspace_length(n / 2, samples)];
     rule.workspace_init(n / 2, samples, &mut memory).unwrap();
     let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], 0.0);
-    let output =
-        HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut dissipated) };
+    let output = HarmonicOutput {
+        force: Some(&mut force),
+        jacobian: Some(&mut jacobian),
+        dissipated: Some(&mut dissipated),
+        drift: None,
+    };
     harmonic_force(contact, &mut Workspace::new(&mut memory).unwrap(), displacement, output).unwrap();
     (force, jacobian, dissipated)
+}
+
+/// Uniform random numbers: a linear congruential generator of 64 bits.
+pub struct Random(pub u64);
+
+impl Random {
+    /// From 0 to 1.
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// From -1 to 1.
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.next() - 1.0
+    }
+
+    pub fn below(&mut self, bound: usize) -> usize {
+        (self.next() * bound as f64) as usize
+    }
 }
 
 pub fn unloaded(reversals: usize) -> Vec<f64> {

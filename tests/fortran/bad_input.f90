@@ -9,7 +9,7 @@ program bad_input
   implicit none
 
   integer, parameter :: n = 3, harmonics = 2, m = 2*harmonics + 1, bad_values = 5
-  integer(mslip_size), parameter :: h = harmonics, samples = 16, reversals = 4, pieces = 4
+  integer(mslip_size), parameter :: h = harmonics, samples = 16, periods = 2, reversals = 4, pieces = 4
   integer(mslip_int), parameter :: one = 1
   integer(c_int64_t), parameter :: signalling(2) = [int(z'7FF0000000000001', c_int64_t), int(z'7FF4000000000000', c_int64_t)]
   integer(mslip_int), parameter :: none = MSLIP_OK, force = MSLIP_BAD_FORCE, amplitude = MSLIP_BAD_AMPLITUDE, &
@@ -52,8 +52,8 @@ program bad_input
     procedure_info('batch_masing_update', none, MSLIP_BAD_DISPLACEMENT, 'vvv B', 's', batch=.true.), &
     procedure_info('batch_masing_advance', none, MSLIP_BAD_DISPLACEMENT, 'vvv', 's', batch=.true.), &
     procedure_info('batch_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'fkv', 'w', batch=.true.), &
-    procedure_info('normal_force_at', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' ', element=.true.), &
-    procedure_info('normal_force_at, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' ', element=.true.), &
+    procedure_info('normal_force', none, MSLIP_BAD_DISPLACEMENT, 'vvv', ' ', element=.true.), &
+    procedure_info('normal_force, one', MSLIP_BAD_DISPLACEMENT, none, 'sss', ' ', element=.true.), &
     procedure_info('normal_approach', none, MSLIP_BAD_NORMAL_FORCE, 'vvv', ' ', element=.true.), &
     procedure_info('normal_approach, one', MSLIP_BAD_NORMAL_FORCE, none, 'sss', ' ', element=.true.), &
     procedure_info('element_update', none, MSLIP_BAD_DISPLACEMENT, 'pts N', 's', element=.true.), &
@@ -61,10 +61,10 @@ program bad_input
     procedure_info('element_path', none, MSLIP_BAD_DISPLACEMENT, 'abv N', 's', element=.true.), &
     procedure_info('element_path_advance', none, MSLIP_BAD_DISPLACEMENT, 'abv', 's', element=.true.), &
     procedure_info('element_tractions', none, MSLIP_BAD_POSITION, 'vv', 's', element=.true.), &
-    procedure_info('element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'des', 'w', element=.true.), &
+    procedure_info('element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'dess', 'w', element=.true.), &
     procedure_info('batch_element_update', none, MSLIP_BAD_DISPLACEMENT, 'abv B', 's', batch=.true., element=.true.), &
     procedure_info('batch_element_advance', none, MSLIP_BAD_DISPLACEMENT, 'abv', 's', batch=.true., element=.true.), &
-    procedure_info('batch_element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'ghv', 'w', batch=.true., element=.true.)]
+    procedure_info('batch_element_harmonic_force', none, MSLIP_BAD_DISPLACEMENT, 'ghvv', 'w', batch=.true., element=.true.)]
   ! </generated>
 
   ! One component is allocated; if none is, the argument is absent.
@@ -141,7 +141,7 @@ contains
     contacts = contacts(1)
     if (allocated(elements)) deallocate (elements)
     allocate (elements(items))
-    call mslip_element_init(flat_parameters(), directions, MSLIP_APPROACH, elements(1), ok)
+    call mslip_element_init(flat_parameters(), directions, MSLIP_INPUT_APPROACH, elements(1), ok)
     elements = elements(1)
     vector = [spread(1.0e-7_wp, 1, int(directions)), 2.0e-7_wp]
     vectors = spread(vector, 2, n)
@@ -170,7 +170,7 @@ contains
       u = spread([reshape([real(wp) ::], [int(directions)*m], pad=[0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]), &
         2.0e-7_wp, 5.0e-8_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp], 2, items)
       workspace = spread(0.0_wp, 1, int(mslip_element_workspace_length(directions, h, samples)))
-      call mslip_element_workspace_init(directions, h, samples, workspace, ok)
+      call mslip_element_workspace_init(directions, h, samples, periods, workspace, ok)
     end if
     states = spread(state, 2, n)
     call check_status('set up', ok, MSLIP_OK)
@@ -235,8 +235,8 @@ contains
       out(3)%v)
     case (27); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
       out(3)%v)
-    case (28); call mslip_normal_force_at(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (29); call mslip_normal_force_at(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (28); call mslip_normal_force(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (29); call mslip_normal_force(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (30); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (31); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (32); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
@@ -245,13 +245,13 @@ contains
     case (35); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
     case (36); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
     case (37); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, &
-      out(3)%s)
+      out(3)%s, out(4)%s)
     case (38); call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, &
       out(2)%t, out(3)%v)
     case (39); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, &
       out(2)%t, out(3)%v)
     case (40); call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, &
-      out(2)%t, out(3)%v)
+      out(2)%t, out(3)%v, out(4)%v)
     ! </generated>
     end select
   end subroutine perform
@@ -421,15 +421,15 @@ contains
       vector(components) = value
       vectors(components, n) = value
       u(me - m + 1, size(u, 2)) = value
-      if (input == MSLIP_APPROACH .or. procedures(p)%memory == 'w') then
+      if (input == MSLIP_INPUT_APPROACH .or. procedures(p)%memory == 'w') then
         call rejected('a normal component', MSLIP_BAD_DISPLACEMENT)
       else
         call rejected('a normal component', MSLIP_BAD_NORMAL_FORCE)
       end if
-      vector(components) = merge(1.0_wp, -1.0_wp, input == MSLIP_APPROACH)
+      vector(components) = merge(1.0_wp, -1.0_wp, input == MSLIP_INPUT_APPROACH)
       vectors(components, n) = vector(components)
       u(me - m + 1, size(u, 2)) = vector(components)
-      call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_APPROACH))
+      call rejected('a normal component', merge(MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE, input == MSLIP_INPUT_APPROACH))
     end do
   end subroutine test_normal_value
 
@@ -531,9 +531,9 @@ contains
         call mslip_contact_init(transfer(values, parameters), contact, status)
         call check_status('a parameter', status, expected(i))
         if (elliptic(i) == none) cycle
-        values(:8) = transfer(ellipse_parameters(), values, 8)
+        values(:9) = transfer(ellipse_parameters(), values, 9)
         values(i) = value
-        call mslip_contact_init_elliptic(transfer(values(:8), ellipse), contact, status)
+        call mslip_contact_init_elliptic(transfer(values(:9), ellipse), contact, status)
         call check_status('a parameter of an ellipse', status, elliptic(i))
       end do
       call mslip_parameters_default(unset)
@@ -549,6 +549,14 @@ contains
     parameters%displacement_reference = 7
     call mslip_contact_init(parameters, contact, status)
     call check_status('displacement reference', status, MSLIP_BAD_DISPLACEMENT_REFERENCE)
+    parameters = flat_parameters()
+    parameters%springs = 13
+    call mslip_contact_init(parameters, contact, status)
+    call check_status('springs', status, MSLIP_BAD_SPRINGS)
+    ellipse = ellipse_parameters()
+    ellipse%springs = -8
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('springs of an ellipse', status, MSLIP_BAD_SPRINGS)
     parameters = flat_parameters()
     parameters%length = 1.0e-4_wp
     call mslip_contact_init(parameters, contact, status)
@@ -634,9 +642,9 @@ contains
 
     element%half_width = untouched
     do i = 1, size(invalid)
-      call mslip_element_init(flat_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call mslip_element_init(flat_parameters(), invalid(i), MSLIP_INPUT_APPROACH, element, status)
       call check_status('directions of an element', status, MSLIP_BAD_DIRECTIONS)
-      call mslip_element_init_elliptic(ellipse_parameters(), invalid(i), MSLIP_APPROACH, element, status)
+      call mslip_element_init_elliptic(ellipse_parameters(), invalid(i), MSLIP_INPUT_APPROACH, element, status)
       call check_status('directions of an elliptical element', status, MSLIP_BAD_DIRECTIONS)
       call check('no state for these directions', mslip_element_state_length(invalid(i), pieces) == 0)
     end do
@@ -644,30 +652,30 @@ contains
     call check_status('normal input of an element', status, MSLIP_BAD_NORMAL_INPUT)
     call mslip_element_init_elliptic(ellipse_parameters(), one, -1_mslip_int, element, status)
     call check_status('normal input of an elliptical element', status, MSLIP_BAD_NORMAL_INPUT)
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of unset parameters', status, MSLIP_BAD_FLAT_HALF_WIDTH)
-    call mslip_element_init_elliptic(unset, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init_elliptic(unset, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an elliptical element of unset parameters', status, MSLIP_BAD_SEMI_AXIS_X)
     parameters = flat_parameters()
     parameters%normal_force = 0
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
     ellipse = ellipse_parameters()
     ellipse%normal_force = 0
-    call mslip_element_init_elliptic(ellipse, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init_elliptic(ellipse, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an elliptical element without a largest normal force', status, MSLIP_BAD_NORMAL_FORCE)
     parameters = flat_parameters()
     parameters%length = 1.0e-4_wp
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of a short length', status, MSLIP_LENGTH_TOO_SHORT)
     parameters%edge_radius = 1.0e300_wp
-    call mslip_element_init(parameters, one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(parameters, one, MSLIP_INPUT_APPROACH, element, status)
     call check_status('an element of a large radius', status, MSLIP_OUT_OF_RANGE)
     call check('a rejected element is not modified', is_untouched([element%half_width]))
 
     call mslip_element_check(element, status)
     call check_status('check of an uninitialised element', status, MSLIP_BAD_ELEMENT)
-    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, element, status)
+    call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, element, status)
     call mslip_element_check(element, status)
     call check_status('check of an element', status, MSLIP_OK)
     words = transfer(element, words)
@@ -693,11 +701,11 @@ contains
     real(wp) :: error
     integer :: i
 
-    call mslip_element_init(flat_parameters(), one, MSLIP_APPROACH, other, status)
+    call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, other, status)
     state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 100_mslip_size)))
     call mslip_element_state_init(one, state_of_one, status)
     workspace_of_one = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
-    call mslip_element_workspace_init(one, h, samples, workspace_of_one, status)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace_of_one, status)
     call check_status('set up: one direction', status, MSLIP_OK)
     do i = 1, size(procedures)
       p = i
@@ -785,33 +793,37 @@ contains
   end subroutine test_element_state
 
   subroutine test_element_workspace()
-    integer(mslip_size) :: found(2)
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: kinds(2)
     integer :: last
 
     workspace = spread(untouched, 1, int(mslip_element_workspace_length(one, h, samples)))
     last = size(workspace)
-    call mslip_element_workspace_init(0_mslip_int, h, samples, workspace, status)
+    call mslip_element_workspace_init(0_mslip_int, h, samples, periods, workspace, status)
     call check_status('workspace: directions', status, MSLIP_BAD_DIRECTIONS)
-    call mslip_element_workspace_init(one, 0_mslip_size, samples, workspace, status)
+    call mslip_element_workspace_init(one, 0_mslip_size, samples, periods, workspace, status)
     call check_status('workspace: no harmonics', status, MSLIP_BAD_HARMONICS)
-    call mslip_element_workspace_init(one, h, 2*h, workspace, status)
+    call mslip_element_workspace_init(one, h, 2*h, periods, workspace, status)
     call check_status('workspace: too few samples', status, MSLIP_BAD_SAMPLES)
-    call mslip_element_workspace_init(one, h, samples, workspace, status, 2_mslip_int)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace, status, 2_mslip_int)
     call check_status('workspace: unknown rule', status, MSLIP_BAD_RULE)
-    call mslip_element_workspace_init(one, h, samples, workspace, status, MSLIP_EVENT_DRIVEN)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace, status, MSLIP_EVENT_DRIVEN)
     call check_status('workspace: event-driven', status, MSLIP_NOT_AVAILABLE)
-    call mslip_element_workspace_init(one, h, samples, workspace(1:last - 1), status)
+    call mslip_element_workspace_init(one, h, samples, 65537_mslip_size, workspace, status)
+    call check_status('workspace: too many periods', status, MSLIP_BAD_PERIODS)
+    call mslip_element_workspace_init(one, h, samples, -1_mslip_size, workspace, status)
+    call check_status('workspace: a negative number of periods', status, MSLIP_BAD_PERIODS)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace(1:last - 1), status)
     call check_status('workspace of an element too short by one', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_element_workspace_init(one, h, samples, workspace(1:0), status)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace(1:0), status)
     call check_status('workspace of an element without elements', status, MSLIP_WORKSPACE_TOO_SHORT)
     found = -1
     kinds = -1
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
     call check_status('size of an uninitialised workspace of an element', status, MSLIP_BAD_WORKSPACE)
     call check('rejected workspaces of an element: nothing written', is_untouched(workspace))
-    call mslip_element_workspace_init(one, h, samples, workspace, status)
-    call mslip_element_workspace_size(workspace(1:last - 1), kinds(1), found(1), found(2), kinds(2), status)
+    call mslip_element_workspace_init(one, h, samples, periods, workspace, status)
+    call mslip_element_workspace_size(workspace(1:last - 1), kinds(1), found(1), found(2), kinds(2), found(3), status)
     call check_status('size of a truncated workspace of an element', status, MSLIP_WORKSPACE_TOO_SHORT)
     call check('rejected workspaces of an element: no size', all(found == -1) .and. all(kinds == -1))
     call check('no length for invalid sizes of an element', all([mslip_element_workspace_length(one, h, samples, 2_mslip_int), &

@@ -1,6 +1,6 @@
 program test_microslip
-  ! The Fortran module: reference values of 50 digits and more, relations of the model, strides, and equal bits of single calls,
-  ! calls in place and batches.
+  ! The Fortran module: every output in its place (reference values of 50 digits and more), strides, and equal bits of single calls,
+  ! calls in place and batches. The tests in Rust and C have the relations of the model.
   use microslip
   use checks
   implicit none
@@ -98,29 +98,12 @@ contains
   end subroutine test_library
 
   subroutine test_contacts()
-    type(mslip_contact) :: rigid, uncorrected
-    type(mslip_parameters) :: p
-    integer(mslip_int) :: status
-    real(wp) :: shift, ln_term
-
     call check_close('cylinder: composite modulus', cylinder%composite_modulus, 6.223386832623648791206915e10_wp, tight)
     call check_close('cylinder: half-width', cylinder%half_width, 7.951738063115647130842421e-5_wp, tight)
     call check_close('cylinder: slip force', cylinder%slip_force, 1.467713029999999903099788e3_wp, tight)
     call check_close('cylinder: slip displacement', cylinder%slip_displacement, 3.164852942650645410867699e-6_wp, tight)
     call check_close('cylinder: initial stiffness', cylinder%initial_stiffness, 4.957981696888936309416248e8_wp, tight)
     call check_close('cylinder: slip energy', cylinder%slip_energy, 6.004399245114452465823618e-4_wp, tight)
-    ! Equal materials, Poisson's ratio 0.3: the corrected compliance is the paper's minus a known constant.
-    p = flat_parameters()
-    p%material(:) = mslip_material(2.0e11_wp, 0.3_wp)
-    call mslip_contact_init(p, uncorrected, status)
-    call check_status('centre point', status, MSLIP_OK)
-    p%displacement_reference = MSLIP_RIGID_STRIP
-    call mslip_contact_init(p, rigid, status)
-    call check_status('rigid strip', status, MSLIP_OK)
-    shift = (1.0_wp - log(2.0_wp)) + 0.093_wp - 8.0_wp/pi**2*((1.0_wp - 0.6_wp)/0.7_wp)*rigid%half_width/p%length
-    ln_term = log(2.0_wp*p%length/rigid%half_width) + 0.3_wp/0.7_wp
-    call check_close('rigid strip: initial stiffness', rigid%initial_stiffness, &
-      uncorrected%initial_stiffness*ln_term/(ln_term - shift), tight)
   end subroutine test_contacts
 
   subroutine test_tractions_and_slip()
@@ -233,26 +216,14 @@ contains
 
   subroutine test_state()
     real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, before, branched
-    real(wp) :: force, stiffness, dissipated, other(3), upper, middle, total
+    real(wp) :: force, stiffness, dissipated, other(3)
     type(mslip_contact) :: contact
     integer(mslip_int) :: status
-    integer :: i, file
+    integer :: file
 
     state = initial_state(4_mslip_size)
-    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, upper)
-    call mslip_monotonic_force(flat, 6.0e-7_wp, status, force)
-    call check_close('initial loading is the monotonic curve', upper, force, tight)
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status)
     before = state
-    call mslip_masing_advance(flat, state, 1.0e-7_wp, status, force, stiffness)
-    call mslip_monotonic_force(flat, 2.5e-7_wp, status, middle, other(1))
-    call check_close('unloading: twice the curve at half the displacement', force, upper - 2.0_wp*middle, tight)
-    call check_close('unloading: stiffness', stiffness, other(1), tight)
-    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, force)
-    call check_close('return-point memory: the loop closes', force, upper, tight)
-    call mslip_masing_advance(flat, state, 7.0e-7_wp, status, force)
-    call mslip_monotonic_force(flat, 7.0e-7_wp, status, middle)
-    call check_close('return-point memory: back on the initial loading curve', force, middle, tight)
-
     call mslip_masing_update(flat, before, 1.0e-7_wp, branched, status, force, stiffness, dissipated)
     state = before
     call mslip_masing_advance(flat, state, 1.0e-7_wp, status, other(1), other(2), other(3))
@@ -260,17 +231,6 @@ contains
     call check_same('step and step in place: state', state, branched)
     call mslip_masing_advance(flat, state, 1.0e-7_wp, status, dissipated=dissipated)
     call check_same('a step of zero dissipates nothing', [dissipated], [0.0_wp])
-
-    ! The steps of one cycle dissipate the energy per cycle.
-    state = initial_state(4_mslip_size)
-    call mslip_masing_advance(flat, state, 6.0e-7_wp, status)
-    total = 0
-    do i = 1, 2
-      call mslip_masing_advance(flat, state, real(2*i - 3, wp)*6.0e-7_wp, status, dissipated=dissipated)
-      total = total + dissipated
-    end do
-    call mslip_dissipated_energy(flat, upper, middle, status)
-    call check_close('energy of a cycle', total, middle, 1.0e-10_wp)
 
     ! A contact and a state from a restart file continue with the same bits.
     open (newunit=file, status='scratch', form='unformatted')
@@ -289,48 +249,40 @@ contains
   end subroutine test_state
 
   subroutine test_bounded_memory()
-    ! A decaying vibration in the shortest state: its force differs from that with all reversals by at most the reported error.
-    integer, parameter :: steps = 40
-    real(wp) :: short(mslip_state_length(2_mslip_size)), long(mslip_state_length(int(steps, mslip_size)))
-    real(wp) :: force(2), error(2)
+    ! Three nested reversals: one more than the shortest state holds.
+    real(wp) :: short(mslip_state_length(2_mslip_size)), long(mslip_state_length(3_mslip_size)), error(2)
     integer(mslip_int) :: status
     integer :: i
 
     short = initial_state(2_mslip_size)
-    long = initial_state(int(steps, mslip_size))
-    do i = 1, steps
-      call mslip_masing_advance(flat, short, 6.0e-7_wp*(-0.95_wp)**(i - 1), status, force(1))
-      call check_status('decaying vibration', status, MSLIP_OK)
-      call mslip_masing_advance(flat, long, 6.0e-7_wp*(-0.95_wp)**(i - 1), status, force(2))
-      call mslip_state_error(short, error(1), status)
-      call mslip_state_error(long, error(2), status)
-      call check('the error is a bound', abs(force(1) - force(2)) <= error(1) + tight*flat%slip_force .and. error(2) <= 0)
+    long = initial_state(3_mslip_size)
+    do i = 1, 4
+      call mslip_masing_advance(flat, short, 6.0e-7_wp*(-0.9_wp)**i, status)
+      call mslip_masing_advance(flat, long, 6.0e-7_wp*(-0.9_wp)**i, status)
     end do
+    call mslip_state_error(short, error(1), status)
+    call check_status('error of merged reversals', status, MSLIP_OK)
+    call mslip_state_error(long, error(2), status)
     call check('merged reversals have an error', error(1) > 0)
+    call check_same('without merged reversals no error', error(2:2), [0.0_wp])
   end subroutine test_bounded_memory
 
   subroutine test_masing_tractions()
     real(wp), parameter :: x(*) = [0.0_wp, 5.041659951103544647435517e-4_wp, -5.084970613574993835923066e-4_wp]
     real(wp) :: state(mslip_state_length(4_mslip_size))
-    real(wp), dimension(3) :: pressure, shear, loading, reversed
-    real(wp) :: upper, force
+    real(wp), dimension(3) :: pressure, shear, expected_pressure, expected_shear
+    real(wp) :: force
     integer(mslip_int) :: status
 
     state = initial_state(4_mslip_size)
     call mslip_masing_tractions(flat, state, x, status, pressure, shear)
     call check_status('tractions of the initial state', status, MSLIP_OK)
     call check_same('no shear in the initial state', shear, [0.0_wp, 0.0_wp, 0.0_wp])
-    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, upper)
+    call mslip_masing_advance(flat, state, 6.0e-7_wp, status, force)
     call mslip_masing_tractions(flat, state, x, status, shear=shear)
-    call mslip_tractions(flat, upper, x, status, loading, reversed)
-    call check_same('pressure does not depend on the history', pressure, loading)
-    call check_close('shear of initial loading', shear(3), reversed(3), 1.0e-10_wp)
-    loading = reversed
-    call mslip_masing_advance(flat, state, -1.0e-7_wp, status, force)
-    call mslip_masing_tractions(flat, state, x, status, pressure, shear)
-    call mslip_tractions(flat, (upper - force)/2.0_wp, x, status, shear=reversed)
-    call check_close('shear after a reversal, centre', shear(1), loading(1) - 2.0_wp*reversed(1), 1.0e-10_wp)
-    call check_close('shear after a reversal, edge', shear(2), loading(2) - 2.0_wp*reversed(2), 1.0e-10_wp)
+    call mslip_tractions(flat, force, x, status, expected_pressure, expected_shear)
+    call check_same('pressure does not depend on the history', pressure, expected_pressure)
+    call check_close('shear of initial loading', shear(3), expected_shear(3), 1.0e-10_wp)
   end subroutine test_masing_tractions
 
   subroutine test_cycles()
@@ -339,30 +291,19 @@ contains
     real(wp) :: displacement(points), force(points), energy(2), one, two, three, four
     real(wp), dimension(3) :: k_real, k_imag, dk_real, dk_imag
     integer(mslip_int) :: status
-    integer :: i
 
     call mslip_hysteresis_loop(flat, 6.0e-7_wp, displacement, force, status)
     call check_status('loop', status, MSLIP_OK)
     call mslip_monotonic_force(flat, 6.0e-7_wp, status, one)
     call check_close('loop: upper tip', force(1), one, tight)
     call check_close('loop: lower tip', force(1 + points/2), -one, tight)
-    do i = 1, points
-      call check_close('loop: displacement', displacement(i)/6.0e-7_wp - cos(2.0_wp*pi*real(i - 1, wp)/points), 0.0_wp, 1.0e-14_wp)
-    end do
-    call check('loop: the halves are opposite', &
-      all(abs(force(1:points/2) + force(1 + points/2:points)) <= tight*flat%slip_force))
-    call mslip_monotonic_force(flat, (6.0e-7_wp - displacement(10))/2.0_wp, status, two)
-    call check_close('loop: Masing rule', force(10), one - 2.0_wp*two, tight)
-
+    call check_same('loop: displacement of both tips', displacement([1, 1 + points/2]), [6.0e-7_wp, -6.0e-7_wp])
     call mslip_dissipated_energy(cylinder, [7.338565149999999448482413e2_wp, 0.0_wp], energy, status)
     call check_status('energy', status, MSLIP_OK)
     call check_close('cylinder: energy', energy(1), 3.413670261284926416770211e-5_wp, tight)
     call check_same('no energy without force', energy(2:2), [0.0_wp])
     call mslip_dissipated_energy(flat, 280.0_wp, one, status)
     call check_close('flat: energy', one, 3.739442453289347648327259e-7_wp, tight)
-    call mslip_dissipated_energy(flat, flat%slip_force, one, status)
-    call check_close('flat: energy at incipient gross slip', one, flat%slip_energy, tight)
-
     call mslip_complex_stiffness(cylinder, amplitude, status, k_real, k_imag, dk_real, dk_imag)
     call check_status('complex stiffness', status, MSLIP_OK)
     call check_close('cylinder: K real', k_real(1), 4.793831517097887468202623e8_wp, tight)
@@ -371,17 +312,13 @@ contains
     call check_close('cylinder: derivative of K imaginary', dk_imag(1), 6.094501234861984024140468e12_wp, 1.0e-9_wp)
     call check_close('K real at amplitude 0', k_real(2), cylinder%initial_stiffness, tight)
     call check_same('K imaginary at amplitude 0', k_imag(2:2), [0.0_wp])
-    call check_close('K imaginary in gross slip', k_imag(3), (cylinder%slip_energy + 4.0_wp*cylinder%slip_force* &
-      (4.0e-6_wp - cylinder%slip_displacement))/(pi*4.0e-6_wp**2), tight)
     call mslip_complex_stiffness(flat, 1.14390006724969779284694e-6_wp, status, one, two, three, four)
     call check_close('flat: K real', one, 3.713375827392842405803951e8_wp, tight)
     call check_close('flat: K imaginary', two, 1.487174776364493773899325e8_wp, tight)
     call check_close('flat: derivative of K real', three, -3.669713057051442291731717e14_wp, tight)
     call check_close('flat: derivative of K imaginary', four, 1.292006122587372052624562e14_wp, tight)
-    call mslip_complex_stiffness(flat, 6.0e-7_wp, status, k_imag=two)
-    call mslip_monotonic_force(flat, 6.0e-7_wp, status, three)
-    call mslip_dissipated_energy(flat, three, four, status)
-    call check_close('K imaginary is the energy of a cycle', two, four/(pi*6.0e-7_wp**2), 1.0e-10_wp)
+    call mslip_complex_stiffness(flat, 1.14390006724969779284694e-6_wp, status, k_imag=one)
+    call check_same('K imaginary alone', [one], [two])
   end subroutine test_cycles
 
   subroutine test_stiffness_table()
@@ -389,46 +326,31 @@ contains
     integer, parameter :: points = 12
     real(wp), parameter :: fraction(points) = [0.0_wp, 0.1_wp, 0.3_wp, 0.41_wp, 0.7_wp, 0.99_wp, 1.0_wp - 1.0e-9_wp, 1.0_wp, &
       1.01_wp, 1.5_wp, 2.0_wp, 50.0_wp]
-    type(mslip_contact) :: contact
-    type(mslip_parameters) :: p
     real(wp), dimension(points) :: amplitude, k_real, k_imag, dk_real, dk_imag, one, two, three, four, size_of_k
     real(wp) :: table(mslip_stiffness_table_length()), rows(2, mslip_stiffness_table_length()), a, b, c, d
     integer(mslip_int) :: status
-    integer :: i
 
     call mslip_stiffness_table_init(flat, table, status)
     call check_status('table', status, MSLIP_OK)
-    ! The contact of the table, one with another friction coefficient, and one that is 3 times as large in each direction.
-    do i = 1, 3
-      p = flat_parameters()
-      if (i == 2) p%friction_coefficient = 0.11_wp
-      if (i == 3) then
-        p%flat_half_width = 3*p%flat_half_width
-        p%edge_radius = 3*p%edge_radius
-        p%length = 3*p%length
-        p%normal_force = 9*p%normal_force
-      end if
-      call mslip_contact_init(p, contact, status)
-      amplitude = fraction*contact%slip_displacement
-      call mslip_complex_stiffness_tabulated(contact, table, amplitude, status, one, two, three, four)
-      call check_status('stiffness from a table', status, MSLIP_OK)
-      call mslip_complex_stiffness(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-      size_of_k = hypot(k_real, k_imag)
-      call check('K from a table', all(abs(one - k_real) <= 2.0e-13_wp*size_of_k .and. abs(two - k_imag) <= 2.0e-13_wp*size_of_k))
-      ! The quadrature for dK' has an error of up to 2e-12 just beyond gross slip.
-      call check('derivatives of K from a table', all(abs(three - dk_real)*amplitude <= 2.0e-12_wp*size_of_k &
-        .and. abs(four - dk_imag)*amplitude <= 2.0e-13_wp*size_of_k))
-    end do
-    call mslip_complex_stiffness_tabulated(contact, table, amplitude(5), status, a, b, c, d)
+    amplitude = fraction*flat%slip_displacement
+    call mslip_complex_stiffness_tabulated(flat, table, amplitude, status, one, two, three, four)
+    call check_status('stiffness from a table', status, MSLIP_OK)
+    call mslip_complex_stiffness(flat, amplitude, status, k_real, k_imag, dk_real, dk_imag)
+    size_of_k = hypot(k_real, k_imag)
+    call check('K from a table', all(abs(one - k_real) <= 2.0e-13_wp*size_of_k .and. abs(two - k_imag) <= 2.0e-13_wp*size_of_k))
+    ! The quadrature for dK' has an error of up to 2e-12 just beyond gross slip.
+    call check('derivatives of K from a table', all(abs(three - dk_real)*amplitude <= 2.0e-12_wp*size_of_k &
+      .and. abs(four - dk_imag)*amplitude <= 2.0e-13_wp*size_of_k))
+    call mslip_complex_stiffness_tabulated(flat, table, amplitude(5), status, a, b, c, d)
     call check_status('stiffness of one amplitude from a table', status, MSLIP_OK)
     call check_same('stiffness of one amplitude from a table', [a, b, c, d], [one(5), two(5), three(5), four(5)])
     k_imag = untouched
-    call mslip_complex_stiffness_tabulated(contact, table, amplitude(1::2), status, k_imag=k_imag(1::2))
+    call mslip_complex_stiffness_tabulated(flat, table, amplitude(1::2), status, k_imag=k_imag(1::2))
     call check_same('strides: stiffness from a table', k_imag(1::2), two(1::2))
     call check_same('strides: gaps of the stiffness are not written', k_imag(2::2), spread(untouched, 1, points/2))
     rows = 0
     call mslip_stiffness_table_init(flat, rows(2, :), status)
-    call mslip_complex_stiffness_tabulated(contact, rows(2, :), amplitude(5), status, a)
+    call mslip_complex_stiffness_tabulated(flat, rows(2, :), amplitude(5), status, a)
     call check_status('strides: table', status, MSLIP_OK)
     call check_same('strides: table', [a], [one(5)])
     call check_same('strides: gaps of the table are not written', rows(1, :), spread(0.0_wp, 1, size(rows, 2)))
@@ -449,11 +371,11 @@ contains
       -2.337981528009959481468708e2_wp, -9.353392540431687732443905e1_wp, 1.214800760707371553515095e2_wp, &
       6.722106958983998626542111e1_wp, -4.333697401361703158366392e1_wp]
     real(wp) :: workspace(mslip_harmonic_workspace_length(harmonics, samples)), force(7), again(7), jacobian(7, 7)
-    real(wp) :: dissipated, power
+    real(wp) :: dissipated
     real(wp), parameter :: cosine(*) = [0.0_wp, 6.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
     real(wp) :: by_parameter(7, MSLIP_PARAMETER_COUNT), by_row(MSLIP_PARAMETER_COUNT, 2), curve(2), normal_force
     integer(mslip_int) :: status
-    integer :: i, k
+    integer :: i
 
     call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
     call check_status('workspace', status, MSLIP_OK)
@@ -462,13 +384,6 @@ contains
     do i = 1, 7
       call check_close('coefficient of the force', force(i), expected(i), 1.0e-11_wp)
     end do
-
-    ! The energy of the samples and the power of the harmonics agree as far as three harmonics and the sampling allow.
-    power = 0
-    do k = 1, 3
-      power = power + pi*real(k, wp)*(force(2*k)*displacement(2*k + 1) - force(2*k + 1)*displacement(2*k))
-    end do
-    call check_close('energy of a period', dissipated, power, 2.0e-2_wp)
 
     ! Under one cosine the first harmonic is the complex stiffness, as far as the sampling allows.
     call mslip_harmonic_force(flat, workspace, cosine, status, force, dissipated=dissipated)
@@ -647,21 +562,12 @@ contains
 
   subroutine test_equivalents()
     integer, parameter :: sliders = 40, points = 4000
-    real(wp) :: stiffness(sliders), slip_force(sliders), k, s, k_real, k_imag, theta, error, largest, force, displacement
+    real(wp) :: stiffness(sliders), slip_force(sliders), k, s, error, largest, force, displacement
     integer(mslip_int) :: status
     integer :: i
 
-    do i = 1, 3
-      displacement = real(i, wp)*4.0e-7_wp
-      call mslip_jenkins_equivalent(flat, displacement, k, s, status)
-      call check_status('Jenkins element', status, MSLIP_OK)
-      call mslip_complex_stiffness(flat, displacement, status, k_real, k_imag)
-      ! First harmonic of a spring-slider that slips.
-      theta = acos(1.0_wp - 2.0_wp*s/(k*displacement))
-      call check_close('Jenkins element: K real', k/pi*(theta - sin(2.0_wp*theta)/2.0_wp), k_real, 1.0e-9_wp)
-      call check_close('Jenkins element: K imaginary', 4.0_wp*s*(displacement - s/k)/(pi*displacement**2), k_imag, 1.0e-9_wp)
-    end do
     call mslip_jenkins_equivalent(flat, 0.0_wp, k, s, status)
+    call check_status('Jenkins element', status, MSLIP_OK)
     call check_close('Jenkins element at amplitude 0: stiffness', k, flat%initial_stiffness, tight)
     call check_close('Jenkins element at amplitude 0: slip force', s, flat%slip_force, tight)
     call mslip_jenkins_equivalent(open_contact, 1.0e-6_wp, k, s, status)
@@ -708,8 +614,6 @@ contains
     call mslip_contact_check(sphere, status)
     call check_status('check of a sphere', status, MSLIP_OK)
     call check_close('sphere: initial stiffness', sphere%initial_stiffness, 1.056268030416436432300851e4_wp, tight)
-    call check_close('sphere: Mindlin', sphere%initial_stiffness, &
-      8.0_wp*p%semi_axis_x/(2.0_wp*(2.0_wp - 0.45_wp)*2.0_wp*(1.0_wp + 0.45_wp)/1.0e9_wp), tight)
     call check_same('sphere: half-width', [sphere%half_width], [p%semi_axis_x])
     call mslip_monotonic_displacement(sphere, 1.302086210331913207483012e1_wp, status, displacement)
     call check_close('sphere: displacement', displacement, 1.368468846551502869721604e-3_wp, tight)
@@ -827,11 +731,11 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     call mslip_element_check(element, status)
     call check_status('check of an element', status, MSLIP_OK)
     call check('size of an element: no padding', storage_size(element) == 64*(8 + size(element%reserved)))
-    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_APPROACH)
+    call check('kind of an element', element%directions == 1 .and. element%normal_input == MSLIP_INPUT_APPROACH)
     call check_close('element: friction coefficient', element%friction_coefficient, 0.35_wp, tight)
     call check_close('element: normal force', element%normal_force, 17.0_wp, tight)
     old = element_state(16_mslip_size)
@@ -858,12 +762,12 @@ contains
     type(mslip_element) :: element
     real(wp) :: found(3), values(2), slopes(2), widths(2), back(2)
     integer(mslip_int) :: status
-    integer(mslip_int), parameter :: inputs(2) = [MSLIP_APPROACH, MSLIP_NORMAL_FORCE]
+    integer(mslip_int), parameter :: inputs(2) = [MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE]
     integer :: i
 
     do i = 1, 2
       element = element_of(inputs(i))
-      call mslip_normal_force_at(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
+      call mslip_normal_force(element, 5.4339586390886424e-8_wp, status, found(1), found(2), found(3))
       call check_status('normal force', status, MSLIP_OK)
       call check_close('normal force', found(1), 13.07442920778120653977642_wp, tight)
       call check_close('normal stiffness', found(2), 242218902.8986542490946348_wp, tight)
@@ -871,7 +775,7 @@ contains
       call check_close('approach', values(1), 5.4339586390886424e-8_wp, tight)
       call check_close('normal compliance', slopes(1)*found(2), 1.0_wp, tight)
       call check_close('half-width', widths(1), found(3), tight)
-      call mslip_normal_force_at(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
+      call mslip_normal_force(element, [element%approach, -1.0e-6_wp], status, values, slopes, widths)
       call check_status('normal forces', status, MSLIP_OK)
       call check_close('normal force of the parameters', values(1), element%normal_force, tight)
       call check_close('half-width of the parameters', widths(1), element%half_width, tight)
@@ -887,7 +791,7 @@ contains
 
   subroutine test_element_steps()
     ! In place, as a path and with sections: the same bits. Tractions carry the forces. An elliptical element.
-    integer, parameter :: steps = 12, points = 2000
+    integer, parameter :: steps = 14, points = 2000              ! the contact is closed in the end
     type(mslip_element) :: element, sphere
     type(mslip_elliptic_parameters) :: p
     real(wp) :: displacement(2, steps), force(2, steps), tangent(2, 2, steps), dissipated(steps)
@@ -899,7 +803,7 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_NORMAL_FORCE)
+    element = element_of(MSLIP_INPUT_NORMAL_FORCE)
     displacement(1, :) = [(1.0e-8_wp*sin(1.7_wp*i), i = 1, steps)]
     displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
     start = element_state(16_mslip_size)
@@ -945,11 +849,10 @@ contains
     call check('element: a bound on the error of merged pieces', error > 0 .and. error < 0.35_wp*17)
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_APPROACH, sphere, status)
+    call mslip_element_init_elliptic(p, 1_mslip_int, MSLIP_INPUT_APPROACH, sphere, status)
     call check_status('element of a sphere', status, MSLIP_OK)
     ! Hertz: N = 4/3 E* a^3/R, w = a^2/R.
     call check_close('sphere: approach', sphere%approach, 0.75_wp*50.0_wp/(sphere%composite_modulus*1.0e-4_wp), tight)
-    call check_close('sphere: normal stiffness', sphere%normal_stiffness, 2.0_wp*sphere%composite_modulus*1.0e-4_wp, tight)
     ! Mindlin: K_t/K_n = 2 (1 - nu)/(2 - nu).
     call check_close('sphere: tangential stiffness', sphere%tangential_stiffness/sphere%normal_stiffness, 1.4_wp/1.7_wp, tight)
   end subroutine test_element_steps
@@ -965,19 +868,19 @@ contains
     real(wp) :: of_contact(mslip_harmonic_workspace_length(harmonics, samples)), expected(m), square(m, m)
     real(wp), dimension(2*m) :: displacement, force, other, changed
     real(wp) :: jacobian(2*m, 2*m)
-    integer(mslip_size) :: found(2)
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: j
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     call check_status('element: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('element: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('element: size of a workspace', all(found == [harmonics, samples, 1_mslip_size]) .and. &
       all(kinds == [1_mslip_int, MSLIP_UNIFORM_SAMPLING]))
     call mslip_harmonic_workspace_init(harmonics, samples, of_contact, status)
     p = flat_parameters()
     call mslip_contact_init(p, contact, status)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_NORMAL_FORCE, element, status)
     displacement = 0
     displacement(1:m) = [0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]
     displacement(m + 1) = 800
@@ -990,14 +893,14 @@ contains
     call check('element: Jacobian at constant load', &
       all(abs(jacobian(1:m, 1:m) - square) <= 1.0e-9_wp*contact%initial_stiffness))
 
-    element = element_of(MSLIP_APPROACH)
+    element = element_of(MSLIP_INPUT_APPROACH)
     displacement = 0
     displacement(2) = 1.2e-8_wp
     displacement(5) = 3.0e-9_wp
     displacement(m + 1:m + 3) = [2.0e-8_wp, 1.0e-8_wp, 2.4e-8_wp]
-    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1))
+    call mslip_element_harmonic_force(element, workspace, displacement, status, force, jacobian, energy(1), drift=energy(2))
     call check_status('element: harmonic force with separation', status, MSLIP_OK)
-    call check('element: positive energy', energy(1) > 0)
+    call check('element: positive energy, no drift', energy(1) > 0 .and. .not. abs(energy(2)) > 0)
     step = 1.0e-14_wp
     do j = 1, 2*m
       changed = displacement
@@ -1028,8 +931,8 @@ contains
 
     p = flat_parameters()
     allocate (elements(2), each(n))
-    elements(1) = element_of(MSLIP_APPROACH)
-    call mslip_element_init(p, 1_mslip_int, MSLIP_APPROACH, elements(2), status)
+    elements(1) = element_of(MSLIP_INPUT_APPROACH)
+    call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_APPROACH, elements(2), status)
     each = elements(index)
     start = spread(element_state(4_mslip_size), 2, n)
     expected = start
@@ -1053,7 +956,7 @@ contains
     call mslip_batch_element_advance(elements(1:0), states(:, 1:0), displacement(:, 1:0), status)
     call check_status('element: no items', status, MSLIP_OK)
 
-    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(1_mslip_int, harmonics, samples, 0_mslip_size, workspace, status)
     coefficients = 0
     coefficients(2, :) = displacement(1, :)
     coefficients(4, :) = displacement(2, :)
@@ -1083,14 +986,15 @@ contains
     real(wp), dimension(mslip_element_state_length(two, 0_mslip_size), n) :: states, all_states
     real(wp) :: workspace(mslip_element_workspace_length(two, harmonics, samples))
     real(wp) :: displacement(3, n), force(3, n), tangent(3, 3, n), dissipated(n)
-    real(wp) :: all_force(3, n), all_tangent(3, 3, n), all_dissipated(n), scattered(3, 3, n)
+    real(wp) :: all_force(3, n), all_tangent(3, 3, n), all_dissipated(n)
     real(wp) :: coefficients(m, 2), harmonic(m, 2), jacobian(m, m, 2), energy(2), one(m), square(m, m), single, error
-    integer(mslip_size) :: found(2)
+    real(wp) :: drift(2), own_drift
+    integer(mslip_size) :: found(3)
     integer(mslip_int) :: status, kinds(2)
     integer :: i
 
     p = mslip_elliptic_parameters(1.0e-4_wp, 1.0e-4_wp, 50.0_wp, 0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2))
-    call mslip_element_init_elliptic(p, two, MSLIP_NORMAL_FORCE, element, status)
+    call mslip_element_init_elliptic(p, two, MSLIP_INPUT_NORMAL_FORCE, element, status)
     call check_status('two directions: element', status, MSLIP_OK)
     call check('two directions: element', element%directions == 2)
     call mslip_element_state_init(two, start, status)
@@ -1105,24 +1009,22 @@ contains
       call mslip_element_advance(element, state, displacement(:, i), status, all_force(:, i), all_tangent(:, :, i), &
         all_dissipated(i))
       call check_status('two directions: step in place', status, MSLIP_OK)
-      call mslip_element_state_check(two, state, status)
-      call check_status('two directions: check of a state', status, MSLIP_OK)
     end do
     call check_same('two directions: step in place', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
-    call check_same('two directions: the given normal force', force(3, :), displacement(3, :))
-    call check_same('two directions: dN/dN', tangent(3, 3, n:n), [merge(1.0_wp, 0.0_wp, displacement(3, n) > 0)])
-    call check('two directions: Coulomb', all(hypot(force(1, :), force(2, :)) <= 0.5_wp*force(3, :)*(1 + 1.0e-12_wp)))
+    call mslip_element_state_check(two, state, status)
+    call check_status('two directions: check of a state', status, MSLIP_OK)
     call mslip_element_state_error(two, state, error, status)
     call check('two directions: a bound on the error', status == MSLIP_OK .and. error >= 0)
+    call check_same('two directions: the given normal force', force(3, :), displacement(3, :))
+    call check_same('two directions: dN/dN', tangent(3, 3, n:n), [merge(1.0_wp, 0.0_wp, displacement(3, n) > 0)])
     call mslip_element_path(element, start, displacement, new, status, all_force, all_tangent, all_dissipated)
     call check_status('two directions: path', status, MSLIP_OK)
     call check_same('two directions: path', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
-    scattered = untouched
-    scattered(2, :, :) = displacement
+    all_tangent = untouched
+    all_dissipated = untouched
     state = start
-    call mslip_element_path_advance(element, state, scattered(2, :, :), status, force=scattered(1, :, :))
-    call check_status('two directions: path in place, sections', status, MSLIP_OK)
-    call check_same('two directions: path in place, sections', [scattered(1, :, :)], [force])
+    call mslip_element_path_advance(element, state, displacement, status, all_force, all_tangent, all_dissipated)
+    call check_same('two directions: path in place', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
 
     ! Each displacement as the first step of an item, with one element for all.
     states = spread(start, 2, n)
@@ -1132,28 +1034,32 @@ contains
     do i = 1, n
       state = start
       call mslip_element_advance(element, state, displacement(:, i), status, force(:, i), tangent(:, :, i), dissipated(i))
-      call mslip_element_state_check(two, all_states(:, i), status)
-      call check_status('two directions: states of a batch', status, MSLIP_OK)
+      call check_same('two directions: states of a batch', all_states(:, i), state)
     end do
     call check_same('two directions: batch', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
-    call mslip_batch_element_advance(spread(element, 1, n), states, displacement, status, force=all_force)
+    all_tangent = untouched
+    all_dissipated = untouched
+    call mslip_batch_element_advance(spread(element, 1, n), states, displacement, status, force=all_force, tangent=all_tangent, &
+      dissipated=all_dissipated)
     call check_status('two directions: batch in place', status, MSLIP_OK)
-    call check_same('two directions: batch in place', [all_force], [force])
+    call check_same('two directions: batch in place', [all_force, all_tangent, all_dissipated], [force, tangent, dissipated])
 
-    call mslip_element_workspace_init(two, harmonics, samples, workspace, status)
+    call mslip_element_workspace_init(two, harmonics, samples, 3_mslip_size, workspace, status)
     call check_status('two directions: workspace', status, MSLIP_OK)
-    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), status)
-    call check('two directions: size of a workspace', all(found == [harmonics, samples]) .and. &
+    call mslip_element_workspace_size(workspace, kinds(1), found(1), found(2), kinds(2), found(3), status)
+    call check('two directions: size of a workspace', all(found == [harmonics, samples, 3_mslip_size]) .and. &
       all(kinds == [two, MSLIP_UNIFORM_SAMPLING]))
     coefficients(:, 1) = [0.0_wp, 1.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 5.0e-8_wp, 30.0_wp, 0.0_wp, 0.0_wp]
     coefficients(:, 2) = [0.0_wp, 2.0e-7_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 10.0_wp, 5.0_wp]
     call mslip_batch_element_harmonic_force(spread(element, 1, 2), workspace, coefficients, status, force=harmonic, &
-      jacobian=jacobian, dissipated=energy)
+      jacobian=jacobian, dissipated=energy, drift=drift)
     call check_status('two directions: batch of harmonic forces', status, MSLIP_OK)
+    call check('two directions: drift', all(drift > 0 .and. drift < 0.1_wp))
     do i = 1, 2
-      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single)
+      call mslip_element_harmonic_force(element, workspace, coefficients(:, i), status, one, square, single, own_drift)
       call check_status('two directions: harmonic force', status, MSLIP_OK)
-      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i)], [one, [square], single])
+      call check_same('two directions: harmonic force', [harmonic(:, i), [jacobian(:, :, i)], energy(i), drift(i)], &
+        [one, [square], single, own_drift])
       call check('two directions: normal force', all(abs(one(7:9) - coefficients(7:9, i)) <= 1.0e-12_wp*30))
     end do
   end subroutine test_two_directions

@@ -76,5 +76,6 @@ pub fn ellipse(row: &Row) -> EllipticParameters {
         normal_force: row["N"],
         friction_coefficient: row["mu"],
         material: [Material { young_modulus: row["E"], poisson_ratio: row["nu"] }; 2],
+        ..EllipticParameters::default()
     }
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Items, steps and points; of a state shorter than the steps need. */
-enum { ITEMS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 3, PIECES = 4, STATE = 64, TWO_DIRECTIONS = 2 };
+enum { ITEMS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 3, PIECES = 4 };
 
 #include "../../c_tests/functions.h"
 
@@ -18,33 +18,28 @@ enum { ITEMS = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, REVERSALS = 3, 
 #include "../../c_tests/functions.h"
 
 typedef struct {
+    const char *name;
     int32_t (*call)(arguments);
-    int takes, rule, scalar, kind;
-    size_t inputs, out[OUTPUTS];
+    argument arguments[MOST_ARGUMENTS]; /* until the first without a name */
 } function;
 
 static const function functions[] = {
-#define ROW(name, takes, rule, scalar, kind, inputs, ...) { call_##name, takes, rule, scalar, kind, inputs, { __VA_ARGS__ } },
+#define FUNCTION(id, directions, ...) { #id, call_##id, { __VA_ARGS__ } },
 #include "../../c_tests/functions.h"
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-static const struct {
-    int32_t (*call)(arguments);
-    const char *fields;
-} others[] = {
-#define OTHER(name, ...) { call_##name, #name "," #__VA_ARGS__ "," },
-#include "../../c_tests/functions.h"
-};
+/* Besides the functions: the versions, and amplitudes near slip. */
+static const size_t number_of_calls = FUNCTIONS + 2;
 
-const char *const calls[] = {
-#define ROW(name, ...) #name,
-#include "../../c_tests/functions.h"
-#define OTHER(name, ...) #name,
-#include "../../c_tests/functions.h"
-    "version", "near_slip",
-};
-const size_t number_of_calls = sizeof calls / sizeof *calls;
+static int takes(const function *f, int kind)
+{
+    const argument *a = f->arguments;
+    while (a->name != NULL && a->kind != kind) {
+        ++a;
+    }
+    return a->name != NULL;
+}
 
 static uint64_t hashed(uint64_t hash, const void *bytes, size_t n)
 {
@@ -91,15 +86,15 @@ static double multiple(size_t i, double unit, double largest)
 
 /* Value i of a quantity. Displacements: a path with more nested reversals than the state can hold; with more pieces, slip, gross
    slip and separation; coefficients with a mean, more than two reversals per period, and separation. */
-static double value(const struct sequence *s, const function *f, int kind, size_t i)
+static double value(const struct sequence *s, const function *f, int quantity, size_t i)
 {
     const mslip_contact *c = s->contact;
     const mslip_element *e = s->element;
-    const int of_element = (f->takes & IS_ELEMENT) != 0;
-    const int by_force = of_element && e->normal_input == MSLIP_NORMAL_FORCE;
+    const int of_element = takes(f, ARG_ELEMENT);
+    const int by_force = of_element && e->normal_input == MSLIP_INPUT_NORMAL_FORCE;
     const double sign = i % 2 == 0 ? 1.0 : -1.0, normal = !of_element ? 0.0 : by_force ? e->normal_force : e->approach;
-    switch (kind) {
-        case POSITION: return multiple(i, of_element ? e->half_width : c->half_width, 1.1);
+    switch (quantity) {
+        case X: return multiple(i, of_element ? e->half_width : c->half_width, 1.1);
         case FORCE:
         case FORCE_AMPLITUDE: return multiple(i, c->slip_force, 1.0);
         case AMPLITUDE: return multiple(i, c->slip_displacement, 3.0);
@@ -107,7 +102,7 @@ static double value(const struct sequence *s, const function *f, int kind, size_
         case NORMAL_FORCE: return multiple(i, e->normal_force, 2.0);
         default: break;
     }
-    if (f->takes & TAKES_WORKSPACE) {
+    if (takes(f, ARG_WORKSPACE)) {
         const size_t all = COEFFICIENTS * (of_element ? 2u : 1u), k = i % all, harmonic = k % COEFFICIENTS;
         return !of_element      ? c->slip_displacement * (k == 1 ? 1.1 : k == 0 ? 0.1 : 0.9 / (double)k)
             : k < COEFFICIENTS  ? e->approach * (k == 1 ? 0.4 : 0.1 / (double)(k + 1))
@@ -123,15 +118,6 @@ static double value(const struct sequence *s, const function *f, int kind, size_
     return c->slip_displacement * (i % 3 == 0 ? 0.3 * ((double)i - 4.0) : sign * (0.9 - 0.1 * (double)i));
 }
 
-static double *values(struct sequence *s, const function *f, size_t n)
-{
-    double *x = array(s, n);
-    for (size_t i = 0; i < n; ++i) {
-        x[i] = value(s, f, f->kind, i);
-    }
-    return x;
-}
-
 /* States after a step; of tractions, after slip. */
 static double *states(struct sequence *s, int of_element, size_t items)
 {
@@ -140,7 +126,7 @@ static double *states(struct sequence *s, int of_element, size_t items)
     for (size_t i = 0; i < items; ++i) {
         double *state = memory + i * n;
         if (of_element) {
-            const double normal = s->element->normal_input == MSLIP_NORMAL_FORCE ? s->element->normal_force : s->element->approach;
+            const double normal = s->element->normal_input == MSLIP_INPUT_NORMAL_FORCE ? s->element->normal_force : s->element->approach;
             const double step[2][2] = { { 0.0, 0.8 * normal }, { 0.1 * s->element->approach, 0.6 * normal } };
             accept(mslip_element_state_init(1, n, state));
             accept(mslip_element_path(s->element, n, state, 2, step[0], state, NULL, NULL, NULL));
@@ -161,60 +147,56 @@ static double *workspace(int of_element, int32_t rule)
     if (memory == NULL) {
         abort();
     }
-    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, n, memory)
+    accept(of_element ? mslip_element_workspace_init(1, HARMONICS, SAMPLES, rule, 0, n, memory)
                       : mslip_harmonic_workspace_init(HARMONICS, SAMPLES, rule, n, memory));
     return memory;
 }
 
-/* All items of a batch share one contact. */
-static const int32_t shared[ITEMS] = { 0 };
-
-/* The arguments that all calls of a law have in common. */
-static arguments common(const struct sequence *s, int of_element, int rule)
+static size_t extent_of(const char *extents, size_t components)
 {
-    arguments call;
-    memset(&call, 0, sizeof call);
-    call.contacts = s->contact;
-    call.elements = s->element;
-    call.n = ITEMS;
-    call.n_contacts = 1;
-    call.index = shared;
-    call.harmonics = HARMONICS;
-    call.samples = SAMPLES;
-    call.directions = 1;
-    call.rule = of_element ? MSLIP_UNIFORM_SAMPLING : rule;
-    call.state_length = of_element ? mslip_element_state_length(1, PIECES) : mslip_state_length(REVERSALS);
-    call.table_length = mslip_stiffness_table_length();
-    call.workspace_length = of_element ? mslip_element_workspace_length(1, HARMONICS, SAMPLES, call.rule)
-                                       : mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
-    call.workspace = of_element ? s->element_workspace : s->workspace[rule];
-    return call;
+    size_t extent = 1;
+    for (; *extents != '\0'; ++extents) {
+        extent *= *extents == 'n' ? (size_t)ITEMS : *extents == 'p' ? (size_t)MSLIP_PARAMETER_COUNT
+                                          : components * (*extents == 'k' ? COEFFICIENTS : 1);
+    }
+    return extent;
 }
 
-static void make_function(struct sequence *s, const function *f)
+/* Memory for an argument, if it is a pointer. */
+static void *memory_of(struct sequence *s, const function *f, const argument *a, const arguments *call)
 {
-    const int of_element = (f->takes & IS_ELEMENT) != 0;
-    const size_t items = f->takes & IS_BATCH ? ITEMS : 1;
-    if (of_element && f->rule != s->element->normal_input) {
-        return; /* another variant */
-    }
-    arguments call = common(s, of_element, of_element ? 0 : f->rule);
-    call.scalar = value(s, f, f->scalar, 2);
-    call.input = f->inputs > 0 ? values(s, f, f->inputs) : NULL;
-    call.state = f->takes & TAKES_STATE ? states(s, of_element, items) : NULL;
-    call.out[0] = f->out[0] > 0 ? states(s, of_element, items) : NULL;
-    for (int i = 1; i < OUTPUTS; ++i) {
-        call.out[i] = f->out[i] > 0 ? array(s, f->out[i]) : NULL;
-    }
-    if (f->takes & TAKES_TABLE) {
-        call.table = array(s, call.table_length);
-        accept(mslip_stiffness_table_init(s->contact, call.table_length, call.table));
-    }
-    const int32_t status = f->call(call);
-    if (status == MSLIP_NOT_AVAILABLE) {
-        release(s);
-    } else {
-        accept(status);
+    const size_t items = takes(f, ARG_INDEX) ? ITEMS : 1;
+    const int of_element = strstr(f->name, "element") != NULL;
+    const size_t extent = extent_of(a->extents, takes(f, ARG_ELEMENT) ? 2 : 1);
+    double *x;
+    switch (a->kind) {
+        case ARG_NEW_CONTACT: return array(s, sizeof(mslip_contact) / sizeof(double));
+        case ARG_NEW_ELEMENT: return array(s, sizeof(mslip_element) / sizeof(double));
+        case ARG_STATE:
+        case ARG_NEW_STATE: return states(s, of_element, items);
+        case ARG_BUFFER:
+            return array(s, strstr(f->name, "state") ? call->state_length
+                            : strstr(f->name, "table") ? call->table_length : call->workspace_length);
+        case ARG_TABLE:
+            x = array(s, call->table_length);
+            accept(mslip_stiffness_table_init(s->contact, call->table_length, x));
+            return x;
+        case ARG_INPUT:
+            x = array(s, extent);
+            for (size_t i = 0; i < extent; ++i) {
+                x[i] = value(s, f, a->quantity, i);
+            }
+            return x;
+        case ARG_OUTPUT:
+        case ARG_FOUND_CHOICE:
+        case ARG_FOUND_SIZE:
+            /* Outputs are uninitialised; an integer does not fill its array. */
+            x = array(s, extent);
+            if (a->kind != ARG_OUTPUT) {
+                memset(x, 0, sizeof *x);
+            }
+            return x;
+        default: return NULL;
     }
 }
 
@@ -245,39 +227,45 @@ static mslip_elliptic_parameters elliptic_parameters(void)
     return p;
 }
 
-/* Initialises or checks memory, of both rules if there are two. */
-static void make_other(struct sequence *s, size_t other)
+/* All items of a batch share one contact. */
+static void make_function(struct sequence *s, const function *f, int rule)
 {
-    const char *fields = others[other].fields;
-    const int of_element = strstr(fields, "element") != NULL;
+    static const int32_t shared[ITEMS] = { 0 };
+    const int of_element = strstr(f->name, "element") != NULL;
     const mslip_parameters p = flat_parameters();
     const mslip_elliptic_parameters e = elliptic_parameters();
-    for (int rule = 0; rule < (of_element ? 1 : RULES); ++rule) {
-        arguments call = common(s, of_element, rule);
-        call.parameters = &p;
-        call.elliptic_parameters = &e;
-        call.state = strstr(fields, "call.state,") ? states(s, of_element, 1) : NULL;
-        call.buffer = !strstr(fields, "call.buffer,") ? NULL
-            : array(s, strstr(fields, "call.state") ? call.state_length
-                        : strstr(fields, "call.table") ? call.table_length : call.workspace_length);
-        if (strstr(fields, "call.new_contact,")) {
-            call.new_contact = (mslip_contact *)(void *)array(s, sizeof(mslip_contact) / sizeof(double));
+    arguments call;
+    memset(&call, 0, sizeof call);
+    call.contacts = s->contact;
+    call.elements = s->element;
+    call.parameters = &p;
+    call.elliptic_parameters = &e;
+    call.n = ITEMS;
+    call.n_contacts = 1;
+    call.index = shared;
+    call.harmonics = HARMONICS;
+    call.samples = SAMPLES;
+    call.directions = 1;
+    call.rule = rule;
+    call.state_length = of_element ? mslip_element_state_length(1, PIECES) : mslip_state_length(REVERSALS);
+    call.table_length = mslip_stiffness_table_length();
+    call.workspace_length = of_element ? mslip_element_workspace_length(1, HARMONICS, SAMPLES, rule)
+                                       : mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
+    call.workspace = of_element ? s->element_workspace : s->workspace[rule];
+    for (const argument *a = f->arguments; a->name != NULL; ++a) {
+        void *memory = memory_of(s, f, a, &call);
+        if (a->kind == ARG_VALUE) {
+            call.scalar = value(s, f, a->quantity, 2);
+        } else if (memory != NULL) {
+            memcpy((char *)&call + a->field, &memory, sizeof memory);
         }
-        if (strstr(fields, "call.new_element,")) {
-            call.new_element = (mslip_element *)(void *)array(s, sizeof(mslip_element) / sizeof(double));
-        }
-        call.out[1] = strstr(fields, "call.out[1],") ? array(s, 1) : NULL;
-        size_t sizes[2] = { 0, 0 };
-        int32_t kinds[2] = { 0, 0 };
-        call.found_harmonics = &sizes[0];
-        call.found_samples = &sizes[1];
-        call.found_directions = &kinds[0];
-        call.found_rule = &kinds[1];
-        accept(others[other].call(call));
-        s->hash = hashed(hashed(s->hash, sizes, sizeof sizes), kinds, sizeof kinds);
-        if (strstr(fields, "workspace_init")) {
-            release(s); /* scratch memory is not initialised */
-        }
+    }
+    const int32_t status = f->call(call);
+    if (status == MSLIP_NOT_AVAILABLE || strstr(f->name, "workspace_init")) {
+        release(s); /* scratch memory is not initialised */
+    }
+    if (status != MSLIP_NOT_AVAILABLE) {
+        accept(status);
     }
 }
 
@@ -297,10 +285,12 @@ static void make_near_slip(struct sequence *s)
 void make_call(struct sequence *s, size_t call)
 {
     if (call < FUNCTIONS) {
-        make_function(s, &functions[call]);
-    } else if (call < number_of_calls - 2) {
-        make_other(s, call - FUNCTIONS);
-    } else if (call == number_of_calls - 1) {
+        const function *f = &functions[call];
+        const int has_rule = takes(f, ARG_WORKSPACE) || strstr(f->name, "workspace");
+        for (int rule = 0; rule < (has_rule && !strstr(f->name, "element") ? RULES : 1); ++rule) {
+            make_function(s, f, rule);
+        }
+    } else if (call == FUNCTIONS + 1) {
         make_near_slip(s);
     } else {
         accept(mslip_abi_version() == MSLIP_ABI_VERSION ? MSLIP_OK : MSLIP_NOT_AVAILABLE);
@@ -316,7 +306,7 @@ void initialise(int which, mslip_contact *contact, mslip_element *element)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, OPEN, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
-    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_APPROACH : MSLIP_NORMAL_FORCE;
+    const int32_t normal_input = which / 3 % 2 == 0 ? MSLIP_INPUT_APPROACH : MSLIP_INPUT_NORMAL_FORCE;
     mslip_parameters p = flat_parameters();
     mslip_elliptic_parameters e = elliptic_parameters();
     if (kind == ELLIPSE || kind == SPHERE) {

@@ -23,10 +23,6 @@ struct sequence {
     size_t arrays;
 };
 
-/* Their names. */
-extern const char *const calls[];
-extern const size_t number_of_calls;
-
 /* The element may be NULL. */
 void initialise(int which, mslip_contact *contact, mslip_element *element);
 void begin_sequence(struct sequence *sequence);

@@ -146,25 +146,16 @@ pub(super) fn harmonic_force(
     output: HarmonicOutput,
 ) {
     let Workspace { reversals, buffers } = workspace;
-    let requested = Requested { force: output.force.is_some(), stiffness: output.jacobian.is_some() };
-    let HarmonicOutput { force, mut jacobian, dissipated } = output;
-    let motion = Motion::new(displacement);
-    let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
-    let (count, half_wave_symmetric) = motion.find_reversals(grid, buffers.instants);
-    buffers.integrals.clear();
-    let span = if half_wave_symmetric { PI } else { 2.0 * PI };
+    let HarmonicOutput { force, mut jacobian, dissipated, .. } = output;
     let mut period = Period {
         law: SteadyState::new(contact, reversals, dissipated.is_some()),
-        requested,
-        motion,
+        requested: Requested { force: force.is_some(), stiffness: jacobian.is_some() },
+        motion: Motion::new(displacement),
         now: Response { force: 0.0, stiffness: 0.0 },
+        jacobian: jacobian.as_deref_mut(),
         sensitivity: None,
     };
-    if count == 0 {
-        period.integrate_constant(buffers, span);
-    } else {
-        period.integrate(buffers, count, span, half_wave_symmetric, &mut jacobian);
-    }
+    let (span, half_wave_symmetric) = period.integrate(buffers);
     if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
@@ -176,8 +167,8 @@ pub(super) fn harmonic_force(
         }
     }
     if let Some(jacobian) = jacobian {
-        let sums = |order| buffers.integrals.stiffness_of_order(order);
-        jacobian::complete(jacobian, buffers.integrals.harmonics, sums, 1.0 / span, half_wave_symmetric);
+        let Integrals { harmonics, stiffness, .. } = &buffers.integrals;
+        jacobian::complete(jacobian, *harmonics, stiffness, 1.0 / span, half_wave_symmetric);
     }
 }
 
@@ -189,23 +180,16 @@ pub(super) fn harmonic_sensitivity(
     sensitivity: &mut [f64],
 ) {
     let Workspace { reversals, buffers } = workspace;
-    let motion = Motion::new(displacement);
-    let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
-    let (count, half_wave_symmetric) = motion.find_reversals(grid, buffers.instants);
-    let span = if half_wave_symmetric { PI } else { 2.0 * PI };
     sensitivity.fill(0.0);
     let mut period = Period {
         law: SteadyState::new(contact, reversals, false),
         requested: Requested { force: false, stiffness: false },
-        motion,
+        motion: Motion::new(displacement),
         now: Response { force: 0.0, stiffness: 0.0 },
+        jacobian: None,
         sensitivity: Some(&mut *sensitivity),
     };
-    if count == 0 {
-        period.integrate_constant(buffers, span);
-    } else {
-        period.integrate(buffers, count, span, half_wave_symmetric, &mut None);
-    }
+    let (span, half_wave_symmetric) = period.integrate(buffers);
     sensitivity::complete(sensitivity, 1.0 / span, half_wave_symmetric);
 }
 
@@ -231,7 +215,8 @@ struct Period<'m, 'c, 's> {
     motion: Motion<'m>,
     /// Response at the present instant.
     now: Response,
-    /// Integrals of the derivatives with respect to the parameters, if requested.
+    /// Terms of the reversals, and integrals of the derivatives with respect to the parameters, if requested.
+    jacobian: Option<&'m mut [f64]>,
     sensitivity: Option<&'m mut [f64]>,
 }
 
@@ -249,15 +234,17 @@ impl Period<'_, '_, '_> {
         }
     }
 
-    /// Integrates a period, or half of it, from the farthest of `count` reversals.
-    fn integrate(
-        &mut self,
-        buffers: &mut Buffers,
-        count: usize,
-        span: f64,
-        half_wave_symmetric: bool,
-        jacobian: &mut Option<&mut [f64]>,
-    ) {
+    /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns its length, and which it is.
+    #[inline(always)]
+    fn integrate(&mut self, buffers: &mut Buffers) -> (f64, bool) {
+        let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
+        let (count, half_wave_symmetric) = self.motion.find_reversals(grid, buffers.instants);
+        let span = if half_wave_symmetric { PI } else { 2.0 * PI };
+        buffers.integrals.clear();
+        if count == 0 {
+            self.integrate_constant(buffers, span);
+            return (span, half_wave_symmetric);
+        }
         let (mut first, mut farthest) = (0, -1.0);
         for index in 0..count {
             let distance = buffers.instant(index).displacement.abs();
@@ -274,19 +261,14 @@ impl Period<'_, '_, '_> {
             } else {
                 Instant { t: t + span, displacement: if half_wave_symmetric { -displacement } else { displacement } }
             };
-            self.integrate_half_cycle(buffers, from, to, jacobian);
+            self.integrate_half_cycle(buffers, from, to);
             from = to;
         }
+        (span, half_wave_symmetric)
     }
 
     /// Integrates from one reversal of the motion to the next, along one branch and its continuations.
-    fn integrate_half_cycle(
-        &mut self,
-        buffers: &mut Buffers,
-        from: Instant,
-        to: Instant,
-        jacobian: &mut Option<&mut [f64]>,
-    ) {
+    fn integrate_half_cycle(&mut self, buffers: &mut Buffers, from: Instant, to: Instant) {
         let present = self.law.branch().direction;
         let direction = if to.displacement == from.displacement {
             present
@@ -303,12 +285,12 @@ impl Period<'_, '_, '_> {
             let branch = self.law.branch();
             let end = branch.end;
             if branch.gross_slip || direction * (to.displacement - end) < 0.0 {
-                self.integrate_segment(buffers, at, to, false, jacobian);
+                self.integrate_segment(buffers, at, to, false);
                 break;
             }
             let t = if to.displacement == end { to.t } else { self.motion.crossing(at, from, to, end) };
             let event = Instant { t, displacement: end };
-            self.integrate_segment(buffers, at, event, self.law.ends_in_gross_slip(), jacobian);
+            self.integrate_segment(buffers, at, event, self.law.ends_in_gross_slip());
             self.law.pass_end();
             at = event;
         }
@@ -348,14 +330,7 @@ impl Period<'_, '_, '_> {
     }
 
     /// Adds a segment of the present branch to the integrals, the Jacobian and the energy. `to_slip`: gross slip starts at its end.
-    fn integrate_segment(
-        &mut self,
-        buffers: &mut Buffers,
-        from: Instant,
-        to: Instant,
-        to_slip: bool,
-        jacobian: &mut Option<&mut [f64]>,
-    ) {
+    fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
         if self.sensitivity.is_some() {
             return self.integrate_sensitivity(buffers, Segment { from: from.t, to: to.t, to_slip });
@@ -376,7 +351,7 @@ impl Period<'_, '_, '_> {
         }
         let segment = Segment { from: from.t, to: to.t, to_slip };
         buffers.integrals.add(&self.law.evaluator(), &self.motion, segment, self.requested);
-        let Some(jacobian) = jacobian else { return };
+        let Some(jacobian) = &mut self.jacobian else { return };
         let Integrals { stiffness, segment_stiffness, .. } = &mut buffers.integrals;
         stiffness.iter_mut().zip(segment_stiffness.iter()).for_each(|(sum, segment)| *sum += segment);
         let n = buffers.coefficients();

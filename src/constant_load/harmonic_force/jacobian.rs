@@ -1,4 +1,4 @@
-//! Jacobian of the harmonic force from Fourier sums, for both quadrature rules.
+//! Jacobian of the event-driven harmonic force from Fourier sums.
 //!
 //! With φ the row 1, cos t, sin t, cos 2t, ... and Σ the sum or integral over a period,
 //!
@@ -40,10 +40,12 @@ fn reversal_kernel(jacobian: &mut [f64], phi: &[f64], gradient: &[f64], phi_sums
     }
 }
 
-/// Adds `Σ k φ ⊗ φ`. `sums` returns the cosine and the sine sum of k of an order up to 2H: a product of two harmonics is composed
-/// of the sum and the difference of their orders.
+/// Adds `Σ k φ ⊗ φ`, from the Fourier sums of k up to the order 2H: a product of two harmonics is composed of the sum and the
+/// difference of their orders.
 #[inline(always)]
-fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> (f64, f64)) {
+fn add_products(jacobian: &mut [f64], harmonics: usize, sums: &[f64]) {
+    let at = |index: usize| sums.get(index).copied().unwrap_or(0.0);
+    let pair = |order: usize| if order == 0 { (at(0), 0.0) } else { (at(2 * order - 1), at(2 * order)) };
     let mut columns = jacobian.chunks_exact_mut((2 * harmonics + 1).max(1));
     for q in 0..=harmonics {
         let (Some(by_cosine), by_sine) = (columns.next(), if q > 0 { columns.next() } else { None }) else {
@@ -51,8 +53,8 @@ fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> 
         };
         let by_sine = by_sine.unwrap_or(&mut []);
         for p in 0..=harmonics {
-            let (c_sum, s_sum) = sums(p + q);
-            let (c_difference, s_difference) = sums(p.abs_diff(q));
+            let (c_sum, s_sum) = pair(p + q);
+            let (c_difference, s_difference) = pair(p.abs_diff(q));
             let s_difference = if p < q { -s_difference } else { s_difference };
             let add = |column: &mut [f64], row: usize, value: f64| {
                 if let Some(j) = column.get_mut(row) {
@@ -73,13 +75,7 @@ fn add_products(jacobian: &mut [f64], harmonics: usize, sums: impl Fn(usize) -> 
 /// Completes the Jacobian, which holds the terms of the reversals, by `Σ k φ ⊗ φ`, and normalises it by `weight`. If
 /// `half_wave_symmetric`, all sums are those of half a period.
 #[inline(always)]
-pub(super) fn complete(
-    jacobian: &mut [f64],
-    harmonics: usize,
-    sums: impl Fn(usize) -> (f64, f64),
-    weight: f64,
-    half_wave_symmetric: bool,
-) {
+pub(super) fn complete(jacobian: &mut [f64], harmonics: usize, sums: &[f64], weight: f64, half_wave_symmetric: bool) {
     add_products(jacobian, harmonics, sums);
     for (c, column) in jacobian.chunks_exact_mut((2 * harmonics + 1).max(1)).enumerate() {
         normalise(column, weight);

@@ -106,13 +106,6 @@ impl Integrals<'_> {
         self.stiffness.fill(0.0);
     }
 
-    /// Cosine and sine integral of the stiffness of an order.
-    #[inline(always)]
-    pub fn stiffness_of_order(&self, order: usize) -> (f64, f64) {
-        let at = |index: usize| self.stiffness.get(index).copied().unwrap_or(0.0);
-        if order == 0 { (at(0), 0.0) } else { (at(2 * order - 1), at(2 * order)) }
-    }
-
     /// Adds the integrals over a segment without gross slip; `force` and `segment_stiffness` only.
     pub fn add(&mut self, evaluator: &BranchEvaluator, motion: &Motion, segment: Segment, requested: Requested) {
         let Requested { force, stiffness } = requested;

@@ -47,12 +47,12 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables_length(&self) -> usize {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         folded::table_length(samples, 2 * harmonics) + rows_length(harmonics, samples)
     }
 
     fn length(&self) -> usize {
-        let (Size { harmonics, samples }, reversals) = (self.0, self.reversals());
+        let (Size { harmonics, samples, .. }, reversals) = (self.0, self.reversals());
         let terms = padded(BRANCH * reversals) + padded(ENTRY * reversals) + 8 * row_blocks(harmonics) * reversals;
         HEADER
             + self.tables_length()
@@ -66,7 +66,7 @@ impl WorkspaceLayout for Layout {
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples } = self.0;
+        let Size { harmonics, samples, .. } = self.0;
         let table = tables.take(folded::table_length(samples, 2 * harmonics))?;
         folded::fill_table(table, samples, 2 * harmonics);
         fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
@@ -96,7 +96,7 @@ impl<'a> Workspace<'a> {
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
         let (size, capacity) = (layout.0, layout.reversals());
-        let Size { harmonics, samples: count } = size;
+        let Size { harmonics, samples: count, .. } = size;
         let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
         let rows = Rows::take(&mut parts, harmonics, count)?;
         fourier.take_scratch(&mut parts)?;
@@ -128,7 +128,7 @@ pub(super) fn harmonic_force(
     output: HarmonicOutput,
 ) {
     let Workspace { size, fourier, reversals, period, path, terms, assembly } = workspace;
-    let HarmonicOutput { force, jacobian, dissipated } = output;
+    let HarmonicOutput { force, jacobian, dissipated, .. } = output;
     let order = sample(size.samples, fourier, period, path, displacement);
     let Order { count, farthest, half_wave_symmetric } = order;
     let length = order.length();

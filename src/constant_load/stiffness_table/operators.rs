@@ -6,7 +6,7 @@
 //! (index n) of a function on the same or a neighbouring one. The input is `φ = sqrt(1 - ρ) k`, but k on the first piece, where the
 //! root is not smooth.
 //!
-//! The values are in `operators/values.in`, which is generated: `recipe` computes them, and its tests compare every bit.
+//! The values are in `operators/values.in`, which is generated: `recipe` computes them, and its tests compare every digit.
 
 #[cfg(test)]
 mod recipe;
@@ -27,6 +27,7 @@ pub(super) const INNER_TAYLOR: usize = 4;
 type Operator<const INPUTS: usize, const TERMS: usize> = [[f64; TERMS]; INPUTS];
 
 /// The operators to a piece with as many terms as points.
+#[derive(Debug)]
 pub(super) struct Operators<const N: usize> {
     /// G below gross slip, from the piece of e.
     pub below: Operator<N, N>,
@@ -42,6 +43,7 @@ pub(super) struct Operators<const N: usize> {
 }
 
 /// Functionals of a piece, and the operators from it to the next piece towards gross slip.
+#[derive(Debug)]
 pub(super) struct Functionals<const N: usize> {
     /// G below and beyond gross slip.
     pub below_next: Operator<N, POINTS>,
@@ -54,6 +56,7 @@ pub(super) struct Functionals<const N: usize> {
 }
 
 /// All operators.
+#[derive(Debug)]
 pub(super) struct All {
     /// To the first piece and to the others.
     pub to_first: Operators<FIRST>,
@@ -79,76 +82,5 @@ pub(super) struct All {
     pub far_roots: Operator<2, TERMS>,
 }
 
-/// In the order of the fields.
-const VALUES: &[f64] = &include!("operators/values.in");
-
-/// Reads the values one after the other.
-struct Reader {
-    next: usize,
-}
-
-impl Reader {
-    const fn matrix<const ROWS: usize, const N: usize>(&mut self) -> [[f64; N]; ROWS] {
-        let mut matrix = [[0.0; N]; ROWS];
-        let mut row = 0;
-        while row < ROWS {
-            matrix[row] = self.row();
-            row += 1;
-        }
-        matrix
-    }
-
-    const fn row<const N: usize>(&mut self) -> [f64; N] {
-        let mut row = [0.0; N];
-        let mut n = 0;
-        while n < N {
-            row[n] = VALUES[self.next];
-            self.next += 1;
-            n += 1;
-        }
-        row
-    }
-
-    const fn operators<const N: usize>(&mut self) -> Operators<N> {
-        Operators {
-            below: self.matrix(),
-            above: self.matrix(),
-            above_before: self.matrix(),
-            mean: self.matrix(),
-            energy: self.matrix(),
-            inverse: self.row(),
-            inverse_roots: self.matrix(),
-        }
-    }
-
-    const fn functionals<const N: usize>(&mut self) -> Functionals<N> {
-        Functionals {
-            below_next: self.matrix(),
-            above_next: self.matrix(),
-            root_moments: self.matrix(),
-            root_moment: self.row(),
-            moments: self.matrix(),
-        }
-    }
-}
-
-pub(super) static OPERATORS: All = {
-    let mut reader = Reader { next: 0 };
-    let all = All {
-        to_first: reader.operators(),
-        to_others: reader.operators(),
-        of_first: reader.functionals(),
-        of_others: reader.functionals(),
-        powers: reader.matrix(),
-        outer_below: reader.matrix(),
-        outer_above: reader.matrix(),
-        outer_root_moments: reader.matrix(),
-        outer_root_moment: reader.row(),
-        far: reader.matrix(),
-        far_first: reader.matrix(),
-        far_second: reader.matrix(),
-        far_roots: reader.matrix(),
-    };
-    assert!(reader.next == VALUES.len());
-    all
-};
+/// The file holds what Rust prints for the value.
+pub(super) static OPERATORS: All = include!("operators/values.in");

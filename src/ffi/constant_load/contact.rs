@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, check_alignment, input, item, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, check_alignment, input, item, output, outputs, set, status};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
@@ -12,9 +12,6 @@ use libc::size_t;
 
 /// Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
 /// MSLIP_CENTRE_POINT. NULL is ignored.
-///
-/// # Safety
-/// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
@@ -24,9 +21,6 @@ pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
 }
 
 /// Sets all parameters to NaN. NULL is ignored.
-///
-/// # Safety
-/// `p` is NULL or valid for parameters.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
     if !p.is_null() {
@@ -44,9 +38,8 @@ unsafe fn initialise<P>(
     contact: *mut mslip_contact,
     construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
-    let initialise = || {
-        // SAFETY: by the function's contract.
-        let parameters = unsafe { item(parameters) }?;
+    call(|| {
+        let parameters = item(parameters)?;
         if contact.is_null() {
             return Err(Error::NullPointer);
         }
@@ -55,56 +48,40 @@ unsafe fn initialise<P>(
         // SAFETY: aligned, not NULL, and valid by the function's contract.
         unsafe { contact.write(initialised) };
         Ok(())
-    };
-    status(initialise())
+    })
 }
 
 /// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 /// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
-///
-/// # Safety
-/// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::rounded_flat) }
+    initialise(p, contact, Contact::rounded_flat)
 }
 
 /// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 /// unchanged then.
-///
-/// # Safety
-/// `p` and `contact` are NULL or valid for their types.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe { initialise(p, contact, Contact::elliptic) }
+    initialise(p, contact, Contact::elliptic)
 }
 
 /// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
 /// only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
-///
-/// # Safety
-/// `contact` is NULL or valid for a contact.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { pointers::contact(contact) }.and_then(pointers::check_contact))
+    status(pointers::contact(contact).and_then(pointers::check_contact))
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
 /// contact. Elliptical: on the x axis.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_tractions(
     contact: *const mslip_contact,
@@ -114,10 +91,9 @@ pub unsafe extern "C" fn mslip_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (contact, x, [mut pressure, mut shear]) =
-            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?) };
+            (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         for (i, &x) in x.iter().enumerate() {
@@ -125,8 +101,7 @@ pub unsafe extern "C" fn mslip_tractions(
             set(&mut shear, i, || point.shear(x));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
@@ -138,9 +113,6 @@ pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 /// MSLIP_NOT_AVAILABLE for an elliptical contact.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_slip(
     contact: *const mslip_contact,
@@ -150,10 +122,9 @@ pub unsafe extern "C" fn mslip_slip(
     slip: *mut f64,
     damage: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (contact, x, [mut slip, mut damage]) =
-            unsafe { (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?) };
+            (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         point.slip(0.0)?;
@@ -166,8 +137,7 @@ pub unsafe extern "C" fn mslip_slip(
             set(&mut damage, i, || point.damage_of(x, local_slip));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
@@ -175,9 +145,6 @@ pub unsafe extern "C" fn mslip_slip(
 /// the flat, a.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_displacement(
     contact: *const mslip_contact,
@@ -187,12 +154,9 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
     compliance: *mut f64,
     stick_half_width: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) = unsafe {
-            let outputs = outputs([displacement, compliance, stick_half_width], n);
-            (pointers::contact(contact)?, input(force, n)?, outputs?)
-        };
+    call(|| {
+        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) =
+            (pointers::contact(contact)?, input(force, n)?, outputs([displacement, compliance, stick_half_width], n)?);
         force.iter().try_for_each(|&force| contact.check_force(force))?;
         if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
             return Ok(());
@@ -204,8 +168,7 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
             set(&mut stick_half_width, i, || point.stick_half_width());
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Inverse of the monotonic curve, odd in the displacement: force \[N\], stiffness \[N/m\] and stick half-width \[m\] at
@@ -213,9 +176,6 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
 /// and stick half-width are 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_force(
     contact: *const mslip_contact,
@@ -225,12 +185,9 @@ pub unsafe extern "C" fn mslip_monotonic_force(
     stiffness: *mut f64,
     stick_half_width: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, displacement, [force, stiffness, stick_half_width]) = unsafe {
-            let outputs = outputs([force, stiffness, stick_half_width], n);
-            (pointers::contact(contact)?, input(displacement, n)?, outputs?)
-        };
+    call(|| {
+        let (contact, displacement, [force, stiffness, stick_half_width]) =
+            (pointers::contact(contact)?, input(displacement, n)?, outputs([force, stiffness, stick_half_width], n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, stiffness);
         if let Some(stick_half_width) = stick_half_width {
@@ -239,8 +196,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             }
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
@@ -253,9 +209,6 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 /// radius. Those with respect to a and L are 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles, sensitivity for 6 n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_monotonic_sensitivity(
     contact: *const mslip_contact,
@@ -264,12 +217,9 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
     force: *mut f64,
     sensitivity: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, displacement, force, sensitivity) = unsafe {
-            let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
-            (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?, sensitivity)
-        };
+    call(|| {
+        let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
+        let (contact, displacement, force) = (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, None);
         let columns = sensitivity.map(|sensitivity| sensitivity.as_chunks_mut().0).into_iter().flatten();
@@ -277,6 +227,5 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
             *column = contact.monotonic_sensitivity(displacement)?;
         }
         Ok(())
-    };
-    status(compute())
+    })
 }

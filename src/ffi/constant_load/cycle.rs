@@ -6,16 +6,13 @@ use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, input, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, input, output, outputs, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
 /// spaced instants of one period, from t = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_hysteresis_loop(
     contact: *const mslip_contact,
@@ -24,10 +21,9 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     displacement: *mut f64,
     force: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (contact, [mut displacement, mut force]) =
-            unsafe { (pointers::contact(contact)?, outputs([displacement, force], n)?) };
+            (pointers::contact(contact)?, outputs([displacement, force], n)?);
         let cycle = contact.hysteresis_loop(amplitude)?;
         if displacement.is_none() && force.is_none() {
             return Ok(());
@@ -37,16 +33,12 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
             set(&mut force, i, || cycle.force(i, n));
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Energy \[J\] dissipated per cycle between +- force_amplitude\[n\] \[N\], each from 0 to mu N (Eq. 13-16).
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_dissipated_energy(
     contact: *const mslip_contact,
@@ -54,27 +46,22 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
     force_amplitude: *const f64,
     energy: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (contact, amplitude, energy) =
-            unsafe { (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?) };
+            (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?);
         amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
         let Some(energy) = energy else { return Ok(()) };
         for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
             *energy = contact.dissipated_energy(amplitude)?;
         }
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Complex (harmonic) stiffness K' + iK'' \[N/m\] at displacement amplitude\[n\] >= 0 \[m\] and its derivatives with respect to
 /// the amplitude \[N/m^2\] (section 3.4); at amplitude 0: the initial stiffness.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_complex_stiffness(
     contact: *const mslip_contact,
@@ -85,19 +72,15 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, amplitude, outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (pointers::contact(contact)?, input(amplitude, n)?, outputs?)
-        };
+    call(|| {
+        let (contact, amplitude, outputs) =
+            (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
         if outputs.iter().all(Option::is_none) {
             return Ok(());
         }
         write_untabulated(contact, amplitude, outputs)
-    };
-    status(compute())
+    })
 }
 
 /// Number of doubles in a table of the complex stiffness.
@@ -110,33 +93,23 @@ pub extern "C" fn mslip_stiffness_table_length() -> size_t {
 /// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-///
-/// # Safety
-/// `contact` is NULL or valid for one item, `table` NULL or valid for table_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_stiffness_table_init(
     contact: *const mslip_contact,
     table_length: size_t,
     table: *mut f64,
 ) -> i32 {
-    let init = || {
-        // SAFETY: by the function's contract.
-        let (contact, table) =
-            unsafe { (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?) };
+    call(|| {
+        let (contact, table) = (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?);
         table.write(StiffnessTable::EMPTY).init(contact);
         Ok(())
-    };
-    status(init())
+    })
 }
 
 /// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
 /// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles, `contact` for one item, `table` for mslip_stiffness_table_length() doubles; outputs
-/// must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     contact: *const mslip_contact,
@@ -148,12 +121,13 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_real: *mut f64,
     dk_imag: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, table, amplitude, outputs) = unsafe {
-            let outputs = outputs([k_real, k_imag, dk_real, dk_imag], n);
-            (pointers::contact(contact)?, pointers::stiffness_table(table)?, input(amplitude, n)?, outputs?)
-        };
+    call(|| {
+        let (contact, table, amplitude, outputs) = (
+            pointers::contact(contact)?,
+            pointers::stiffness_table(table)?,
+            input(amplitude, n)?,
+            outputs([k_real, k_imag, dk_real, dk_imag], n)?,
+        );
         if !table.is_of(contact) {
             return Err(Error::BadTable);
         }
@@ -163,8 +137,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
             return Ok(());
         }
         write_untabulated(contact, amplitude, outputs)
-    };
-    status(compute())
+    })
 }
 
 /// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
@@ -222,9 +195,6 @@ pub(in crate::ffi) fn write_complex_stiffness(
 /// force \[N\]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
-///
-/// # Safety
-/// Each pointer is NULL or valid for one item; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_jenkins_equivalent(
     contact: *const mslip_contact,
@@ -232,16 +202,14 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     stiffness: *mut f64,
     slip_force: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
+    call(|| {
         let (contact, [mut stiffness, mut slip_force]) =
-            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?) };
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
         set(&mut stiffness, 0, || slider.stiffness);
         set(&mut slip_force, 0, || slider.slip_force);
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Iwan model of n parallel Jenkins elements that approximates the monotonic curve with the smallest maximum error: stiffness\[n\]
@@ -250,9 +218,6 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
 /// histories, 6 to 43 in decaying vibrations. All are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles (force_error: one); outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_iwan_equivalent(
     contact: *const mslip_contact,
@@ -261,13 +226,12 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
     slip_force: *mut f64,
     force_error: *mut f64,
 ) -> i32 {
-    let compute = || {
+    call(|| {
         pointers::check_length::<f64>(n)?;
         // Before arrays of that length are assumed.
         equivalents::check_count(n)?;
-        // SAFETY: by the function's contract.
         let (contact, [mut stiffness, mut slip_force], mut force_error) =
-            unsafe { (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?) };
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?);
         let mut i = 0;
         let error = equivalents::iwan(contact, n, |slider| {
             set(&mut stiffness, i, || slider.stiffness);
@@ -276,6 +240,5 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         })?;
         set(&mut force_error, 0, || error);
         Ok(())
-    };
-    status(compute())
+    })
 }

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::ffi::MSLIP_OK;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
-    self, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
+    self, call, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
 };
 use core::{ptr, slice};
 use libc::size_t;
@@ -24,54 +24,37 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// Initialises a state: unloaded, with zero force and displacement.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { memory(state_length, state) }.and_then(state::state_init))
+    status(memory(state_length, state).and_then(state::state_init))
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
 /// check a tag and the number of reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {
-    // SAFETY: by the function's contract.
-    status(unsafe { state_input(state_length, state) }.and_then(state::state_check))
+    status(state_input(state_length, state).and_then(state::state_check))
 }
 
 /// Bound on the error \[N\] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles, `force_error` NULL or valid for one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (state, mut force_error) = unsafe { (state_input(state_length, state)?, output(force_error, 1)?) };
+    call(|| {
+        let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         let error = state::state_error(state)?;
         set(&mut force_error, 0, || error);
         Ok(())
-    };
-    status(compute())
+    })
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
 /// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or one; state_new is state_old or, like the outputs, does not
-/// alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_update(
     contact: *const mslip_contact,
@@ -84,8 +67,7 @@ pub unsafe extern "C" fn mslip_masing_update(
     dissipated: *mut f64,
 ) -> i32 {
     let checked = || {
-        // SAFETY: by the function's contract.
-        let contact = unsafe { pointers::contact(contact) }?;
+        let contact = pointers::contact(contact)?;
         [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
         // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
         masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
@@ -117,19 +99,16 @@ pub(in crate::ffi) unsafe fn update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        let continued = if dissipated.is_null() { masing::continued(contact, &*state_old, displacement) } else { None };
-        let Some(response) = continued else {
-            return general_update(contact, state_old, displacement, state_new, force, stiffness, dissipated);
-        };
-        write(force, response.force);
-        write(stiffness, response.stiffness);
-        if !state_new.is_null() {
-            copy(state_old, state_new);
-            let now = Point { displacement, force: response.force };
-            state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
-        }
+    let continued = if dissipated.is_null() { masing::continued(contact, &*state_old, displacement) } else { None };
+    let Some(response) = continued else {
+        return general_update(contact, state_old, displacement, state_new, force, stiffness, dissipated);
+    };
+    write(force, response.force);
+    write(stiffness, response.stiffness);
+    if !state_new.is_null() {
+        copy(state_old, state_new);
+        let now = Point { displacement, force: response.force };
+        state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
     }
     MSLIP_OK
 }
@@ -146,15 +125,12 @@ unsafe fn general_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    // SAFETY: by the function's contract.
-    unsafe {
-        let state = &*state_old;
-        let results = [force, stiffness];
-        with_step!(contact, state, displacement, !dissipated.is_null(), |step, energy| {
-            write_step(&step, state_old, state_new, results);
-            write(dissipated, energy);
-        });
-    }
+    let state = &*state_old;
+    let results = [force, stiffness];
+    with_step!(contact, state, displacement, !dissipated.is_null(), |step, energy| {
+        write_step(&step, state_old, state_new, results);
+        write(dissipated, energy);
+    });
     MSLIP_OK
 }
 
@@ -165,8 +141,7 @@ unsafe fn general_update(
 #[inline(always)]
 unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
     if !ptr::eq(state_old.cast(), state_new) {
-        // SAFETY: by the function's contract.
-        unsafe { ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len()) };
+        ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len());
     }
 }
 
@@ -194,8 +169,7 @@ unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, 
 #[inline(always)]
 unsafe fn write(output: *mut f64, value: f64) {
     if !output.is_null() {
-        // SAFETY: by the function's contract.
-        unsafe { output.write(value) };
+        output.write(value);
     }
 }
 
@@ -204,10 +178,6 @@ unsafe fn write(output: *mut f64, value: f64) {
 /// evaluated with a capacity of at most 128 nested reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (states) or n; state_new is state_old or, like the outputs, does not
-/// alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_path(
     contact: *const mslip_contact,
@@ -220,15 +190,11 @@ pub unsafe extern "C" fn mslip_masing_path(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let advance = || {
-        // SAFETY: by the function's contract.
-        let (contact, path, [force, stiffness, dissipated]) = unsafe {
-            let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
-            (contact, path, outputs([force, stiffness, dissipated], n)?)
-        };
+    call(|| {
+        let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
+        let [force, stiffness, dissipated] = outputs([force, stiffness, dissipated], n)?;
         check_alignment(state_new)?;
-        // SAFETY: by the function's contract.
-        let start = unsafe { state_input(state_length, state_old) }?;
+        let start = state_input(state_length, state_old)?;
         let output = PathOutput { force, stiffness, dissipated };
         masing::check_path(start, path)?;
         if state_new.is_null() {
@@ -243,17 +209,13 @@ pub unsafe extern "C" fn mslip_masing_path(
         let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
         masing::path(contact, state, path, output);
         Ok(())
-    };
-    status(advance())
+    })
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] after an arbitrary load history (Eq. 21, superposed by Masing's rule).
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 /// MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
-///
-/// # Safety
-/// Each pointer is NULL or valid for state_length doubles (the state) or n; outputs must not alias any other argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_masing_tractions(
     contact: *const mslip_contact,
@@ -264,16 +226,12 @@ pub unsafe extern "C" fn mslip_masing_tractions(
     pressure: *mut f64,
     shear: *mut f64,
 ) -> i32 {
-    let compute = || {
-        // SAFETY: by the function's contract.
-        let (contact, state, x, [mut pressure, shear]) = unsafe {
-            let (contact, state) = (pointers::contact(contact)?, state_input(state_length, state)?);
-            (contact, state, input(x, n)?, outputs([pressure, shear], n)?)
-        };
+    call(|| {
+        let (contact, state, x) = (pointers::contact(contact)?, state_input(state_length, state)?, input(x, n)?);
+        let [mut pressure, shear] = outputs([pressure, shear], n)?;
         check_positions(x)?;
         masing::shear_tractions(contact, state, x, shear.unwrap_or(&mut []))?;
         x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
         Ok(())
-    };
-    status(compute())
+    })
 }

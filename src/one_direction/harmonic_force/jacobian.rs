@@ -21,6 +21,7 @@ use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_sca
 use crate::fourier::workspace::Blocks;
 use crate::one_direction::harmonic_force::runs::{EMPTY_RUN, Kind, Run, Runs, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples, at};
+use crate::one_direction::step::Crossing;
 use crate::simd::dispatch;
 
 /// Doubles of a piece in the workspace.
@@ -419,9 +420,9 @@ impl<const N: usize> Gathering<'_, N> {
         if made == Made::BY_STICKING {
             self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
         } else {
-            let closing = closing(samples, element, sample);
-            self.add(before, &difference, closing.before);
-            self.add(sample, &difference, closing.after);
+            let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
+            self.add(before, &difference, [rest, -rest * slope]);
+            self.add(sample, &difference, [fraction, -fraction * slope]);
         }
     }
 

@@ -4,7 +4,9 @@
 //! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
+use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{Part, Samples, at, ranges};
+use crate::one_direction::step::Crossing;
 
 /// Doubles of a knot and of a run in the workspace.
 pub(super) const KNOT: usize = 4;
@@ -172,8 +174,9 @@ impl Stack<'_> {
         }
     }
 
-    /// Removes the knots outside the quadrant ξ > x, η < y; returns whether there were any.
-    fn pop(&mut self, x: f64, y: f64) -> bool {
+    /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
+    /// one was removed.
+    fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
         while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
             && !(xi > x && eta < y)
@@ -240,7 +243,7 @@ impl PeriodicPath<'_> {
                         stack.push(Knot::centre(closing(samples, element, next).displacement));
                         was_open = false;
                     }
-                    if !stack.pop(x, y) {
+                    if !stack.close_loops(x, y) {
                         stick(&mut stack, span)
                     } else if stack.depth == 0 {
                         slip_grossly(&mut stack, span)
@@ -315,48 +318,20 @@ fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> R
     let last = span.first + count - 1;
     stack.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(last) });
     stack.push(Knot { xi, eta, place: Place::end(last) });
-    let slope = if falling <= 0.0 {
-        1.0
-    } else if rising <= 0.0 {
-        -1.0
-    } else {
-        (rising - falling) / (rising + falling).max(f64::MIN_POSITIVE)
-    };
     Run {
         kind: Kind::Slip,
         count,
         kept,
         inner: inner.place,
         sign: if is_forward { 1.0 } else { -1.0 },
-        parameter: slope,
+        parameter: slope(falling, rising),
         ..EMPTY_RUN
     }
 }
 
 /// Where the path from the open sample before a sample closes the contact.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Closing {
-    pub displacement: f64,
-    /// Derivatives of this displacement by displacement and input of the sample before and of the sample.
-    pub before: [f64; 2],
-    pub after: [f64; 2],
-}
-
-pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Closing {
-    let before = samples.before(sample);
-    let [u0, u1] = [before, sample].map(|sample| at(samples.displacement, sample));
-    if !element.by_approach() {
-        return Closing { displacement: u0, before: [1.0, 0.0], after: [0.0, 0.0] };
-    }
-    let [w0, w1] = [before, sample].map(|sample| at(samples.input, sample));
-    // w0 <= 0 < w1.
-    let (fraction, rest) = (element.crossing(w0, w1), w1 / (w1 - w0));
-    let slope = (u1 - u0) / (w1 - w0);
-    Closing {
-        displacement: u0 + fraction * (u1 - u0),
-        before: [rest, -rest * slope],
-        after: [fraction, -fraction * slope],
-    }
+pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
+    Crossing::between(element, samples.motion(samples.before(sample)), samples.motion(sample))
 }
 
 /// Coordinates such that slip in either direction is forward slip.

@@ -19,6 +19,7 @@ fn elements(input: NormalInput) -> Vec<Element> {
         normal_force: 150.0,
         friction_coefficient: 0.4,
         material: [steel; 2],
+        ..EllipticParameters::default()
     };
     let flat = |flat| Element::rounded_flat(&parameters(flat), Directions::One, input).unwrap();
     vec![flat(0.0), flat(50e-6), Element::elliptic(&sphere, Directions::One, input).unwrap()]
@@ -141,15 +142,19 @@ fn evaluate(element: &Element, memory: &mut [f64], displacement: &[f64], output:
 fn all(element: &Element, memory: &mut [f64], displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
     let n = displacement.len();
     let (mut force, mut jacobian, mut energy) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
-    let output =
-        HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+    let output = HarmonicOutput {
+        force: Some(&mut force),
+        jacobian: Some(&mut jacobian),
+        dissipated: Some(&mut energy),
+        drift: None,
+    };
     evaluate(element, memory, displacement, output).unwrap();
     (force, jacobian, energy)
 }
 
 fn force_of(element: &Element, memory: &mut [f64], displacement: &[f64]) -> Vec<f64> {
     let mut force = vec![f64::NAN; displacement.len()];
-    let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None };
+    let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None, drift: None };
     evaluate(element, memory, displacement, output).unwrap();
     force
 }
@@ -307,6 +312,7 @@ fn a_constant_normal_force_gives_the_law_of_constant_load() {
                     force: Some(&mut constant),
                     jacobian: Some(&mut derivative),
                     dissipated: Some(&mut loss),
+                    drift: None,
                 };
                 let mut opened = crate::constant_load::harmonic_force::Workspace::new(&mut memory).unwrap();
                 crate::constant_load::harmonic_force::harmonic_force(&contact, &mut opened, &displacement[..c], output)
@@ -381,8 +387,12 @@ fn negative_normal_forces_are_rejected_but_for_rounding() {
     ] {
         (displacement[5], displacement[6]) = (mean, cosine);
         let (mut force, mut jacobian, mut energy) = ([7.0; 10], [7.0; 100], 7.0);
-        let output =
-            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        let output = HarmonicOutput {
+            force: Some(&mut force),
+            jacobian: Some(&mut jacobian),
+            dissipated: Some(&mut energy),
+            drift: None,
+        };
         let result = evaluate(&element, &mut memory, &displacement, output);
         assert_eq!(result, if is_valid { Ok(()) } else { Err(Error::BadNormalForce) }, "{mean} {cosine}");
         assert!(is_valid || (energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0)));
@@ -439,8 +449,12 @@ fn invalid_arguments_have_their_own_errors() {
         (&[0.0, 0.0, 0.0, 0.0, 0.0, 1.1e150], 6, 36, Error::BadDisplacement),
     ] {
         let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
-        let output =
-            HarmonicOutput { force: Some(&mut force), jacobian: Some(&mut jacobian), dissipated: Some(&mut energy) };
+        let output = HarmonicOutput {
+            force: Some(&mut force),
+            jacobian: Some(&mut jacobian),
+            dissipated: Some(&mut energy),
+            drift: None,
+        };
         assert_eq!(evaluate(&element, &mut good, displacement, output), Err(error));
         assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
     }
@@ -460,11 +474,11 @@ fn results_do_not_depend_on_earlier_use_or_on_other_outputs() {
     assert_eq!(all(&element, &mut memory, &motions[0]), first);
     assert_eq!(force_of(&element, &mut memory, &motions[1]), second.0);
     let mut energy = 0.0;
-    let output = HarmonicOutput { force: None, jacobian: None, dissipated: Some(&mut energy) };
+    let output = HarmonicOutput { force: None, jacobian: None, dissipated: Some(&mut energy), drift: None };
     evaluate(&element, &mut memory, &motions[0], output).unwrap();
     assert_eq!(energy, first.2);
     let mut jacobian = vec![0.0; 14 * 14];
-    let output = HarmonicOutput { force: None, jacobian: Some(&mut jacobian), dissipated: None };
+    let output = HarmonicOutput { force: None, jacobian: Some(&mut jacobian), dissipated: None, drift: None };
     evaluate(&element, &mut memory, &motions[1], output).unwrap();
     assert_eq!(jacobian, second.1);
     assert_eq!(memory[used..], [-1.0, -1.0]);

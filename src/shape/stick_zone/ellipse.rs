@@ -146,6 +146,7 @@ mod tests {
             normal_force,
             friction_coefficient: friction,
             material,
+            ..EllipticParameters::default()
         })
         .unwrap();
         let force = 7.0 / 8.0 * friction * normal_force;

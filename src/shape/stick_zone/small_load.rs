@@ -9,6 +9,7 @@
 //!
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
+use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::polynomial::{self, Rows, rows};
 use crate::shape::stick_zone::{Complement, StickZone};
 
@@ -20,33 +21,8 @@ pub(crate) const RETAINED_TERMS: usize = 20;
 
 type Terms = Rows<{ RETAINED_TERMS / 4 }>;
 
-/// Coefficients of the Chebyshev polynomials T_n(4τ - 1), n from [`RETAINED_TERMS`], divided by the leading one.
-const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = {
-    let mut table = [[0.0; TERMS]; TERMS - RETAINED_TERMS];
-    let (mut before, mut now) = ([0.0; TERMS], [0.0; TERMS]);
-    before[0] = 1.0;
-    (now[0], now[1]) = (-1.0, 4.0);
-    let mut n = 1;
-    while n < TERMS {
-        if n >= RETAINED_TERMS {
-            let mut k = 0;
-            while k <= n {
-                table[n - RETAINED_TERMS][k] = now[k] / now[n];
-                k += 1;
-            }
-        }
-        let mut next = [0.0; TERMS];
-        let mut k = 0;
-        while k < TERMS {
-            let below = if k > 0 { now[k - 1] } else { 0.0 };
-            next[k] = 2.0 * (4.0 * below - now[k]) - before[k];
-            k += 1;
-        }
-        (before, now) = (now, next);
-        n += 1;
-    }
-    table
-};
+/// The Chebyshev polynomials T_n(4τ - 1), n from [`RETAINED_TERMS`].
+const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = monic_powers(-1.0, 4.0);
 
 /// Economizes a power series on 0 <= τ <= 1/2 (Lanczos): from the highest power on, a multiple of the Chebyshev polynomial with that
 /// leading power is subtracted.

@@ -215,7 +215,7 @@ pub fn wrapped(indent: &str, statement: &str) -> Vec<String> {
 }
 
 /// A text, broken at blanks into lines of a width.
-fn broken(text: &str, width: usize) -> Vec<String> {
+pub fn broken(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_ascii_whitespace() {
         let line = lines.last_mut().expect("there is a line");

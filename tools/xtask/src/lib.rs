@@ -31,8 +31,8 @@ pub fn header_path() -> PathBuf {
 
 /// The text that the header should have.
 pub fn header() -> String {
-    // In the source, brackets are escaped because they would be links, and sections have headings.
-    let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]").replace("// # Safety\n// ", "// Memory: ");
+    // In the source, brackets are escaped because they would be links.
+    let text = text_of(&bindings()).replace("\\[", "[").replace("\\]", "]");
     // Excluded items have left blank lines.
     let mut lines: Vec<&str> = text.lines().collect();
     lines.dedup_by(|line, before| line.is_empty() && before.is_empty());

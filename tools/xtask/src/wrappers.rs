@@ -25,7 +25,7 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
         if function.has("by hand") {
             continue;
         }
-        let name = fortran_name(function);
+        let name = function.name;
         let mut forms = vec![(Form::Array, name.to_owned())];
         if function.has("scalar") {
             let short = name.trim_start_matches("mslip_");
@@ -80,16 +80,11 @@ pub fn test(functions: &[Function]) -> [(&'static str, Vec<String>); 2] {
 }
 
 fn name_of(function: &Function, form: Form) -> String {
-    let name = fortran_name(function);
+    let name = function.name;
     match form {
         Form::Advance => name.strip_suffix("_update").unwrap_or(name).to_owned() + "_advance",
         _ => name.to_owned(),
     }
-}
-
-/// Fortran ignores case: `MSLIP_NORMAL_FORCE` is a constant.
-fn fortran_name<'a>(function: &Function<'a>) -> &'a str {
-    if function.name == "mslip_normal_force" { "mslip_normal_force_at" } else { function.name }
 }
 
 fn is_new_state(argument: &Argument) -> bool {
@@ -105,11 +100,9 @@ fn description(function: &Function, form: Form) -> Vec<String> {
     if form == Form::Advance {
         return vec![format!("`{}` in place: the new state replaces the old one.", function.name)];
     }
-    let paragraphs =
-        function.comment.iter().filter(|text| !text.starts_with("Returns ") && !text.starts_with("Memory: "));
+    let paragraphs = function.comment.iter().filter(|text| !text.starts_with("Returns "));
     let paragraphs = paragraphs.map(|text| {
-        let of_c =
-            |sentence: &&str| ["NULL", "alias", "MSLIP_BY_", "In Fortran"].iter().any(|word| sentence.contains(word));
+        let of_c = |sentence: &&str| ["NULL", "alias", "MSLIP_BY_"].iter().any(|word| sentence.contains(word));
         let kept: Vec<&str> = sentences(text).into_iter().filter(|sentence| !of_c(sentence)).collect();
         let mut text = String::new();
         // An index is in parentheses, a unit in brackets.

@@ -108,6 +108,7 @@ impl Sampler {
                 normal_force: self.power(-3.0, 5.0),
                 friction_coefficient,
                 material,
+                ..EllipticParameters::default()
             });
         }
         // a and w over b; 1 - a/b may be below rounding.
@@ -152,7 +153,7 @@ impl Sampler {
             friction_coefficient,
             material,
             displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
-            reserved: 0,
+            springs: 0,
         })
     }
 

@@ -1,6 +1,17 @@
 //! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; and checked calls.
 
 pub mod calls;
+#[allow(dead_code, reason = "the valid arguments are those of the tests")]
+#[path = "../../../tests/calls/mod.rs"]
+mod interface;
+
+/// Asserts a bound of all values; NaN violates it.
+#[macro_export]
+macro_rules! all {
+    ($values:expr, $bound:expr) => {
+        assert!($values.iter().copied().all($bound), "{}: {:?}", stringify!($bound), $values)
+    };
+}
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
@@ -128,7 +139,7 @@ impl Choice {
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
                     displacement_reference: i32::from(if reference < 240 { reference % 2 } else { reference }),
-                    reserved: reference.into(),
+                    ..Parameters::default()
                 })
             }
             Choice::Ellipse { geometry: [x, y], load: [n, mu], material: m } => {
@@ -138,6 +149,7 @@ impl Choice {
                     normal_force: n.value(100.0),
                     friction_coefficient: mu.value(0.5),
                     material: material(m),
+                    ..EllipticParameters::default()
                 })
             }
         }
@@ -178,7 +190,7 @@ const FLAT: Parameters = Parameters {
     friction_coefficient: 0.5,
     material: [STEEL; 2],
     displacement_reference: 0,
-    reserved: 0,
+    springs: 0,
 };
 
 /// Contacts from the cylinder to the nearly flat, short, long, open, without friction, and in extreme units, initialised once.
@@ -209,7 +221,14 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
             [(1e-4, 1e-4, 100.0), (1e-5, 1e-3, 100.0), (1e-2, 1e-4, 100.0), (1e45, 1e46, 100.0), (1e-4, 1e-4, 0.0)];
         let ellipses = axes.map(|(semi_axis_x, semi_axis_y, normal_force)| {
             let (friction_coefficient, material) = (0.5, [STEEL; 2]);
-            EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material }
+            EllipticParameters {
+                semi_axis_x,
+                semi_axis_y,
+                normal_force,
+                friction_coefficient,
+                material,
+                ..EllipticParameters::default()
+            }
         });
         let extreme_units = [(50e-6, 120, -100), (0.0, -90, 200)].map(|(flat_half_width, length, force)| {
             let (metre, newton) = (2f64.powi(length), 2f64.powi(force));

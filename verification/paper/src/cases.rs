@@ -97,6 +97,7 @@ impl Case {
             normal_force,
             friction_coefficient: FRICTION,
             material: [STEEL; 2],
+            ..EllipticParameters::default()
         };
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;
@@ -106,9 +107,13 @@ impl Case {
 
     /// The same contact under a normal force that varies.
     pub fn element(&self, input: NormalInput) -> Element {
+        self.element_of(Directions::One, input)
+    }
+
+    pub fn element_of(&self, directions: Directions, input: NormalInput) -> Element {
         match &self.input {
-            Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, input),
-            Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, input),
+            Input::Flat(parameters) => Element::rounded_flat(parameters, directions, input),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, directions, input),
         }
         .expect("an element of the paper")
     }

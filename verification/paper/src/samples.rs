@@ -92,7 +92,7 @@ fn evaluate(element: &Element, displacement: &[f64], harmonics: usize, samples: 
     workspace_init(harmonics, samples, &mut memory).expect("allowed numbers");
     let mut workspace = Workspace::new(&mut memory).expect("an initialised workspace");
     let (mut force, mut energy) = (vec![0.0; displacement.len()], 0.0);
-    let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy) };
+    let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy), drift: None };
     harmonic_force(element, &mut workspace, displacement, output).expect("a motion within the range");
     (force, energy)
 }

@@ -239,7 +239,14 @@ fn shape(row: &Row) -> Input {
     let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
     if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
-        Input::Ellipse(EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material })
+        Input::Ellipse(EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force,
+            friction_coefficient,
+            material,
+            ..EllipticParameters::default()
+        })
     } else {
         Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, ..geometry(row) })
     }

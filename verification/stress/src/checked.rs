@@ -3,8 +3,6 @@
 use crate::library::{BRANCH_ROUNDING, Contact, Response, State};
 use crate::memory::{Memory, Point};
 use crate::{Outcome, ensure};
-use rand::Rng;
-use rand::rngs::SmallRng;
 
 /// Reversals that a state holds: none are merged.
 const REVERSALS: usize = 1000;
@@ -26,17 +24,17 @@ impl<'a> CheckedHistory<'a> {
         CheckedHistory { contact, memory: Memory::new(contact.slip()), mirrored: state.clone(), state, now }
     }
 
-    /// One step with its checks, also the expensive ones if `thorough`; a failure reports the memory before.
-    pub fn step(&mut self, displacement: f64, thorough: bool, rng: &mut SmallRng) -> Outcome {
+    /// One step with its checks, also the expensive one if `thorough`; a failure reports the memory before.
+    pub fn step(&mut self, displacement: f64, thorough: bool) -> Outcome {
         let before = self.memory.clone();
-        self.checked_step(displacement, thorough, rng).map_err(|failure| {
+        self.checked_step(displacement, thorough).map_err(|failure| {
             format!("{failure}\n  path to the state before: {:?}\n  then: {displacement:?}", before.shortest_path())
         })
     }
 
-    fn checked_step(&mut self, displacement: f64, thorough: bool, rng: &mut SmallRng) -> Outcome {
+    fn checked_step(&mut self, displacement: f64, thorough: bool) -> Outcome {
         let contact = self.contact;
-        let (before, depth) = (thorough.then(|| self.state.clone()), self.memory.depth());
+        let depth = self.memory.depth();
         let from = self.memory.now().displacement;
         let response = self.state.step(contact, displacement)?;
         let Response { force, stiffness, dissipated } = response;
@@ -80,8 +78,7 @@ impl<'a> CheckedHistory<'a> {
         );
         self.now = response;
 
-        if let Some(before) = before {
-            self.divided(before, displacement, rng)?;
+        if thorough {
             self.by_shortest_path()?;
         }
         self.by_masings_rule()
@@ -130,38 +127,6 @@ impl<'a> CheckedHistory<'a> {
             state.used(),
             self.state.used()
         );
-        Ok(())
-    }
-
-    /// A step in parts gives the same state, to the bit, and the same dissipated energy.
-    fn divided(&self, before: State, displacement: f64, rng: &mut SmallRng) -> Outcome {
-        let (contact, from) = (self.contact, before.displacement());
-        let parts = rng.random_range(2..40);
-        // Random places in order, and the end; rounding must not exceed it.
-        let (low, high) = (from.min(displacement), from.max(displacement));
-        let between = (1..parts).map(|_| (from + rng.random::<f64>() * (displacement - from)).clamp(low, high));
-        let mut places: Vec<f64> = between.chain([displacement]).collect();
-        places.sort_by(|one, two| (one - from).abs().total_cmp(&(two - from).abs()));
-        let mut state = before.clone();
-        let mut sum = 0.0;
-        let mut response = self.now;
-        for place in places {
-            response = state.step(contact, place)?;
-            sum += response.dissipated;
-        }
-        let whole = self.now.dissipated;
-        ensure!(
-            response == Response { dissipated: response.dissipated, ..self.now } && state.bits() == self.state.bits(),
-            "in {parts} parts from {from:?} the step gives {response:?} and the state {:?}, not {:?}",
-            state.used(),
-            self.state.used()
-        );
-        // Each part is a difference of two cycle energies, each with its own rounding.
-        let slip_force = contact.slip_force();
-        let scale = contact.slip_energy() + slip_force * (displacement - from).abs();
-        let place = slip_force * f64::EPSILON * (displacement.abs() + from.abs());
-        let bound = (parts + before.depth() + 2) as f64 * (BRANCH_ROUNDING * scale + place);
-        ensure!((sum - whole).abs() <= bound, "in {parts} parts from {from:?} {sum:?} is dissipated, not {whole:?}");
         Ok(())
     }
 }

@@ -40,7 +40,7 @@ pub fn flat(shape: &Shape, length: i32, force: i32) -> Input {
         friction_coefficient: 0.37,
         material,
         displacement_reference: shape.reference,
-        reserved: 0,
+        springs: 0,
     })
 }
 
@@ -55,6 +55,7 @@ pub fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> I
         normal_force: 90.0 * newton,
         friction_coefficient: 0.61,
         material,
+        ..EllipticParameters::default()
     })
 }
 

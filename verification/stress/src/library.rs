@@ -29,26 +29,9 @@ fn accepted(call: impl FnOnce() -> i32) -> Outcome {
     if status == ffi::MSLIP_OK { Ok(()) } else { Err(format!("rejected with status {status}")) }
 }
 
-/// A call under each of the four rounding directions: to nearest, down, up, to zero.
-#[cfg(target_arch = "x86_64")]
-pub fn in_all_rounding_directions<T>(mut call: impl FnMut() -> T) -> [T; 4] {
-    [0x0000, 0x2000, 0x4000, 0x6000].map(|direction| {
-        set_control(0x1f80 | direction);
-        let result = call();
-        set_control(0x1f80);
-        result
-    })
-}
-
-/// Elsewhere to nearest.
-#[cfg(not(target_arch = "x86_64"))]
-pub fn in_all_rounding_directions<T>(mut call: impl FnMut() -> T) -> [T; 4] {
-    [(); 4].map(|()| call())
-}
-
 #[cfg(target_arch = "x86_64")]
 fn set_control(word: u32) {
-    // SAFETY: a valid word, which changes the trapped exceptions and the rounding direction only.
+    // SAFETY: a valid word, which changes the trapped exceptions only.
     unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack)) }
 }
 

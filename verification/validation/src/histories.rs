@@ -116,6 +116,7 @@ impl Shape {
             normal_force,
             friction_coefficient: self.friction_coefficient(),
             material: [self.material(); 2],
+            ..EllipticParameters::default()
         }
     }
 

@@ -4,6 +4,8 @@
 //! - `validation` writes the data of the figures to `docs/figures/data`, and the tables of `docs/validation.md`;
 //! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
 
+#[path = "../../paper/src/documents.rs"]
+mod documents;
 mod drive;
 mod fretting;
 mod histories;
@@ -12,11 +14,10 @@ mod strips;
 mod table;
 mod two_directions;
 
+use documents::{Documents, between};
 use drive::{Point, SUBSTEPS};
 use histories::{History, Shape};
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
 use std::process::ExitCode;
 use table::Table;
 
@@ -160,65 +161,33 @@ fn drawings(comparisons: &[Comparison]) -> Vec<Table> {
     ]
 }
 
-/// The page with a new table between the markers of a name.
-fn with_table(page: &str, name: &str, table: &str) -> Result<String, String> {
-    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
-    let marked = page.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?.1)));
-    let (before, after) = marked.ok_or(format!("docs/validation.md: no markers of {name}"))?;
-    Ok(format!("{before}{begin}{table}{end}{after}"))
-}
-
 /// The page with new tables.
 fn with_tables(page: &str, comparisons: &[Comparison], others: &[(&str, String)]) -> Result<String, String> {
     let mut table = String::from(
         "| contact | path | rows | displacement | without the change of the load | dissipation |\n|---|---|---:|---:|---:|---:|\n",
     );
     comparisons.iter().for_each(|comparison| table.write_str(&comparison.row()).expect("a string"));
-    let page = with_table(page, "comparison", &table)?;
-    others.iter().try_fold(page, |page, (name, table)| with_table(&page, name, table))
+    let page = between(page, "comparison", |_| Ok(table))?;
+    others.iter().try_fold(page, |page, (name, table)| between(&page, name, |_| Ok(table.clone())))
 }
 
 fn main() -> ExitCode {
-    let check = match std::env::args().skip(1).collect::<Vec<_>>()[..] {
-        [] => false,
-        [ref option] if option == "--check" => true,
-        _ => {
-            eprintln!("usage: validation [--check]");
-            return ExitCode::from(2);
-        }
+    let Some(mut documents) = Documents::from_arguments() else {
+        eprintln!("usage: validation [--check]");
+        return ExitCode::from(2);
     };
     let comparisons: Vec<Comparison> = histories::all().into_iter().map(compare).collect();
-    let mut results: Vec<Result<(), String>> = comparisons.iter().flat_map(Comparison::results).collect();
-    let docs = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs"));
+    documents.results.extend(comparisons.iter().flat_map(Comparison::results));
     let directions = two_directions::Comparison::new();
-    results.extend(directions.results());
+    documents.results.extend(directions.results());
     let (strips, strip_results) = strips::compare();
-    results.extend(strip_results);
+    documents.results.extend(strip_results);
     let fretting = fretting::Comparison::new();
-    results.extend(fretting.results());
+    documents.results.extend(fretting.results());
     let drawings = drawings(&comparisons).into_iter().chain([directions.drawings()]).chain(fretting.drawings());
-    for table in drawings {
-        let path = docs.join("figures/data").join(table.name).with_extension("csv");
-        results.push(if check { read(&path).and_then(|file| table.check(&file)) } else { write(&path, &table.csv()) });
-    }
+    drawings.for_each(|table| documents.data(&table));
     let mut tables = Vec::from(directions.tables());
     tables.extend([("strips", strips), ("fretting", fretting.table())]);
-    let page = docs.join("validation.md");
-    results.push(read(&page).and_then(|old| match with_tables(&old, &comparisons, &tables)? {
-        new if !check => write(&page, &new),
-        new if new == old => Ok(()),
-        _ => Err("docs/validation.md is stale: run `make figures`".to_owned()),
-    }));
-    let failures: Vec<&String> = results.iter().filter_map(|result| result.as_ref().err()).collect();
-    failures.iter().for_each(|message| println!("{message}"));
-    println!("{} passed, {} failed", results.len() - failures.len(), failures.len());
-    if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-fn read(path: &Path) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+    documents.page("validation.md", |old| with_tables(old, &comparisons, &tables));
+    documents.report()
 }

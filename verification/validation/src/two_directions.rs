@@ -1,17 +1,19 @@
 //! The law for two tangential directions against Coulomb's law with vectors of traction and slip at 56 elements of a half-space
-//! line (`tests/golden/two_directions.csv`), against smaller steps, and with tables for a smaller load.
+//! line (`tests/golden/two_directions.csv`) and at squares of a sphere's contact (`two_directions_sphere.csv`, by the program `sphere`),
+//! against smaller steps, and with tables for a smaller load.
 
 use crate::table::Table;
-use microslip::Parameters;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::two_directions::{Step, advance, state_init, state_length};
+use microslip::{EllipticParameters, Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// A path of the file.
+/// A path of the files.
 struct Path {
-    flat_half_width: f64,
+    shape: &'static str,
     name: &'static str,
+    /// With the largest load of the path; a sphere has no length.
     parameters: Parameters,
     rows: Vec<Row>,
 }
@@ -49,33 +51,38 @@ struct Errors {
 
 fn paths() -> Vec<Path> {
     let mut paths: Vec<Path> = Vec::new();
-    for line in include_str!("../../../tests/golden/two_directions.csv").lines().skip(1) {
+    let lines = include_str!("../../../tests/golden/two_directions.csv").lines().skip(1);
+    for line in lines.chain(include_str!("../../../tests/golden/two_directions_sphere.csv").lines().skip(1)) {
         let cells: Vec<&'static str> = line.split(',').collect();
         let name = cells[6];
         let value = |column: usize| -> f64 { cells[column].parse().expect("a number") };
-        let flat_half_width = value(0);
+        let shape = match (value(0) > 0.0, value(2) > 0.0) {
+            (true, _) => "flat",
+            (false, true) => "cylinder",
+            (false, false) => "sphere",
+        };
         let row =
             Row { displacement: [value(9), value(10), value(8)], force: [value(11), value(12)], dissipated: value(13) };
+        let [_, _, load] = row.displacement;
         match paths.last_mut() {
-            Some(path) if path.name == name && path.flat_half_width == flat_half_width => path.rows.push(row),
+            Some(path) if (path.shape, path.name) == (shape, name) => {
+                path.parameters.normal_force = path.parameters.normal_force.max(load);
+                path.rows.push(row);
+            }
             _ => {
-                let mut parameters = Parameters {
-                    flat_half_width,
+                let body = Material { young_modulus: value(3), poisson_ratio: value(4) };
+                let parameters = Parameters {
+                    flat_half_width: value(0),
                     edge_radius: value(1),
                     length: value(2),
-                    normal_force: row.displacement[2],
+                    normal_force: load,
                     friction_coefficient: value(5),
+                    material: [body; 2],
                     ..Parameters::default()
                 };
-                for body in &mut parameters.material {
-                    (body.young_modulus, body.poisson_ratio) = (value(3), value(4));
-                }
-                paths.push(Path { flat_half_width, name, parameters, rows: vec![row] });
+                paths.push(Path { shape, name, parameters, rows: vec![row] });
             }
         }
-    }
-    for path in &mut paths {
-        path.parameters.normal_force = path.rows.iter().map(|row| row.displacement[2]).fold(0.0, f64::max);
     }
     paths
 }
@@ -93,7 +100,22 @@ fn drive(element: &Element, path: impl Iterator<Item = [f64; 3]>) -> Vec<Point> 
 }
 
 fn element(parameters: &Parameters) -> Element {
-    Element::rounded_flat(parameters, Directions::Two, NormalInput::Force).expect("an element")
+    let Parameters { length, edge_radius, normal_force, friction_coefficient, material, .. } = *parameters;
+    if length > 0.0 {
+        return Element::rounded_flat(parameters, Directions::Two, NormalInput::Force).expect("an element");
+    }
+    // Hertz: b³ = 3 N R/(4 E*), with E* of two equal bodies.
+    let modulus = 0.5 * material[0].young_modulus / (1.0 - material[0].poisson_ratio.powi(2));
+    let semi_axis = (0.75 * normal_force * edge_radius / modulus).cbrt();
+    let sphere = EllipticParameters {
+        semi_axis_x: semi_axis,
+        semi_axis_y: semi_axis,
+        normal_force,
+        friction_coefficient,
+        material,
+        ..EllipticParameters::default()
+    };
+    Element::elliptic(&sphere, Directions::Two, NormalInput::Force).expect("an element")
 }
 
 /// Largest distance of the forces over a force; dissipated energy over that of the others, less 1.
@@ -123,12 +145,8 @@ fn compare(path: Path) -> Errors {
 }
 
 impl Errors {
-    fn is(&self, flat_half_width: f64, name: &str) -> bool {
-        self.path.flat_half_width == flat_half_width && self.path.name == name
-    }
-
     fn row(&self) -> String {
-        let shape = if self.path.flat_half_width > 0.0 { "flat" } else { "cylinder" };
+        let shape = self.path.shape;
         let name = match self.path.name {
             "circle0.4_loadvaries" => "circle 0.4, N from 0.4 to 1".to_owned(),
             "circle0.4_nearseparation" => "circle 0.4, N from 0.04 to 1".to_owned(),
@@ -178,7 +196,7 @@ fn circle(element: &Element, load: f64, amplitude: f64, steps: u32) -> Vec<Point
 const INSTANTS: usize = 12;
 const AMPLITUDES: [f64; 4] = [0.3, 0.6, 0.9, 1.3];
 const STEPS: [u32; 4] = [12, 24, 48, 96];
-/// The error of so many steps is a hundredth of that of the most in the table.
+/// Number of steps with a hundredth of the error of the finest row of the table.
 const CONVERGED: u32 = 960;
 /// Loads over that of the parameters.
 const LOADS: [f64; 8] = [0.01, 0.1, 0.3, 0.7, 1.05, 1.5, 3.0, 6.0];
@@ -186,7 +204,8 @@ const STEPS_UNDER_LOADS: u32 = 48;
 
 /// Cylinder and flat of the file.
 fn shapes() -> Vec<Parameters> {
-    paths().into_iter().filter(|path| path.name == "circle0.3").map(|path| path.parameters).collect()
+    let line = |path: &Path| path.name == "circle0.3" && path.shape != "sphere";
+    paths().into_iter().filter(line).map(|path| path.parameters).collect()
 }
 
 /// The worst of both shapes for each amplitude: a cell for each.
@@ -240,8 +259,8 @@ impl Comparison {
             let Errors { path, of_law: [force, energy], of_two: [_, energy_of_two], .. } = errors;
             // Otherwise the comparison could not distinguish the law from two elements.
             let holds = *force <= FORCE && energy.abs() <= ENERGY && energy_of_two.abs() > 3.0 * ENERGY;
-            let (shape, name) = (path.flat_half_width, path.name);
-            if holds { Ok(()) } else { Err(format!("{name}, a = {shape}: errors {force:.1e}, {energy:.1e}")) }
+            let Path { shape, name, .. } = path;
+            if holds { Ok(()) } else { Err(format!("{shape}, {name}: errors {force:.1e}, {energy:.1e}")) }
         };
         self.0.iter().map(check).collect()
     }
@@ -263,7 +282,11 @@ impl Comparison {
     pub fn drawings(&self) -> Table {
         let mut table = Table::new("two_directions");
         for name in ["circle0.9", "circle0.4_nearseparation"] {
-            let errors = self.0.iter().find(|errors| errors.is(0.0, name)).expect("a path");
+            let errors = self
+                .0
+                .iter()
+                .find(|errors| (errors.path.shape, errors.path.name) == ("cylinder", name))
+                .expect("a path");
             let element = element(&errors.path.parameters);
             let slip_force = element.friction_coefficient * element.normal_force;
             let slip_energy = slip_force * element.friction_coefficient * element.shift_under(element.normal_force);

@@ -1,12 +1,12 @@
 //! How the operators are computed. Gauss-Legendre rules of 32 nodes are exact to rounding: where a root begins in a piece or next
 //! to it, its square root is the variable.
 
-use super::{FIRST, Functionals, OPERATORS, Operator, Operators, POINTS, TAYLOR, TOP, VALUES};
+use super::{All, FIRST, Functionals, OPERATORS, Operator, Operators, TOP};
 use crate::numerics::chebyshev::{Interpolant, TERMS};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use core::array::from_fn;
 use std::format;
-use std::prelude::rust_2024::*;
+use std::string::String;
 
 const GAUSS: &[[[f64; 4]; 2]] = gauss_rule(MAX_GAUSS_BLOCKS);
 
@@ -199,17 +199,6 @@ impl<const N: usize> Operators<N> {
             inverse_roots: [powers_of_s(-1), powers_of_s(-3), powers_of_s(-5), powers_of_s(-7)],
         }
     }
-
-    /// In the order of the fields.
-    fn append_to(&self, values: &mut Vec<f64>) {
-        for matrix in [self.below.as_flattened(), self.above.as_flattened(), self.above_before.as_flattened()] {
-            values.extend(matrix);
-        }
-        for matrix in [self.mean.as_flattened(), self.energy.as_flattened(), &self.inverse] {
-            values.extend(matrix);
-        }
-        values.extend(self.inverse_roots.as_flattened());
-    }
 }
 
 impl<const N: usize> Functionals<N> {
@@ -222,48 +211,42 @@ impl<const N: usize> Functionals<N> {
             moments: from_fn(|k| moment(2 * k as i32, false)),
         }
     }
+}
 
-    /// In the order of the fields.
-    fn append_to(&self, values: &mut Vec<f64>) {
-        values.extend(self.below_next.as_flattened());
-        values.extend(self.above_next.as_flattened());
-        values.extend(self.root_moments.as_flattened());
-        values.extend(self.root_moment);
-        values.extend(self.moments.as_flattened());
+fn compute() -> All {
+    All {
+        to_first: Operators::compute(),
+        to_others: Operators::compute(),
+        of_first: Functionals::compute(),
+        of_others: Functionals::compute(),
+        powers: from_fn(|k| powers_of_s(2 * k as i32)),
+        outer_below: outer_operator(1.0),
+        outer_above: outer_operator(-1.0),
+        outer_root_moments: from_fn(|k| outer(0.0, Some(-1 - 2 * k as i32))),
+        outer_root_moment: outer(0.0, Some(1)),
+        far: far_operator(),
+        far_first: far(1.0),
+        far_second: far(1.0 / 256.0),
+        far_roots: far_roots(),
     }
 }
 
-/// The values of all operators.
-fn compute() -> Vec<f64> {
-    let mut values = Vec::new();
-    Operators::<FIRST>::compute().append_to(&mut values);
-    Operators::<POINTS>::compute().append_to(&mut values);
-    Functionals::<FIRST>::compute().append_to(&mut values);
-    Functionals::<POINTS>::compute().append_to(&mut values);
-    (0..TAYLOR).for_each(|k| values.extend(powers_of_s::<POINTS>(2 * k as i32)));
-    values.extend(outer_operator(1.0).as_flattened());
-    values.extend(outer_operator(-1.0).as_flattened());
-    (0..TAYLOR).for_each(|k| values.extend(outer(0.0, Some(-1 - 2 * k as i32))));
-    values.extend(outer(0.0, Some(1)));
-    values.extend(far_operator().as_flattened());
-    values.extend(far::<FIRST>(1.0).as_flattened());
-    values.extend(far::<POINTS>(1.0 / 256.0).as_flattened());
-    values.extend(far_roots().as_flattened());
-    values
-}
-
-/// The file of the values: each is the shortest decimal number that is read as the same double.
+/// The value as Rust prints it: each number is the shortest that is read as the same double.
 #[test]
-fn the_file_holds_the_values_that_the_recipe_gives() {
-    let values = compute();
-    let differs = values.len() != VALUES.len() || values.iter().zip(VALUES).any(|(a, b)| a.to_bits() != b.to_bits());
-    if differs {
-        let five = |values: &[f64]| values.iter().map(|value| format!("{value:e},")).collect::<Vec<_>>().join(" ");
-        let text = format!("[\n{}\n]\n", values.chunks(5).map(five).collect::<Vec<_>>().join("\n"));
-        let path = std::env::temp_dir().join("values.in");
-        std::fs::write(&path, text).unwrap();
+fn the_file_holds_what_the_recipe_gives() {
+    let (mut text, mut column) = (String::new(), 0);
+    for word in format!("{:?}", compute()).split_whitespace() {
+        column += word.len() + 1;
+        let wraps = column > 130;
+        column = if wraps { word.len() } else { column };
+        text += if wraps { "\n" } else { " " };
+        text += word;
     }
-    assert!(!differs, "the values of the recipe are in {}", std::env::temp_dir().join("values.in").display());
+    let path = std::env::temp_dir().join("values.in");
+    if text.trim() != include_str!("values.in").trim() {
+        std::fs::write(&path, text.trim()).unwrap();
+        panic!("the values of the recipe are in {}", path.display());
+    }
 }
 
 /// Weights of `∫ f s^p ds` over a piece, p = power/2, or of that of φ on the first.

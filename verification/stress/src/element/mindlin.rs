@@ -61,6 +61,7 @@ pub fn compare() -> Outcome {
         normal_force: LARGEST,
         friction_coefficient: FRICTION,
         material: [Material { young_modulus: YOUNG_MODULUS, poisson_ratio: POISSON_RATIO }; 2],
+        ..EllipticParameters::default()
     });
     let element = Element::new(&input, true).expect("an element");
     let mut state = State::new(64);

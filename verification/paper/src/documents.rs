@@ -1,0 +1,66 @@
+//! Data and tables of the documents in `docs/`: written, or with `--check` compared with what the library computes now.
+
+use crate::table::Table;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The documents of a program, and the results of its checks.
+pub struct Documents {
+    check: bool,
+    pub results: Vec<Result<(), String>>,
+}
+
+impl Documents {
+    /// By the arguments of the program; `None` if they are wrong.
+    pub fn from_arguments() -> Option<Documents> {
+        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        let check = arguments == ["--check"];
+        (check || arguments.is_empty()).then(|| Documents { check, results: Vec::new() })
+    }
+
+    /// The data of a figure.
+    pub fn data(&mut self, table: &Table) {
+        let path = place("figures/data").join(table.name).with_extension("csv");
+        let check = || table.check(&read(&path)?);
+        self.results.push(if self.check { check() } else { write(&path, &table.csv()) });
+    }
+
+    /// A page with new tables.
+    pub fn page(&mut self, name: &str, with_tables: impl FnOnce(&str) -> Result<String, String>) {
+        let path = place(name);
+        self.results.push(read(&path).and_then(|old| match with_tables(&old)? {
+            new if !self.check => write(&path, &new),
+            new if new == old => Ok(()),
+            _ => Err(format!("docs/{name} is stale: run `make figures`")),
+        }));
+    }
+
+    /// Prints the failures and the counts.
+    pub fn report(self) -> ExitCode {
+        let failures: Vec<&String> = self.results.iter().filter_map(|result| result.as_ref().err()).collect();
+        failures.iter().for_each(|message| println!("{message}"));
+        println!("{} passed, {} failed", self.results.len() - failures.len(), failures.len());
+        if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }
+}
+
+fn place(name: &str) -> PathBuf {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).join(name)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// A page with another text between the markers of a name, by the one that is there.
+pub fn between(page: &str, name: &str, text: impl FnOnce(&str) -> Result<String, String>) -> Result<String, String> {
+    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
+    let parts = page.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?)));
+    let (before, (old, after)) = parts.ok_or(format!("no {}…{end}", begin.trim_end()))?;
+    Ok(format!("{before}{begin}{}{end}{after}", text(old)?))
+}
