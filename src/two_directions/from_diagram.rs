@@ -27,7 +27,7 @@ fn fill<const N: usize>(springs: &Springs<N>, now: &Pressed, at: impl Fn(usize, 
             state.v[k][j] = at(k, j, springs.shift[k][j]);
         }
     }
-    let q = [0, 1].map(|k| state.edge.tractions(springs, k, &state.v[k]));
+    let q = [state.edge.tractions(springs, 0, &state.v[0]), state.edge.tractions(springs, 1, &state.v[1])];
     for i in 0..=last {
         let (x, y) = (q[0][i] / state.edge.pressure[i], q[1][i] / state.edge.pressure[i]);
         let over = (x * x + y * y).max(1.0).sqrt();

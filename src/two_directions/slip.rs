@@ -356,7 +356,7 @@ impl<const N: usize> Slip<N> {
             }
         }
         if self.first > 0 || self.count > 0 {
-            let q = [0, 1].map(|k| edge.tractions(problem.springs, k, &end[k]));
+            let q = [edge.tractions(problem.springs, 0, &end[0]), edge.tractions(problem.springs, 1, &end[1])];
             for i in 0..N {
                 let square = q[0][i] * q[0][i] + q[1][i] * q[1][i];
                 let outside = square > edge.pressure[i] * edge.pressure[i] * (1.0 + EXCESS);

@@ -232,6 +232,8 @@ fn shift_of(plane: &Plane, k: usize, w: f64) -> f64 {
 #[expect(clippy::too_many_lines, reason = "the tables in their order")]
 pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units: &Units, reference: f64) {
     let (plane, inner) = (element.plane(), under_flat(element, units));
+    // At most N, as the compiler cannot know: bounds are not checked below.
+    let inner = inner.min(UNDER_FLAT);
     let graded = N - inner;
     let flat = plane.flat / units.size;
     let (rows, _) = tables.as_chunks_mut::<N>();
@@ -259,7 +261,7 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
     };
     let mut width = [flat; N];
     let mut position = [0.0; N];
-    for j in 0..inner.min(N) {
+    for j in 0..inner {
         let (from, to) = (flat * (PI * j as f64 / (2 * inner) as f64).sin(), {
             if j + 1 == inner { flat } else { flat * (PI * (j + 1) as f64 / (2 * inner) as f64).sin() }
         });
@@ -337,16 +339,16 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         // D by back substitution, and its sums from outside.
         let mut density = [0.0; N];
         density[column] = 1.0 / traction[column][column].max(TINY);
-        for j in (1..=column).rev() {
-            // Column j of the map takes part in the rows before.
-            let there = density[j];
-            for i in 0..j {
-                density[i] -= traction[j][i] * there;
+        for j in (0..column).rev() {
+            // Column j + 1 of the map takes part in the rows before.
+            let there = density[j + 1];
+            for i in 0..=j {
+                density[i] -= traction[j + 1][i] * there;
             }
-            density[j - 1] /= traction[j - 1][j - 1].max(TINY);
+            density[j] /= traction[j][j].max(TINY);
         }
         let [mut sum_x, mut sum_y] = [0.0; 2];
-        for j in (0..=column).rev() {
+        for j in (0..N).rev().skip(N - 1 - column) {
             sum_x += density[j] / step[0][j];
             sum_y += density[j] / step[1][j];
             (displacement_x[j][column], displacement_y[j][column]) = (sum_x, sum_y);

@@ -171,7 +171,7 @@ fn kernel<const N: usize>(
         }
     }
     (*tractions, *v) = (r, end);
-    let sum = [0, 1].map(|k| dot(&record.stiffness[k], &end[k]));
+    let sum = [dot(&record.stiffness[0], &end[0]), dot(&record.stiffness[1], &end[1])];
     let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
     record.sum = sum;
     Outcome { force: [sum[0] / over, sum[1] / over], dissipated }
@@ -312,8 +312,11 @@ pub(crate) fn separated<const N: usize>(
     let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
     let mut energy = 0.0;
     for j in first..=outer {
-        let limit = [0, 1].map(|k| (before.shift[k] - springs.shift[k][j]).max(TINY));
-        let w = [0, 1].map(|k| if j == outer { edge.stiffness[k] } else { springs.stiffness[k][j] });
+        let (mut limit, mut w) = ([0.0; 2], edge.stiffness);
+        for k in 0..2 {
+            limit[k] = (before.shift[k] - springs.shift[k][j]).max(TINY);
+            w[k] = if j == outer { w[k] } else { springs.stiffness[k][j] };
+        }
         energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by).max(0.0);
     }
     energy
