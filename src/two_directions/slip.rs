@@ -30,8 +30,10 @@ const STEPS: usize = 60;
 const CHANGES: usize = 12;
 /// The error of the angles at which the iteration ends: some rounding errors, amplified by the condition of J.
 const CONVERGED: f64 = 1e-12;
-/// Turns up to this one need no new inverse, and show which further points slip.
+/// Turns up to this one show which further points slip.
 const CLOSE: f64 = 0.1;
+/// Turns up to this one need no new inverse.
+const RENEWED: f64 = 1e-2;
 /// The largest change of an angle.
 const LARGEST_TURN: f64 = 0.8;
 /// A turn of an iteration that diverges.
@@ -155,7 +157,7 @@ impl<const N: usize> Slip<N> {
                         return;
                     }
                 }
-                if done || turn > CLOSE || turn > 0.1 * before {
+                if done || turn > RENEWED || turn > 0.1 * before {
                     self.linearise(&q, &diagonal, first, last);
                     invert(&mut self.inverse, first, last);
                     fresh = true;

@@ -16,6 +16,11 @@ pub(crate) const ROUNDING: f64 = 1e-14;
 /// |r|² from which on a point has slipped before.
 pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
 
+/// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
+const NEAR: f64 = 0.5;
+/// Cosine of the angle between a motion and a traction from which on a point turns back.
+const BACKWARDS: f64 = 0.6;
+
 /// What a step leads through.
 #[repr(align(32))]
 pub(crate) struct StepRecord<const N: usize> {
@@ -195,6 +200,7 @@ fn slide<const N: usize>(
     (slip.set, slip.count) = (0, 0);
     let ([mut e_x, mut e_y], mut over) = ([[0.0; N]; 2], [0.0; N]);
     let mut continues = [0.0; N];
+    let backwards = -BACKWARDS * (by[0] * by[0] + by[1] * by[1]).sqrt();
     for i in 0..N {
         let (x, y) = (trial[0][i] / limit[0][i], trial[1][i] / limit[1][i]);
         let square = x * x + y * y;
@@ -202,10 +208,14 @@ fn slide<const N: usize>(
         let (x, y) = if outside { (x, y) } else { (q[0][i], q[1][i]) };
         let square = x * x + y * y;
         let length = (if square > TINY { square } else { TINY }).sqrt();
-        (e_x[i], e_y[i]) = (x / length, y / length);
+        let (x, y) = (x / length, y / length);
         over[i] = if outside { length - 1.0 } else { 0.0 };
-        let (x, y) = (start[0][i], start[1][i]);
-        let slipped = x * x + y * y > SLIPPED && x * by[0] + y * by[1] > 0.0;
+        // A point that slips on hardly turns.
+        let (r_x, r_y) = (start[0][i], start[1][i]);
+        let slipped = r_x * r_x + r_y * r_y > SLIPPED;
+        let near = slipped && x * r_x + y * r_y > NEAR;
+        (e_x[i], e_y[i]) = (if near { r_x } else { x }, if near { r_y } else { y });
+        let slipped = slipped && r_x * by[0] + r_y * by[1] > backwards;
         continues[i] = if slipped { 1.0 } else { 0.0 };
     }
     (slip.e, *overshoot) = ([e_x, e_y], over);
