@@ -35,9 +35,9 @@ const CLOSE: f64 = 0.1;
 /// Turns up to this one need no new inverse.
 const RENEWED: f64 = 1e-2;
 /// The largest change of an angle.
-const LARGEST_TURN: f64 = 0.8;
+pub(crate) const LARGEST_TURN: f64 = 0.8;
 /// A turn of an iteration that diverges.
-const LOST: f64 = 1e4;
+pub(crate) const LOST: f64 = 1e4;
 /// Excess of the square of a traction by which a point that sticks may round.
 const EXCESS: f64 = 1e-10;
 /// Slip against the traction, relative to the terms whose difference it is, that is a rounding error.
@@ -56,6 +56,13 @@ pub(crate) struct Problem<'a, const N: usize> {
     /// r_i, and τ_i.
     pub start: &'a Both<Row<N>>,
     pub overshoot: &'a Row<N>,
+}
+
+/// Where Newton's method begins: directions of the tractions, points that slip, and the turn from which on it is given up.
+pub(crate) struct Guess<const N: usize> {
+    pub e: Both<Row<N>>,
+    pub set: Set,
+    pub largest_turn: f64,
 }
 
 /// The slip at all points, and what its derivatives need.
@@ -119,10 +126,10 @@ impl<const N: usize> Slip<N> {
 
     /// Solves the problem: springs at the end. The inverse of J there is computed if it is requested.
     #[inline(always)]
-    pub fn solve(&mut self, problem: &Problem<N>, inverse: bool, end: &mut Both<Row<N>>) {
+    pub fn solve(&mut self, problem: &Problem<N>, guess: &Guess<N>, inverse: bool, end: &mut Both<Row<N>>) {
         let Problem { edge, start, overshoot, .. } = *problem;
         let last = edge.last.min(N - 1);
-        self.converged = false;
+        (self.e, self.set, self.count, self.converged) = (guess.e, guess.set, 0, false);
         for i in 0..N {
             let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
             let u = 2.0 * square - 1.0;
@@ -178,7 +185,7 @@ impl<const N: usize> Slip<N> {
                 }
                 turn = largest(&sizes);
                 steps += 1;
-                if steps > STEPS || turn > LOST {
+                if steps > STEPS || turn > guess.largest_turn {
                     return;
                 }
                 self.rotate(&turns, LARGEST_TURN / turn.max(LARGEST_TURN));

@@ -5,7 +5,7 @@
 
 use super::edge::Edge;
 use super::energy;
-use super::slip::{Problem, Slip};
+use super::slip::{Guess, LARGEST_TURN, LOST, Problem, Set, Slip};
 use super::spring_state::SpringState;
 use super::springs::{Both, Increment, Row, Springs, dot, largest, total};
 use crate::shape::TINY;
@@ -197,9 +197,8 @@ fn slide<const N: usize>(
 ) {
     let StepRecord { limit, trial, overshoot, start, slip, stiffness, failures, .. } = record;
     let last = edge.last.min(N - 1);
-    (slip.set, slip.count) = (0, 0);
-    let ([mut e_x, mut e_y], mut over) = ([[0.0; N]; 2], [0.0; N]);
-    let mut continues = [0.0; N];
+    let ([mut trial_x, mut trial_y], [mut e_x, mut e_y]) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+    let (mut over, mut continues) = ([0.0; N], [0.0; N]);
     let backwards = -BACKWARDS * (by[0] * by[0] + by[1] * by[1]).sqrt();
     for i in 0..N {
         let (x, y) = (trial[0][i] / limit[0][i], trial[1][i] / limit[1][i]);
@@ -210,24 +209,32 @@ fn slide<const N: usize>(
         let length = (if square > TINY { square } else { TINY }).sqrt();
         let (x, y) = (x / length, y / length);
         over[i] = if outside { length - 1.0 } else { 0.0 };
-        // A point that slips on hardly turns.
+        (trial_x[i], trial_y[i]) = (x, y);
         let (r_x, r_y) = (start[0][i], start[1][i]);
         let slipped = r_x * r_x + r_y * r_y > SLIPPED;
         let near = slipped && x * r_x + y * r_y > NEAR;
         (e_x[i], e_y[i]) = (if near { r_x } else { x }, if near { r_y } else { y });
-        let slipped = slipped && r_x * by[0] + r_y * by[1] > backwards;
-        continues[i] = if slipped { 1.0 } else { 0.0 };
+        continues[i] = if slipped && r_x * by[0] + r_y * by[1] > backwards { 1.0 } else { 0.0 };
     }
-    (slip.e, *overshoot) = ([e_x, e_y], over);
+    *overshoot = over;
+    let (mut outside, mut set) = (0, 0);
     for i in (0..=last).rev() {
-        // A point that slipped before continues if the next one outside does, unless the motion turns back.
-        let outer = slip.set >> (i + 1) & 1 == 1;
-        if over[i] > 0.0 || beyond[i] > 0.0 || (outer && continues[i] > 0.0) {
-            slip.set |= 1 << i;
-        }
+        let is_outside = over[i] > 0.0 || beyond[i] > 0.0;
+        outside |= Set::from(is_outside) << i;
+        // A point that slipped before continues if the next one outside does.
+        let outer = set >> (i + 1) & 1 == 1;
+        set |= Set::from(is_outside || (outer && continues[i] > 0.0)) << i;
     }
     let problem = Problem { springs, edge, stiffness, trial, start, overshoot };
-    slip.solve(&problem, derivatives, end);
+    // A contact that slips on hardly turns; otherwise slip begins from the trial state.
+    let from_start = Guess { e: [e_x, e_y], set, largest_turn: LARGEST_TURN };
+    let from_trial = Guess { e: [trial_x, trial_y], set: outside, largest_turn: LOST };
+    for guess in [from_start, from_trial] {
+        slip.solve(&problem, &guess, derivatives, end);
+        if slip.converged {
+            break;
+        }
+    }
     if !slip.converged {
         *failures += 1;
         // Each spring returns to its own limit.
