@@ -17,7 +17,7 @@ use super::spring_state::SpringState;
 use super::springs::{PressedSlopes, Springs, fill, tables_length};
 use super::state::Header;
 use super::step::StepRecord;
-use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Taken, inner_after, rows};
+use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, inner_after, rows};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
@@ -342,11 +342,11 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                         let first = step == 0;
                         let start_slopes = if first { slopes } else { start };
                         let (new, record, motion) = (&state, &record, &path.motion);
-                        let neighbours = Some(&neighbours);
-                        let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes, neighbours };
+                        let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes };
+                        let parameters = [Parameter::load(&taken), Parameter::alignment(&taken, &neighbours)];
                         inner = inner_after(&taken, inner);
                         let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];
-                        differentiate(workspace, &path, &taken, samples, by_top, inner);
+                        differentiate(workspace, &path, &taken, &parameters, samples, by_top, inner);
                     } else {
                         workspace.forces.fill([0.0; BLOCK]);
                     }
@@ -449,6 +449,7 @@ fn differentiate<const N: usize>(
     workspace: &mut Workspace,
     path: &LoadPath,
     taken: &Taken<N>,
+    parameters: &[Parameter<N>],
     samples: [Option<usize>; 3],
     by_top: f64,
     inner: usize,
@@ -482,7 +483,7 @@ fn differentiate<const N: usize>(
             }
         }
         let Some(mut derivatives) = Derivatives::<N, BLOCK>::new(memory) else { return };
-        [*x, *y] = tangent::tangent(taken, &columns, &mut derivatives, inner);
+        [*x, *y] = tangent::tangent(taken, parameters, &columns, &mut derivatives, inner);
     }
 }
 

@@ -5,7 +5,7 @@ use crate::two_directions::spring_state::{LONGEST, SpringState};
 use crate::two_directions::springs::{Both, Increment, Pressed, PressedSlopes, Springs};
 use crate::two_directions::state::Header;
 use crate::two_directions::step::{self, SLIPPED, StepRecord};
-use crate::two_directions::tangent::{self, Derivatives, IncrementColumns, Taken, inner_after};
+use crate::two_directions::tangent::{self, Derivatives, IncrementColumns, Parameter, Taken, inner_after};
 use crate::two_directions::{Requested, Step, stick};
 
 /// Where a step leads: its normal state, and w² in the units of the springs.
@@ -191,9 +191,9 @@ fn tangent<const N: usize>(
     let Some(mut derivatives) = Derivatives::<N, 4>::new(&mut memory) else { return };
     let slopes = path.to.units.slopes(element, &path.normal, path.to.size);
     let start_slopes = PressedSlopes::default();
-    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes, neighbours: None };
+    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes };
     let inner = inner_after(&taken, N);
-    let [x, y] = tangent::tangent(&taken, &columns, &mut derivatives, inner);
+    let [x, y] = tangent::tangent(&taken, &[Parameter::load(&taken)], &columns, &mut derivatives, inner);
     for column in 0..3 {
         tangent[3 * column] = path.force_unit * x[column];
         tangent[3 * column + 1] = path.force_unit * y[column];

@@ -68,8 +68,6 @@ pub(crate) struct Taken<'a, const N: usize> {
     /// Derivatives of the normal state at the end and at the start.
     pub slopes: PressedSlopes,
     pub start_slopes: PressedSlopes,
-    /// The springs of slightly larger and smaller sizes, if the alignment has derivatives.
-    pub neighbours: Option<&'a [Springs<'a, N>; 2]>,
 }
 
 /// Relative distance of the sizes of the neighbours: the square of it and a rounding error over it are as small as derivatives of the
@@ -100,13 +98,11 @@ fn sum_of<const C: usize>(a: &Columns<C>, b: &Columns<C>) -> Columns<C> {
     y
 }
 
-/// A parameter that a step depends on besides the displacement, and the state at its start: the derivatives of the step with respect to
-/// it, at fixed angles of slip and springs at the start.
-struct Parameter<'a, const N: usize, const C: usize> {
-    column: &'a Columns<C>,
-    /// S of both directions by the load; the neighbours for the alignment.
-    shift: Both<f64>,
-    neighbours: Option<&'a [Springs<'a, N>; 2]>,
+/// The normal state and the alignment, which a step depends on besides the displacement and the state at its start: derivatives of the
+/// step with respect to one of them, at fixed angles of slip and springs at the start.
+pub(crate) struct Parameter<const N: usize> {
+    /// Of the distances from the nodes to the edge.
+    limit: Both<Row<N>>,
     /// Of the pressure; of σ through U and w, and through the pressures.
     pressure: Row<N>,
     sigma: Both<Row<N>>,
@@ -117,82 +113,25 @@ struct Parameter<'a, const N: usize, const C: usize> {
     force: Both<f64>,
 }
 
-impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
-    #[inline(always)]
-    fn new(column: &'a Columns<C>, shift: Both<f64>, neighbours: Option<&'a [Springs<'a, N>; 2]>) -> Self {
-        let rows = [[0.0; N]; 2];
-        Parameter {
-            column,
-            shift,
-            neighbours,
-            pressure: [0.0; N],
-            sigma: rows,
-            sigma_by_pressure: rows,
-            springs: rows,
-            tractions: rows,
-            force: [0.0; 2],
-        }
-    }
+impl<const N: usize> Parameter<N> {
+    const NONE: Parameter<N> = Parameter {
+        limit: [[0.0; N]; 2],
+        pressure: [0.0; N],
+        sigma: [[0.0; N]; 2],
+        sigma_by_pressure: [[0.0; N]; 2],
+        springs: [[0.0; N]; 2],
+        tractions: [[0.0; N]; 2],
+        force: [0.0; 2],
+    };
 
     /// The normal component at the end.
-    #[inline(always)]
-    fn load(taken: &Taken<N>, column: &'a Columns<C>) -> Self {
-        let Taken { springs, new, motion, record, slopes, .. } = *taken;
-        let (edge, slip) = (&new.edge, &record.slip);
-        let last = edge.last.min(N - 1);
-        let mut load = Parameter::new(column, slopes.shift, None);
-        let [_, by_size] = springs.reach(last, &motion.now);
-        for i in 0..N {
-            load.pressure[i] = by_size[i] * slopes.size;
-        }
-        for k in 0..2 {
-            let shift = slopes.shift[k];
-            let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
-            load.force[k] = new.v[k][last] * stiffness;
-            let at_edge = new.v[k][last] / edge.step[k];
-            for i in 0..N {
-                load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
-            }
-            if record.slipping() == 0 {
-                continue;
-            }
-            let mut corner = edge.step[k] * stiffness * (record.trial[k][last] - new.v[k][last]);
-            for j in slip.first..=last {
-                let column = shift - dot(&springs.displacement[k][j], &load.pressure);
-                corner += column * record.stiffness[k][j] * (record.trial[k][j] - new.v[k][j]);
-                load.springs[k][j] = column * slip.q[k][last];
-            }
-            load.sigma[k][last] = corner;
-        }
-        load.through_pressure(taken);
-        load
+    pub fn load(taken: &Taken<N>) -> Parameter<N> {
+        dispatch!(by_load, [const N: usize] taken: &Taken<N> => Parameter<N>)
     }
 
-    /// The logarithm of the size of the alignment, by differences.
-    #[inline(always)]
-    fn alignment(taken: &Taken<N>, column: &'a Columns<C>, neighbours: &'a [Springs<'a, N>; 2]) -> Self {
-        let Taken { new, motion, record, .. } = *taken;
-        let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
-        let mut of = Parameter::new(column, [0.0; 2], Some(neighbours));
-        for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
-            let edge = Edge::of_shell(springs, &motion.now, last);
-            add(&mut of.pressure, weight, &edge.pressure);
-            for k in 0..2 {
-                let stiffness = edge.stiffnesses(springs, k);
-                add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
-                of.force[k] += weight * dot(&stiffness, &new.v[k]);
-                if record.slipping() == 0 {
-                    continue;
-                }
-                for j in slip.first.min(N - 1)..=last {
-                    let row = edge.displacement(springs, k, j);
-                    of.springs[k][j] += weight * dot(&row, &slip.q[k]);
-                    add(&mut of.sigma[k], weight * stiffness[j] * (record.trial[k][j] - new.v[k][j]), &row);
-                }
-            }
-        }
-        of.through_pressure(taken);
-        of
+    /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
+    pub fn alignment(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
+        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: &[Springs<N>; 2] => Parameter<N>)
     }
 
     #[inline(always)]
@@ -209,14 +148,80 @@ impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
             }
         }
     }
+}
 
-    /// Of the distance from a node to the edge.
-    #[inline(always)]
-    fn limit(&self, k: usize, j: usize) -> f64 {
-        match self.neighbours {
-            Some([up, down]) => (down.shift[k][j] - up.shift[k][j]) * (0.5 / NEIGHBOUR),
-            None => self.shift[k],
+#[inline(always)]
+fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
+    let Taken { springs, new, motion, record, slopes, .. } = *taken;
+    let (edge, slip) = (&new.edge, &record.slip);
+    let last = edge.last.min(N - 1);
+    let mut load = Parameter::NONE;
+    let [_, by_size] = springs.reach(last, &motion.now);
+    for i in 0..N {
+        load.pressure[i] = by_size[i] * slopes.size;
+    }
+    for k in 0..2 {
+        let shift = slopes.shift[k];
+        load.limit[k] = [shift; N];
+        let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
+        load.force[k] = new.v[k][last] * stiffness;
+        let at_edge = new.v[k][last] / edge.step[k];
+        for i in 0..N {
+            load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
         }
+        if record.slipping() == 0 {
+            continue;
+        }
+        let mut corner = edge.step[k] * stiffness * (record.trial[k][last] - new.v[k][last]);
+        for j in slip.first..=last {
+            let column = shift - dot(&springs.displacement[k][j], &load.pressure);
+            corner += column * record.stiffness[k][j] * (record.trial[k][j] - new.v[k][j]);
+            load.springs[k][j] = column * slip.q[k][last];
+        }
+        load.sigma[k][last] = corner;
+    }
+    load.through_pressure(taken);
+    load
+}
+
+#[inline(always)]
+fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
+    let Taken { new, motion, record, .. } = *taken;
+    let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
+    let mut of = Parameter::NONE;
+    for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
+        let edge = Edge::of_shell(springs, &motion.now, last);
+        add(&mut of.pressure, weight, &edge.pressure);
+        for k in 0..2 {
+            let stiffness = edge.stiffnesses(springs, k);
+            add(&mut of.limit[k], -weight, springs.shift[k]);
+            add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
+            of.force[k] += weight * dot(&stiffness, &new.v[k]);
+            if record.slipping() == 0 {
+                continue;
+            }
+            for j in slip.first.min(N - 1)..=last {
+                let row = edge.displacement(springs, k, j);
+                of.springs[k][j] += weight * dot(&row, &slip.q[k]);
+                add(&mut of.sigma[k], weight * stiffness[j] * (record.trial[k][j] - new.v[k][j]), &row);
+            }
+        }
+    }
+    of.through_pressure(taken);
+    of
+}
+
+/// Parameters, the load first, and their derivatives.
+#[derive(Clone, Copy)]
+struct Parameters<'a, const N: usize, const C: usize> {
+    of: &'a [Parameter<N>],
+    columns: [&'a Columns<C>; 2],
+}
+
+impl<'a, const N: usize, const C: usize> Parameters<'a, N, C> {
+    #[inline(always)]
+    fn iter(self) -> impl Iterator<Item = (&'a Parameter<N>, &'a Columns<C>)> {
+        self.of.iter().zip(self.columns)
     }
 }
 
@@ -225,6 +230,7 @@ impl<'a, const N: usize, const C: usize> Parameter<'a, N, C> {
 #[inline(always)]
 pub(crate) fn tangent<const N: usize, const C: usize>(
     taken: &Taken<N>,
+    parameters: &[Parameter<N>],
     columns: &IncrementColumns<C>,
     derivatives: &mut Derivatives<N, C>,
     inner: usize,
@@ -233,6 +239,7 @@ pub(crate) fn tangent<const N: usize, const C: usize>(
         kernel,
         [const N: usize, const C: usize]
         taken: &Taken<N>,
+        parameters: &[Parameter<N>],
         columns: &IncrementColumns<C>,
         derivatives: &mut Derivatives<N, C>,
         inner: usize => Both<Columns<C>>
@@ -255,6 +262,7 @@ pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usi
 #[inline(always)]
 fn kernel<const N: usize, const C: usize>(
     taken: &Taken<N>,
+    parameters: &[Parameter<N>],
     columns: &IncrementColumns<C>,
     derivatives: &mut Derivatives<N, C>,
     inner: usize,
@@ -262,11 +270,7 @@ fn kernel<const N: usize, const C: usize>(
     let Taken { new, motion, record, slopes, .. } = *taken;
     let (edge, slip) = (&new.edge, &record.slip);
     let last = edge.last.min(N - 1);
-    let load = Parameter::load(taken, &columns.end);
-    let parameters = match taken.neighbours {
-        Some(neighbours) => &[load, Parameter::alignment(taken, &columns.alignment, neighbours)][..],
-        None => &[load][..],
-    };
+    let parameters = Parameters { of: parameters, columns: [&columns.end, &columns.alignment] };
     // The trial state. Springs that are engaged in the step did not follow the displacement before.
     let rises = motion.per_rise[0] > 0.0;
     for k in 0..2 {
@@ -301,8 +305,8 @@ fn kernel<const N: usize, const C: usize>(
     let mut force = [[0.0; C]; 2];
     for k in 0..2 {
         let mut sum = scaled(edge.secant[k], &derivatives.displacement[k]);
-        for of in parameters {
-            put(&mut sum, of.force[k], of.column);
+        for (of, column) in parameters.iter() {
+            put(&mut sum, of.force[k], column);
         }
         for j in inner..=last {
             put(&mut sum, record.stiffness[k][j], &derivatives.springs[k][j]);
@@ -331,13 +335,13 @@ fn follow<const N: usize, const C: usize>(
     part: f64,
     taken: &Taken<N>,
     columns: &IncrementColumns<C>,
-    parameters: &[Parameter<N, C>],
+    parameters: Parameters<N, C>,
 ) {
     if part < 1.0 {
         let rate = taken.motion.by[k] * taken.motion.per_rise[k];
         put(row, part - 1.0, &columns.by[k]);
-        for of in parameters {
-            put(row, rate * of.limit(k, j), of.column);
+        for (of, column) in parameters.iter() {
+            put(row, rate * of.limit[k][j], column);
         }
         put(row, -rate * part * taken.slopes.shift[k], &columns.end);
         put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
@@ -349,7 +353,7 @@ fn follow<const N: usize, const C: usize>(
 #[expect(clippy::too_many_lines, reason = "the equations in their order")]
 fn slide<const N: usize, const C: usize>(
     taken: &Taken<N>,
-    parameters: &[Parameter<N, C>],
+    parameters: Parameters<N, C>,
     derivatives: &mut Derivatives<N, C>,
 ) {
     let Taken { springs, new, record, .. } = *taken;
@@ -365,15 +369,15 @@ fn slide<const N: usize, const C: usize>(
         for j in first..=last {
             let w = record.stiffness[k][j];
             let mut row = scaled(w, &sum_of(&derivatives.springs[k][j], &displacement));
-            for of in parameters {
-                put(&mut row, -w * of.springs[k][j], of.column);
+            for (of, column) in parameters.iter() {
+                put(&mut row, -w * of.springs[k][j], column);
             }
             relaxed[j] = row;
         }
         for i in first..=last {
             let mut sum = [0.0; C];
-            for of in parameters {
-                put(&mut sum, of.sigma[k][i], of.column);
+            for (of, column) in parameters.iter() {
+                put(&mut sum, of.sigma[k][i], column);
             }
             for j in first..=i {
                 let factor = entry(k, j, i);
@@ -394,8 +398,8 @@ fn slide<const N: usize, const C: usize>(
         }
         for i in first..=last {
             if slip.contains(i) {
-                for of in parameters {
-                    put(&mut sigma[k][i], of.sigma_by_pressure[k][i], of.column);
+                for (of, column) in parameters.iter() {
+                    put(&mut sigma[k][i], of.sigma_by_pressure[k][i], column);
                 }
             }
         }
@@ -424,8 +428,8 @@ fn slide<const N: usize, const C: usize>(
                     let factor = by_over * ratio / limit[k][i];
                     put(&mut row, factor, &derivatives.springs[k][i]);
                     put(&mut row, factor, &derivatives.displacement[k]);
-                    for of in parameters {
-                        put(&mut row, -factor * ratio * of.limit(k, i), of.column);
+                    for (of, column) in parameters.iter() {
+                        put(&mut row, -factor * ratio * of.limit[k][i], column);
                     }
                 }
             }
@@ -450,8 +454,8 @@ fn slide<const N: usize, const C: usize>(
         derivatives.tractions[1][i] = scaled(x, &angle);
         for (k, along) in [x, y].into_iter().enumerate() {
             let mut row = scaled(p, &derivatives.tractions[k][i]);
-            for of in parameters {
-                put(&mut row, along * of.pressure[i], of.column);
+            for (of, column) in parameters.iter() {
+                put(&mut row, along * of.pressure[i], column);
             }
             q[k][i] = row;
         }
@@ -469,8 +473,8 @@ fn slide<const N: usize, const C: usize>(
             q[k][t] = scaled(slip.pivots[k][t], &row);
             let per_pressure = 1.0 / edge.pressure[t];
             let mut row = scaled(per_pressure, &q[k][t]);
-            for of in parameters {
-                put(&mut row, -per_pressure * of.pressure[t] * new.tractions[k][t], of.column);
+            for (of, column) in parameters.iter() {
+                put(&mut row, -per_pressure * of.pressure[t] * new.tractions[k][t], column);
             }
             derivatives.tractions[k][t] = row;
         }
@@ -479,8 +483,8 @@ fn slide<const N: usize, const C: usize>(
         let displacement = derivatives.displacement[k];
         for j in first..=last {
             let mut row = scaled(-1.0, &displacement);
-            for of in parameters {
-                put(&mut row, of.springs[k][j], of.column);
+            for (of, column) in parameters.iter() {
+                put(&mut row, of.springs[k][j], column);
             }
             for i in j..=last {
                 let factor = entry(k, j, i);
@@ -497,7 +501,7 @@ fn slide<const N: usize, const C: usize>(
 #[inline(always)]
 fn stuck_tractions<const N: usize, const C: usize>(
     taken: &Taken<N>,
-    parameters: &[Parameter<N, C>],
+    parameters: Parameters<N, C>,
     first: usize,
     derivatives: &mut Derivatives<N, C>,
 ) {
@@ -513,9 +517,9 @@ fn stuck_tractions<const N: usize, const C: usize>(
             let per_pressure = 1.0 / edge.pressure[i];
             let reach = edge.reach[i] / edge.step[k];
             let mut row = [0.0; C];
-            for of in parameters {
+            for (of, column) in parameters.iter() {
                 let change = of.tractions[k][i] - new.tractions[k][i] * of.pressure[i];
-                put(&mut row, change * per_pressure, of.column);
+                put(&mut row, change * per_pressure, column);
             }
             put(&mut row, reach * per_pressure, &derivatives.springs[k][last]);
             put(&mut row, reach * per_pressure, &derivatives.displacement[k]);
@@ -538,7 +542,7 @@ fn returned<const N: usize, const C: usize>(
     limit: Both<f64>,
     over: f64,
     j: usize,
-    parameters: &[Parameter<N, C>],
+    parameters: Parameters<N, C>,
     [d_x, d_y]: &Both<Columns<C>>,
     [x, y]: [&mut Columns<C>; 2],
 ) {
@@ -550,9 +554,9 @@ fn returned<const N: usize, const C: usize>(
     let weights = [0, 1].map(|k| ratios[k] * per_limit[k] * per_over);
     // d(over)/over.
     let mut change = [0.0; C];
-    for of in parameters {
-        let by = |k: usize| weights[k] * ratios[k] * of.limit(k, j);
-        put(&mut change, -over * (by(0) + by(1)), of.column);
+    for (of, column) in parameters.iter() {
+        let by = |k: usize| weights[k] * ratios[k] * of.limit[k][j];
+        put(&mut change, -over * (by(0) + by(1)), column);
     }
     for c in 0..C {
         let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
