@@ -22,6 +22,7 @@ pub mod harmonic_force;
 mod advance;
 mod edge;
 mod energy;
+mod fine;
 mod from_diagram;
 mod load_path;
 mod slip;

@@ -48,7 +48,7 @@ fn trial_of<const N: usize>(element: &Element, old: &[f64], displacement: [f64; 
         if is_aligned(element, &header)
             && let (Some(stored), Some(springs)) = (stored::<N>(old), tables::<N>(&header, old))
         {
-            if let Some((step, _)) = without_slip::<N>(element, &header, old, displacement, requested) {
+            if let Some((step, _)) = without_slip(element, &header, &springs, old, displacement, requested) {
                 return step;
             }
             let mut state = stored.copied();
@@ -119,7 +119,8 @@ fn advance_of_aligned<const N: usize>(
     displacement: [f64; 3],
     requested: Requested,
 ) -> Step {
-    if let Some((step, offset)) = without_slip::<N>(element, header, state, displacement, requested) {
+    let Some(springs) = tables::<N>(header, state) else { return Step::NONE };
+    if let Some((step, offset)) = without_slip(element, header, &springs, state, displacement, requested) {
         let [u, v, _] = displacement;
         move_springs(state, [u, v], offset);
         return step;
@@ -175,7 +176,7 @@ fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header) 
         && let (Some(stored), Some(old_springs)) = (stored::<N>(state), tables::<N>(header, state))
     {
         let mut old = stored.copied();
-        stick::settle(&mut old, &header.offset);
+        stick::settle(&old_springs, &mut old, &header.offset);
         let old_now = header.pressed(element);
         let ratio = header.units.shift / to.units.shift;
         new = realigned([&old_springs, &springs], &old, [&old_now, &now], ratio);
@@ -210,6 +211,7 @@ fn advance_on_line(
 fn without_slip<const N: usize>(
     element: &Element,
     header: &Header,
+    springs: &Springs<N>,
     state: &[f64],
     [u, v, input]: [f64; 3],
     requested: Requested,
@@ -225,7 +227,7 @@ fn without_slip<const N: usize>(
         return None;
     }
     let now = header.pressed(element);
-    let stuck = stick::stuck(&stored::<N>(state)?, &offset)?;
+    let stuck = stick::stuck(springs, &stored::<N>(state)?, &now, &offset)?;
     // Another load makes a point at its limit slip: the derivative is that of a step.
     if requested.tangent && stuck.at_limit {
         return None;

@@ -1,6 +1,6 @@
 //! The shell at the edge of the contact, which ends at the present size: all of the springs that depends on the load.
 
-use super::springs::{Both, LEAST_STIFFNESS, Pressed, Row, Springs, add, dot};
+use super::springs::{Both, LEAST_STIFFNESS, PARTS, Pressed, Row, Springs};
 use crate::shape::TINY;
 
 /// The last shell.
@@ -12,16 +12,21 @@ pub(crate) struct Edge<const N: usize> {
     pub pressure: Row<N>,
     /// U_jl.
     pub column: Both<Row<N>>,
-    /// Its node.
+    /// Its node, and its part at the edge.
     pub last: usize,
+    pub part: usize,
     /// S_b - S, W and w.
     pub step: Both<f64>,
     pub secant: Both<f64>,
     pub stiffness: Both<f64>,
+    /// The same of its part at the edge; stiffnesses of all its parts in the fine correction.
+    pub fine_step: Both<f64>,
+    pub fine_secant: Both<f64>,
+    pub fine_stiffness: Both<[f64; PARTS]>,
 }
 
 /// Numbers of an edge besides rows.
-pub(crate) const EDGE_NUMBERS: usize = 8;
+pub(crate) const EDGE_NUMBERS: usize = 12 + 2 * PARTS;
 /// Rows of an edge.
 pub(crate) const EDGE_ROWS: usize = 4;
 
@@ -31,21 +36,27 @@ impl<const N: usize> Edge<N> {
         pressure: [1.0; N],
         column: [[0.0; N]; 2],
         last: 0,
+        part: 0,
         step: [1.0; 2],
         secant: [0.0; 2],
         stiffness: [0.0; 2],
+        fine_step: [1.0; 2],
+        fine_secant: [0.0; 2],
+        fine_stiffness: [[0.0; PARTS]; 2],
     };
 
     #[inline(always)]
     pub fn new(springs: &Springs<N>, now: &Pressed) -> Edge<N> {
-        Edge::of_shell(springs, now, springs.last_shell(now.shift[0]))
+        let last = springs.last_shell(now.shift[0]);
+        Edge::of_shell(springs, now, last, springs.last_part(last, now.shift[0]))
     }
 
-    /// With the edge in a given shell.
+    /// With the edge in a part of a shell.
     #[inline(always)]
-    pub fn of_shell(springs: &Springs<N>, now: &Pressed, last: usize) -> Edge<N> {
-        let last = last.min(N - 1);
-        let mut edge = Edge { last, ..Edge::NONE };
+    pub fn of_shell(springs: &Springs<N>, now: &Pressed, last: usize, part: usize) -> Edge<N> {
+        let (last, part) = (last.min(N - 1), part.min(PARTS - 1));
+        let first = last <= springs.under_flat;
+        let mut edge = Edge { last, part, ..Edge::NONE };
         [edge.reach, _] = springs.reach(last, now);
         let mut pressure = edge.reach;
         for row in &springs.traction[springs.under_flat.min(last)..last] {
@@ -62,7 +73,22 @@ impl<const N: usize> Edge<N> {
             let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
             edge.stiffness[k] = (edge.secant[k] - before).max(LEAST_STIFFNESS * edge.secant[k]).max(TINY);
             for j in 0..=last {
-                edge.column[k][j] = edge.step[k] - dot(&springs.displacement[k][j], &edge.reach);
+                edge.column[k][j] = edge.step[k] - super::springs::dot(&springs.displacement[k][j], &edge.reach);
+            }
+            // The fine correction.
+            edge.fine_step[k] = (now.shift[k] - springs.fine_shift[k][part][last]).max(TINY);
+            edge.fine_secant[k] = (now.load - springs.fine_load[part][last]) / edge.fine_step[k];
+            let law = edge.secant[k] - if first { 0.0 } else { before };
+            let secant = |upper: [usize; 2], lower: [usize; 2]| {
+                let rise = |rows: &[Row<N>; PARTS]| rows[upper[0]][upper[1]] - rows[lower[0]][lower[1]];
+                rise(springs.fine_load) / rise(springs.fine_shift[k]).max(TINY)
+            };
+            let mut before = if first { 0.0 } else { secant([0, last], [PARTS - 1, last - 1]) };
+            for r in 0..PARTS {
+                let own = if r < part { secant([r + 1, last], [r, last]) } else { edge.fine_secant[k] };
+                let less = if r == 0 { law } else { 0.0 };
+                edge.fine_stiffness[k][r] = if r > part { 0.0 } else { own - before - less };
+                before = own;
             }
         }
         edge.reach[last] = 1.0;
@@ -101,7 +127,7 @@ impl<const N: usize> Edge<N> {
         }
         for j in 0..last {
             let density = (v[j] - v[j + 1]) * springs.per_step[k][j];
-            add(&mut q, density, &springs.traction[j]);
+            super::springs::add(&mut q, density, &springs.traction[j]);
         }
         q
     }

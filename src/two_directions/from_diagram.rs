@@ -4,7 +4,7 @@ use crate::element::Element;
 use crate::one_direction::state;
 use crate::two_directions::edge::Edge;
 use crate::two_directions::spring_state::SpringState;
-use crate::two_directions::springs::{Pressed, Springs, Units};
+use crate::two_directions::springs::{PARTS, Pressed, Springs, Units};
 use crate::two_directions::state::Header;
 
 /// The header of a diagram.
@@ -18,17 +18,27 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
     }
 }
 
-/// Springs from their displacements as functions of direction, node and S: tractions and the edge follow.
-fn fill<const N: usize>(springs: &Springs<N>, now: &Pressed, at: impl Fn(usize, usize, f64) -> f64) -> SpringState<N> {
+/// Springs from their displacements as functions of direction, node and S, those of the law and those of the fine correction: tractions
+/// and the edge follow.
+fn fill<const N: usize>(
+    springs: &Springs<N>,
+    now: &Pressed,
+    law: impl Fn(usize, usize, f64) -> f64,
+    fine: impl Fn(usize, f64) -> f64,
+) -> SpringState<N> {
     let mut state = SpringState { edge: Edge::new(springs, now), ..SpringState::RELAXED };
-    let last = state.edge.last.min(N - 1);
     for k in 0..2 {
-        for j in 0..=last {
-            state.v[k][j] = at(k, j, springs.shift[k][j]);
+        for j in 0..=state.edge.last.min(N - 1) {
+            state.v[k][j] = law(k, j, springs.shift[k][j]);
+            for r in 0..PARTS {
+                if j >= springs.under_flat && (j < state.edge.last || r <= state.edge.part) {
+                    state.fine[k][r][j] = fine(k, springs.fine_shift[k][r][j]);
+                }
+            }
         }
     }
     let q = [state.edge.tractions(springs, 0, &state.v[0]), state.edge.tractions(springs, 1, &state.v[1])];
-    for i in 0..=last {
+    for i in 0..=state.edge.last.min(N - 1) {
         let (x, y) = (q[0][i] / state.edge.pressure[i], q[1][i] / state.edge.pressure[i]);
         let over = (x * x + y * y).max(1.0).sqrt();
         (state.tractions[0][i], state.tractions[1][i]) = (x / over, y / over);
@@ -47,7 +57,7 @@ pub(super) fn from_diagram<const N: usize>(
     let mu = element.friction_coefficient;
     let [u, _] = header.displacement;
     let now = header.pressed(element);
-    fill(springs, &now, |k, _, shift| {
+    let at = |k: usize, shift: f64| {
         if k > 0 {
             return 0.0;
         }
@@ -66,10 +76,12 @@ pub(super) fn from_diagram<const N: usize>(
             inner = *knot;
         }
         0.0
-    })
+    };
+    fill(springs, &now, |k, _, shift| at(k, shift), at)
 }
 
-/// The springs of a state in another alignment: they are corners of a polygon over S.
+/// The springs of a state in another alignment: the fine springs are the corners of a polygon over S, and so are the differences of those of
+/// the law from them.
 pub(super) fn realigned<const N: usize>(
     [old_springs, springs]: [&Springs<N>; 2],
     old: &SpringState<N>,
@@ -77,23 +89,30 @@ pub(super) fn realigned<const N: usize>(
     ratio: f64,
 ) -> SpringState<N> {
     let (first, last) = (old_springs.under_flat, old.edge.last.min(N - 1));
-    fill(springs, now, |k, j, shift| {
+    let between = |below: [f64; 2], above: [f64; 2], target: f64| {
+        let width = above[0] - below[0];
+        let part = if width > 0.0 { ((target - below[0]) / width).clamp(0.0, 1.0) } else { 0.0 };
+        below[1] + part * (above[1] - below[1])
+    };
+    let polygon = |k: usize, target: f64, parts: usize, value: &dyn Fn(usize, usize) -> f64| {
+        let mut below = [0.0, value(first, 0)];
+        for j in first..=last {
+            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts } {
+                let corner = [old_springs.fine_shift[k][r][j], value(j, r)];
+                if corner[0] > target {
+                    return between(below, corner, target);
+                }
+                below = corner;
+            }
+        }
+        between(below, [old_now.shift[k], 0.0], target)
+    };
+    let fine = |k: usize, shift: f64| ratio * polygon(k, shift / ratio, PARTS, &|j, r| old.fine[k][r][j]);
+    let law = |k: usize, j: usize, shift: f64| {
         if j < first && first == springs.under_flat {
             return ratio * old.v[k][j];
         }
-        // In the units before.
-        let target = shift / ratio;
-        let (mut below, mut above) = ([0.0, old.v[k][first.min(N - 1)]], [old_now.shift[k], 0.0]);
-        for j in first..=last {
-            let corner = [old_springs.shift[k][j], old.v[k][j]];
-            if corner[0] > target {
-                above = corner;
-                break;
-            }
-            below = corner;
-        }
-        let width = above[0] - below[0];
-        let part = if width > 0.0 { ((target - below[0]) / width).clamp(0.0, 1.0) } else { 0.0 };
-        ratio * (below[1] + part * (above[1] - below[1]))
-    })
+        fine(k, shift) + ratio * polygon(k, shift / ratio, 1, &|j, _| old.v[k][j] - old.fine[k][0][j])
+    };
+    fill(springs, now, law, fine)
 }

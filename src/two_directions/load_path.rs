@@ -136,7 +136,7 @@ pub(super) fn advance_springs<const N: usize>(
 ) -> (Step, Header) {
     let path = LoadPath::new(element, from, &Place::new(element, from, displacement));
     if from.offset != [0.0; 2] {
-        stick::settle(state, &from.offset);
+        stick::settle(springs, state, &from.offset);
     }
     let mut record = StepRecord::NONE;
     if !requested.tangent || !path.closed {

@@ -24,8 +24,15 @@ use core::f64::consts::PI;
 
 /// Nodes under the flat.
 const UNDER_FLAT: usize = 2;
+/// Parts of each shell in the fine correction.
+pub(crate) const PARTS: usize = 5;
+/// Parts of the last shell but the first, in units of the reference size: between that and the next alignment the fine correction makes up
+/// for the one shell of the law.
+const BEYOND: [f64; PARTS - 1] = [1.0, 1.04, 1.12, 1.4];
+/// Load and shift that no contact reaches.
+const NEVER: f64 = 1e30;
 /// Share of the sine in the distribution of nodes: they are densest at the edge.
-const GRADING: f64 = 0.75;
+const GRADING: f64 = 0.65;
 /// Position of x_i in its shell. In the inner half, F_ij/ΔS_j decreases with j, so that motion on a line keeps its sign of slip.
 const POINT: f64 = 0.1;
 /// The smallest flat over w that has springs: widths of smaller ones would round to equal values.
@@ -43,6 +50,8 @@ pub(crate) type Both<T> = [T; 2];
 /// One value per spring, or per point.
 pub(crate) type Row<const N: usize> = [f64; N];
 pub(crate) type Matrix<const N: usize> = [[f64; N]; N];
+/// A value per spring of the fine correction: part r of shell j at `[r][j]`.
+pub(crate) type Fine<const N: usize> = [[f64; N]; PARTS];
 
 /// Normal state in the units of the springs: N, S of both directions, w².
 #[derive(Debug, Clone, Copy, Default)]
@@ -140,7 +149,7 @@ const SINGLE: usize = 13;
 
 /// Number of doubles in the tables of N springs.
 pub(crate) const fn tables_length(n: usize) -> usize {
-    n * (SINGLE + 3 * n)
+    n * (SINGLE + 5 * PARTS + 3 * n)
 }
 
 /// The springs of a shape: a view of their tables.
@@ -161,6 +170,10 @@ pub(crate) struct Springs<'a, const N: usize> {
     pub secant: Both<&'a Row<N>>,
     pub stiffness: Both<&'a Row<N>>,
     pub per_step: Both<&'a Row<N>>,
+    /// N and S of the fine correction, and the difference of its stiffnesses from those of the law.
+    pub fine_load: &'a Fine<N>,
+    pub fine_shift: Both<&'a Fine<N>>,
+    pub fine_stiffness: Both<&'a Fine<N>>,
     /// F_ij as `[j][i]`, and U_ji of whole shells as `[j][i]`.
     pub traction: &'a Matrix<N>,
     pub displacement: Both<&'a Matrix<N>>,
@@ -173,6 +186,8 @@ impl<'a, const N: usize> Springs<'a, N> {
         let (single, rest) = tables.as_chunks::<N>().0.split_first_chunk::<SINGLE>()?;
         let [load, x, y, size, point, weight, unit, secant_x, secant_y, stiffness_x, stiffness_y, step_x, step_y] =
             single;
+        let (fine, rest) = rest.split_at_checked(5 * PARTS)?;
+        let ([fine_load, shift_x, shift_y, fine_x, fine_y], _) = fine.as_chunks::<PARTS>().0.split_first_chunk()?;
         let ([traction, displacement_x, displacement_y], _) = rest.as_chunks::<N>().0.split_first_chunk()?;
         Some(Springs {
             under_flat,
@@ -185,6 +200,9 @@ impl<'a, const N: usize> Springs<'a, N> {
             secant: [secant_x, secant_y],
             stiffness: [stiffness_x, stiffness_y],
             per_step: [step_x, step_y],
+            fine_load,
+            fine_shift: [shift_x, shift_y],
+            fine_stiffness: [fine_x, fine_y],
             traction,
             displacement: [displacement_x, displacement_y],
         })
@@ -198,6 +216,13 @@ impl<'a, const N: usize> Springs<'a, N> {
             count += usize::from(self.shift[0][j] < inside);
         }
         count.saturating_sub(1).max(self.under_flat).min(N - 1)
+    }
+
+    /// The part of the last shell at the edge.
+    #[inline(always)]
+    pub fn last_part(&self, last: usize, shift: f64) -> usize {
+        let inside = shift * (1.0 - THINNEST);
+        (1..PARTS).filter(|r| self.fine_shift[0][*r][last.min(N - 1)] < inside).count()
     }
 
     /// Pressure of the last shell at the points within, and its derivative by w².
@@ -238,23 +263,35 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
     let flat = plane.flat / units.size;
     let (rows, _) = tables.as_chunks_mut::<N>();
     let Some((single, rest)) = rows.split_first_chunk_mut::<SINGLE>() else { return };
+    let Some((fine, rest)) = rest.split_at_mut_checked(5 * PARTS) else { return };
     let Some(([traction, displacement_x, displacement_y], _)) = rest.as_chunks_mut::<N>().0.split_first_chunk_mut()
+    else {
+        return;
+    };
+    let Some(([fine_load, fine_x, fine_y, fine_stiffness_x, fine_stiffness_y], _)) =
+        fine.as_chunks_mut::<PARTS>().0.split_first_chunk_mut()
     else {
         return;
     };
     *single = [[0.0; N]; SINGLE];
     let [load, x, y, size, point, weight, unit, secant_x, secant_y, stiffness_x, stiffness_y, step_x, step_y] = single;
     let (shift, secant, step) = ([x, y], [secant_x, secant_y], [step_x, step_y]);
-    let stiffness = [stiffness_x, stiffness_y];
-    // w of a node above the flat, in units of w.
-    let node = |j: usize| {
-        let part = j as f64 / graded as f64;
+    let (fine_shift, stiffness) = ([fine_x, fine_y], [stiffness_x, stiffness_y]);
+    // w of a part of shell j, in units of w.
+    let node = |j: usize, r: usize| {
+        if j + 1 == graded && r > 0 {
+            return reference * BEYOND[r - 1];
+        }
+        let part = (j as f64 + r as f64 / PARTS as f64) / graded as f64;
         reference * ((1.0 - GRADING) * part + GRADING * (0.5 * PI * part).sin())
     };
     let half_width = |w: f64| (flat * flat + w * w).sqrt();
     // N and S at the nodes and at the end of the last shell.
     let at = |w: f64| {
         let w = w * units.size;
+        if w >= plane.largest {
+            return [NEVER; 3];
+        }
         let (load, approach) = (plane.shape.load(w), plane.shape.approach(w));
         let shift = |k: usize| (plane.per_approach[k] * approach + plane.per_load[k] * load) / units.shift;
         [load / units.load, shift(0), shift(1)]
@@ -275,9 +312,12 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
             secant[k][j] = units.shift / (units.load * compliance);
             step[k][j] = secant[k][j];
         }
+        for r in 0..PARTS {
+            (fine_load[r][j], fine_shift[0][r][j], fine_shift[1][r][j]) = (0.0, 0.0, 0.0);
+        }
     }
     for j in inner..N {
-        let (lower, upper) = (node(j - inner), node(j - inner + 1));
+        let (lower, upper) = (node(j - inner, 0), node(j - inner + 1, 0));
         let (from, to) = (half_width(lower), half_width(upper));
         width[j] = from;
         let distance = (upper - lower) * (upper + lower) / (to + from);
@@ -285,16 +325,24 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         size[j] = lower * lower;
         point[j] = lower * lower + POINT * distance * (2.0 * from + POINT * distance);
         weight[j] = plane.shape.pressure_weight(units.size * 0.5 * (lower + upper));
-        if j > inner {
-            [load[j], shift[0][j], shift[1][j]] = at(lower);
+        for r in 0..PARTS {
+            let first = j == inner && r == 0;
+            [fine_load[r][j], fine_shift[0][r][j], fine_shift[1][r][j]] =
+                if first { [0.0; 3] } else { at(node(j - inner, r)) };
+        }
+        load[j] = fine_load[0][j];
+        for k in 0..2 {
+            shift[k][j] = fine_shift[k][0][j];
         }
     }
-    let [end_load, end_x, end_y] = at(node(graded));
+    let [end_load, end_x, end_y] = at(node(graded, 0));
     let end_size = reference * reference;
     for k in 0..2 {
         let end = [end_x, end_y][k];
         let next = |row: &Row<N>, j: usize, end: f64| row.get(j + 1).copied().unwrap_or(end);
-        let mut before = 0.0;
+        let (mut before, mut fine_before) = (0.0, 0.0);
+        let fine_stiffness = if k == 0 { &mut *fine_stiffness_x } else { &mut *fine_stiffness_y };
+        *fine_stiffness = [[0.0; N]; PARTS];
         for j in 0..N {
             if j >= inner {
                 let rise = (next(shift[k], j, end) - shift[k][j]).max(TINY);
@@ -303,6 +351,18 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
             }
             // If all sizes have the same stiffness, the differences are rounding errors.
             stiffness[k][j] = (secant[k][j] - before).max(LEAST_STIFFNESS * secant[k][j]);
+            if j >= inner {
+                // The springs of the law under the flat are at the first node of the fine correction.
+                let law = secant[k][j] - if j > inner { before } else { 0.0 };
+                for r in 0..PARTS {
+                    let last = r + 1 == PARTS;
+                    let outer = |rows: &Fine<N>, end: f64| if last { next(&rows[0], j, end) } else { rows[r + 1][j] };
+                    let (upper, upper_load) = (outer(fine_shift[k], end), outer(fine_load, end_load));
+                    let own = (upper_load - fine_load[r][j]) / (upper - fine_shift[k][r][j]).max(TINY);
+                    fine_stiffness[r][j] = own - fine_before - if r == 0 { law } else { 0.0 };
+                    fine_before = own;
+                }
+            }
             before = secant[k][j];
         }
     }

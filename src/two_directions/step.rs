@@ -5,9 +5,10 @@
 
 use super::edge::Edge;
 use super::energy;
+use super::fine;
 use super::slip::{Guess, LARGEST_TURN, LOST, Problem, Set, Slip};
 use super::spring_state::SpringState;
-use super::springs::{Both, Increment, Row, Springs, dot, largest, total};
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -34,8 +35,11 @@ pub(crate) struct StepRecord<const N: usize> {
     pub overshoot: Row<N>,
     pub start: Both<Row<N>>,
     pub slip: Slip<N>,
-    /// The last shell at the start.
+    /// Squares of the trial state of the fine springs over their limits.
+    pub fine_square: Fine<N>,
+    /// The last shell at the start, and its part.
     pub last_before: usize,
+    pub part_before: usize,
     /// Whether any point slips, and the number of times that Newton's method failed.
     pub slips: bool,
     pub failures: usize,
@@ -52,7 +56,9 @@ impl<const N: usize> StepRecord<N> {
         overshoot: [0.0; N],
         start: [[0.0; N]; 2],
         slip: Slip::NONE,
+        fine_square: [[0.0; N]; PARTS],
         last_before: 0,
+        part_before: 0,
         slips: false,
         failures: 0,
         sum: [0.0; 2],
@@ -104,7 +110,7 @@ fn kernel<const N: usize>(
     // Of springs that lose contact, before the edge is replaced.
     let mut dissipated =
         if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
-    record.last_before = state.edge.last;
+    (record.last_before, record.part_before) = (state.edge.last, state.edge.part);
     if !constant_load {
         state.edge = Edge::new(springs, now);
     }
@@ -176,10 +182,11 @@ fn kernel<const N: usize>(
         }
     }
     (*tractions, *v) = (r, end);
-    let sum = [dot(&record.stiffness[0], &end[0]), dot(&record.stiffness[1], &end[1])];
+    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, energy, &mut record.fine_square);
+    let sum = [dot(&record.stiffness[0], &end[0]) + addition[0], dot(&record.stiffness[1], &end[1]) + addition[1]];
     let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
     record.sum = sum;
-    Outcome { force: [sum[0] / over, sum[1] / over], dissipated }
+    Outcome { force: [sum[0] / over, sum[1] / over], dissipated: (dissipated + loss).max(0.0) }
 }
 
 /// The slip from a trial state that exceeds Coulomb's bound.
@@ -314,7 +321,7 @@ fn of_springs<const N: usize>(
     total(&energy).max(0.0)
 }
 
-/// Energy of the springs that lose contact in a step: all if it opens.
+/// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
 #[inline(always)]
 pub(crate) fn separated<const N: usize>(
     springs: &Springs<N>,
@@ -325,16 +332,29 @@ pub(crate) fn separated<const N: usize>(
     let Increment { before, now, by, .. } = motion;
     let edge = &state.edge;
     let outer = edge.last.min(N - 1);
-    let first = if opens { 0 } else { springs.last_shell(now.shift[0]) + 1 };
+    let last = if opens { 0 } else { springs.last_shell(now.shift[0]).min(outer) };
+    let part = if opens { 0 } else { springs.last_part(last, now.shift[0]) };
     let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
     let mut energy = 0.0;
-    for j in first..=outer {
-        let (mut limit, mut w) = ([0.0; 2], edge.stiffness);
-        for k in 0..2 {
-            limit[k] = (before.shift[k] - springs.shift[k][j]).max(TINY);
-            w[k] = if j == outer { w[k] } else { springs.stiffness[k][j] };
+    for j in last..=outer {
+        for r in 0..PARTS {
+            if (!opens && j == last && r <= part) || (j == outer && r > edge.part) {
+                continue;
+            }
+            let (mut limit, mut w, mut fine) = ([0.0; 2], edge.stiffness, [0.0; 2]);
+            for k in 0..2 {
+                limit[k] = (before.shift[k] - springs.fine_shift[k][r][j]).max(TINY);
+                let inner = j < outer;
+                w[k] = if inner { springs.stiffness[k][j] } else { w[k] };
+                fine[k] = if inner { springs.fine_stiffness[k][r][j] } else { edge.fine_stiffness[k][r] };
+            }
+            if r == 0 {
+                energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by);
+            }
+            if j >= springs.under_flat {
+                energy += energy::lost(fine, [state.fine[0][r][j], state.fine[1][r][j]], limit, fall, *by);
+            }
         }
-        energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by).max(0.0);
     }
-    energy
+    energy.max(0.0)
 }

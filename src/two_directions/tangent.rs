@@ -13,8 +13,9 @@
 //! does not change as long as the spring sticks.
 
 use super::edge::Edge;
+use super::fine;
 use super::spring_state::SpringState;
-use super::springs::{Both, Increment, PressedSlopes, Row, Springs, add, at, dot};
+use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
 use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -26,7 +27,7 @@ type Rows<const N: usize, const C: usize> = [[f64; C]; N];
 
 /// Rows of the derivatives of a state of N springs.
 pub(crate) const fn rows(n: usize) -> usize {
-    2 + 4 * n
+    2 + (4 + 2 * PARTS) * n
 }
 
 /// Derivatives of a state.
@@ -36,6 +37,7 @@ pub(crate) struct Derivatives<'a, const N: usize, const C: usize> {
     /// Of the springs, less that of the displacement; of the tractions.
     springs: Both<&'a mut Rows<N, C>>,
     tractions: Both<&'a mut Rows<N, C>>,
+    fine: Both<&'a mut [Rows<N, C>; PARTS]>,
 }
 
 impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
@@ -43,8 +45,10 @@ impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
     #[inline(always)]
     pub fn new(values: &'a mut [[f64; C]]) -> Option<Derivatives<'a, N, C>> {
         let (displacement, values) = values.split_first_chunk_mut()?;
-        let [x, y, r_x, r_y] = values.as_chunks_mut::<N>().0.first_chunk_mut()?;
-        Some(Derivatives { displacement, springs: [x, y], tractions: [r_x, r_y] })
+        let ([x, y, r_x, r_y], fine) = values.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
+        let (fine_x, fine) = fine.split_first_chunk_mut()?;
+        let fine = [fine_x, fine.first_chunk_mut()?];
+        Some(Derivatives { displacement, springs: [x, y], tractions: [r_x, r_y], fine })
     }
 }
 
@@ -101,8 +105,8 @@ fn sum_of<const C: usize>(a: &Columns<C>, b: &Columns<C>) -> Columns<C> {
 /// The normal state and the alignment, which a step depends on besides the displacement and the state at its start: derivatives of the
 /// step with respect to one of them, at fixed angles of slip and springs at the start.
 pub(crate) struct Parameter<const N: usize> {
-    /// Of the distances from the nodes to the edge.
-    limit: Both<Row<N>>,
+    /// Of the distances from the nodes of the fine springs to the edge: part 0 is that of the law.
+    limit: Both<Fine<N>>,
     /// Of the pressure; of σ through U and w, and through the pressures.
     pressure: Row<N>,
     sigma: Both<Row<N>>,
@@ -115,7 +119,7 @@ pub(crate) struct Parameter<const N: usize> {
 
 impl<const N: usize> Parameter<N> {
     const NONE: Parameter<N> = Parameter {
-        limit: [[0.0; N]; 2],
+        limit: [[[0.0; N]; PARTS]; 2],
         pressure: [0.0; N],
         sigma: [[0.0; N]; 2],
         sigma_by_pressure: [[0.0; N]; 2],
@@ -162,9 +166,11 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
     }
     for k in 0..2 {
         let shift = slopes.shift[k];
-        load.limit[k] = [shift; N];
+        load.limit[k] = [[shift; N]; PARTS];
         let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
-        load.force[k] = new.v[k][last] * stiffness;
+        let fine_stiffness = (slopes.load - edge.fine_secant[k] * shift) / edge.fine_step[k];
+        load.force[k] = (new.v[k][last] - new.fine[k][0][last]) * stiffness
+            + new.fine[k][edge.part.min(PARTS - 1)][last] * fine_stiffness;
         let at_edge = new.v[k][last] / edge.step[k];
         for i in 0..N {
             load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
@@ -190,13 +196,16 @@ fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) 
     let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
     let mut of = Parameter::NONE;
     for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
-        let edge = Edge::of_shell(springs, &motion.now, last);
+        let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
         add(&mut of.pressure, weight, &edge.pressure);
         for k in 0..2 {
             let stiffness = edge.stiffnesses(springs, k);
-            add(&mut of.limit[k], -weight, springs.shift[k]);
             add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
             of.force[k] += weight * dot(&stiffness, &new.v[k]);
+            for r in 0..PARTS {
+                add(&mut of.limit[k][r], -weight, &springs.fine_shift[k][r]);
+                of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
+            }
             if record.slipping() == 0 {
                 continue;
             }
@@ -248,13 +257,16 @@ pub(crate) fn tangent<const N: usize, const C: usize>(
 
 /// The first shell whose spring has slipped or was engaged, from that before the step.
 pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usize {
-    let Taken { motion, record, .. } = *taken;
+    let Taken { springs, new, motion, record, .. } = *taken;
     let mut inner = inner;
     if motion.per_rise[0] > 0.0 {
         inner = inner.min(record.last_before);
     }
     if record.slips {
         inner = inner.min(if record.slip.converged { record.slip.first } else { 0 });
+    }
+    for row in &record.fine_square {
+        inner = (springs.under_flat..inner.min(N)).find(|j| *j <= new.edge.last && row[*j] > 1.0).unwrap_or(inner);
     }
     inner
 }
@@ -283,7 +295,7 @@ fn kernel<const N: usize, const C: usize>(
             if j > record.last_before {
                 *row = scaled(-1.0, &before);
             }
-            follow(row, [k, j], record.part[k][j], taken, columns, parameters);
+            follow(row, [k, 0, j], record.part[k][j], taken, columns, parameters);
         }
     }
     for k in 0..2 {
@@ -298,13 +310,13 @@ fn kernel<const N: usize, const C: usize>(
             let (limit, over) = (at(&record.limit, j), 1.0 + record.overshoot[j]);
             let displacement = *derivatives.displacement;
             let [x, y] = &mut derivatives.springs;
-            returned(at(&new.v, j), limit, over, j, parameters, &displacement, [&mut x[j], &mut y[j]]);
+            returned(at(&new.v, j), limit, over, [0, j], parameters, &displacement, [&mut x[j], &mut y[j]]);
         }
     }
     stuck_tractions(taken, parameters, first, derivatives);
     let mut force = [[0.0; C]; 2];
     for k in 0..2 {
-        let mut sum = scaled(edge.secant[k], &derivatives.displacement[k]);
+        let mut sum = scaled(edge.fine_secant[k], &derivatives.displacement[k]);
         for (of, column) in parameters.iter() {
             put(&mut sum, of.force[k], column);
         }
@@ -313,6 +325,7 @@ fn kernel<const N: usize, const C: usize>(
         }
         force[k] = sum;
     }
+    fine_correction(taken, columns, parameters, derivatives, inner, &mut force);
     // Coulomb's bound.
     let size = (record.sum[0] * record.sum[0] + record.sum[1] * record.sum[1]).sqrt().max(TINY);
     if size > motion.now.load {
@@ -331,7 +344,7 @@ fn kernel<const N: usize, const C: usize>(
 #[inline(always)]
 fn follow<const N: usize, const C: usize>(
     row: &mut Columns<C>,
-    [k, j]: [usize; 2],
+    [k, r, j]: [usize; 3],
     part: f64,
     taken: &Taken<N>,
     columns: &IncrementColumns<C>,
@@ -341,7 +354,7 @@ fn follow<const N: usize, const C: usize>(
         let rate = taken.motion.by[k] * taken.motion.per_rise[k];
         put(row, part - 1.0, &columns.by[k]);
         for (of, column) in parameters.iter() {
-            put(row, rate * of.limit[k][j], column);
+            put(row, rate * of.limit[k][r][j], column);
         }
         put(row, -rate * part * taken.slopes.shift[k], &columns.end);
         put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
@@ -429,7 +442,7 @@ fn slide<const N: usize, const C: usize>(
                     put(&mut row, factor, &derivatives.springs[k][i]);
                     put(&mut row, factor, &derivatives.displacement[k]);
                     for (of, column) in parameters.iter() {
-                        put(&mut row, -factor * ratio * of.limit[k][i], column);
+                        put(&mut row, -factor * ratio * of.limit[k][0][i], column);
                     }
                 }
             }
@@ -541,7 +554,7 @@ fn returned<const N: usize, const C: usize>(
     end: Both<f64>,
     limit: Both<f64>,
     over: f64,
-    j: usize,
+    [r, j]: [usize; 2],
     parameters: Parameters<N, C>,
     [d_x, d_y]: &Both<Columns<C>>,
     [x, y]: [&mut Columns<C>; 2],
@@ -555,7 +568,7 @@ fn returned<const N: usize, const C: usize>(
     // d(over)/over.
     let mut change = [0.0; C];
     for (of, column) in parameters.iter() {
-        let by = |k: usize| weights[k] * ratios[k] * of.limit[k][j];
+        let by = |k: usize| weights[k] * ratios[k] * of.limit[k][r][j];
         put(&mut change, -over * (by(0) + by(1)), column);
     }
     for c in 0..C {
@@ -563,5 +576,52 @@ fn returned<const N: usize, const C: usize>(
         let change = weights[0] * v_x + weights[1] * v_y + change[c];
         x[c] = per_over * v_x - end[0] * change - d_x[c];
         y[c] = per_over * v_y - end[1] * change - d_y[c];
+    }
+}
+
+/// The fine correction.
+#[inline(always)]
+fn fine_correction<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    columns: &IncrementColumns<C>,
+    parameters: Parameters<N, C>,
+    derivatives: &mut Derivatives<N, C>,
+    inner: usize,
+    force: &mut Both<Columns<C>>,
+) {
+    let Taken { springs, new, motion, record, .. } = *taken;
+    let edge = &new.edge;
+    let last = edge.last.min(N - 1);
+    let displacement = *derivatives.displacement;
+    let rises = motion.per_rise[0] > 0.0;
+    let [fine_x, fine_y] = &mut derivatives.fine;
+    for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
+        for j in inner.max(springs.under_flat)..=last {
+            let (x, y) = (&mut x[j], &mut y[j]);
+            if j == last && r > edge.part {
+                continue;
+            }
+            let limit = [0, 1].map(|k| motion.now.shift[k] - springs.fine_shift[k][r][j]);
+            if rises && j >= record.last_before {
+                let share = motion.share(limit[0], limit[1]);
+                let engaged = j > record.last_before || r > record.part_before;
+                for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
+                    if engaged {
+                        // Less the displacement at the start.
+                        *row = columns.by[k];
+                        put(row, -1.0, &displacement[k]);
+                    }
+                    follow(row, [k, r, j], share[k], taken, columns, parameters);
+                }
+            }
+            let square = record.fine_square[r][j];
+            if square > 1.0 {
+                let end = [new.fine[0][r][j], new.fine[1][r][j]];
+                returned(end, limit, square.sqrt(), [r, j], parameters, &displacement, [&mut *x, &mut *y]);
+            }
+            let w = |k: usize| if j == last { edge.fine_stiffness[k][r] } else { springs.fine_stiffness[k][r][j] };
+            put(&mut force[0], w(0), x);
+            put(&mut force[1], w(1), y);
+        }
     }
 }
