@@ -31,21 +31,33 @@ pub(super) fn advance(element: &Element, state: &mut [f64], displacement: [f64; 
     }
 }
 
-/// The least load that the springs of a state are aligned with, over the normal force of the parameters: loads that rise to that in few
-/// steps find nodes.
-const LEAST_LOAD: f64 = 0.25;
+/// The springs of a state are aligned with powers of this ratio times the normal force of the parameters: present loads down to that part
+/// of the aligned one are as accurate, and derivatives of a step need none of the alignment.
+const LEVEL: f64 = 1.25;
+
+/// The least power: loads that rise to the normal force of the parameters in few steps find nodes.
+const LEAST_LEVEL: f64 = -6.0;
 
 /// A load over that of the alignment from which on the springs are aligned anew.
 const OUTGROWN: f64 = 1.02;
 
-fn is_aligned(element: &Element, header: &Header) -> bool {
-    header.belongs_to(element) && header.load <= OUTGROWN * header.units.load
+fn is_aligned(element: &Element, header: &Header, load: f64) -> bool {
+    header.belongs_to(element) && load <= OUTGROWN * header.units.load
+}
+
+/// The larger load of both ends of a step.
+#[inline(always)]
+fn largest_load(element: &Element, header: &Header, input: f64) -> f64 {
+    if input.to_bits() == header.input.to_bits() || !element.is_closed(input) {
+        return header.load;
+    }
+    header.load.max(element.normal(input).load)
 }
 
 fn trial_of<const N: usize>(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
     if line_of(old).is_none() {
         let header = read_header(old);
-        if is_aligned(element, &header)
+        if is_aligned(element, &header, largest_load(element, &header, displacement[2]))
             && let (Some(stored), Some(springs)) = (stored::<N>(old), tables::<N>(&header, old))
         {
             if let Some((step, _)) = without_slip(element, &header, &springs, old, displacement, requested) {
@@ -75,8 +87,8 @@ fn advance_of<const N: usize>(
         if on_line && (!requested.tangent || free || !closes) {
             return advance_on_line(element, state, displacement, requested, 0.0);
         }
-        let load = if there.load > 0.0 { there.load } else { element.normal(displacement[2]).load };
-        let from = aligned_state::<N>(element, &header_of(&there, v), load);
+        let from = header_of(&there, v);
+        let from = aligned_state::<N>(element, &from, largest_load(element, &from, displacement[2]));
         if on_line {
             // Of the third component, the diagram has no stiffness: that of the springs.
             let mut memory = [0.0; tables_length(16)];
@@ -84,7 +96,7 @@ fn advance_of<const N: usize>(
             let Some(springs) = Springs::<N>::new(from.under_flat, &memory) else { return Step::NONE };
             let mut from_line = SpringState::RELAXED;
             if from.load > 0.0 {
-                from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
+                from_line = from_diagram(element, &springs, &from, there.knots);
             }
             let of_springs = Requested { tangent: true, energy: false };
             let (step, _) = advance_springs(element, &from, &springs, &mut from_line, displacement, of_springs);
@@ -97,16 +109,17 @@ fn advance_of<const N: usize>(
         let Some(springs) = Springs::<N>::new(from.under_flat, memory) else { return Step::NONE };
         let mut from_line = SpringState::RELAXED;
         if from.load > 0.0 {
-            from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
+            from_line = from_diagram(element, &springs, &from, there.knots);
         }
         tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
         (from, from_line)
     } else {
         let header = read_header(state);
-        if is_aligned(element, &header) {
+        let load = largest_load(element, &header, displacement[2]);
+        if is_aligned(element, &header, load) {
             return advance_of_aligned::<N>(element, state, &header, displacement, requested);
         }
-        align::<N>(element, state, &header)
+        align::<N>(element, state, &header, load)
     };
     advance_in_place(element, state, &from, &mut springs, displacement, requested)
 }
@@ -151,7 +164,10 @@ fn advance_in_place<const N: usize>(
 
 /// The same for a state.
 fn aligned_state<const N: usize>(element: &Element, header: &Header, load: f64) -> Header {
-    aligned::<N>(element, header, load.max(LEAST_LOAD * element.normal_force))
+    // Above 0, whose logarithm is no number.
+    let level = (load / (OUTGROWN * element.normal_force)).max(0.1).ln() / LEVEL.ln();
+    let level = if level > LEAST_LEVEL { level.ceil() } else { LEAST_LEVEL };
+    aligned::<N>(element, header, element.normal_force * LEVEL.powi(level as i32))
 }
 
 /// A header with the units of springs that are aligned with a load.
@@ -162,10 +178,10 @@ pub(super) fn aligned<const N: usize>(element: &Element, header: &Header, load: 
     Header { key: element.key, units, springs: N, under_flat, size, offset: [0.0; 2], sum: [0.0; 2], ..*header }
 }
 
-/// Aligns the springs of a state with its load. Those of another element are relaxed.
+/// Aligns the springs of a state with a load. Those of another element are relaxed.
 #[inline(never)]
-fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header) -> (Header, SpringState<N>) {
-    let to = aligned_state::<N>(element, header, header.load);
+fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header, load: f64) -> (Header, SpringState<N>) {
+    let to = aligned_state::<N>(element, header, load);
     let mut memory = [0.0; tables_length(16)];
     let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
     fill::<N>(memory, element, &to.units, 1.0);
@@ -178,8 +194,7 @@ fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header) 
         let mut old = stored.copied();
         stick::settle(&old_springs, &mut old, &header.offset);
         let old_now = header.pressed(element);
-        let ratio = header.units.shift / to.units.shift;
-        new = realigned([&old_springs, &springs], &old, [&old_now, &now], ratio);
+        new = realigned([&old_springs, &springs], &old, [&header.units, &to.units], [&old_now, &now]);
     } else {
         new.edge = super::edge::Edge::new(&springs, &now);
     }
