@@ -180,9 +180,9 @@ fn apart(one: &Step, two: &Step) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
 }
 
-/// Error of the bank of fine springs over mu N, up to the normal force of the parameters and beyond, with longer secants: 1.4e-4 and 2.8e-4
-/// by the secants; a flat at a few percent of the normal force has 1 % of its present mu N, which is up to 3.9e-4 and remains.
-const BANK_ERROR: [f64; 2] = [4e-4, 4e-4];
+/// Error of springs on a line over mu N in histories whose load rises and falls at random: a corner of the distribution of displacements is
+/// cut between the nodes of the fine springs, and again by each new alignment.
+const LINE_ERROR: f64 = 2.5e-3;
 
 /// Loads and displacements along x, with separation.
 fn on_line(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
@@ -199,7 +199,7 @@ fn motion_along_x_is_that_of_one_direction() {
             let (mut contact, mut disturbed) = (Contact::new(element), Contact::new(element));
             let mut state = vec![0.0; state_length() - 2];
             one_direction::state_init(&mut state).unwrap();
-            let mut worst = [0.0f64; 2];
+            let mut worst = 0.0f64;
             for (k, [u, v, w]) in on_line(element, 300, &mut random).into_iter().enumerate() {
                 let (step, expected) =
                     (contact.to([u, v, w]), one_direction::advance(single, &mut state, [u, w], true).unwrap());
@@ -211,11 +211,10 @@ fn motion_along_x_is_that_of_one_direction() {
                 assert_eq!([x, xw, ww], [expected.tangent[0], expected.tangent[2], expected.tangent[3]]);
                 let tilted = disturbed.to([u, v + [0.0, 1e-9][k % 2] * unit(element), w]);
                 let error = apart(&step, &tilted) / slip_force(element);
-                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
-                worst[place] = worst[place].max(error);
+                worst = worst.max(error);
             }
-            println!("disturbed line: {worst:.5?} mu N");
-            assert!((0..2).all(|place| worst[place] < BANK_ERROR[place]), "{worst:?}");
+            println!("disturbed line: {worst:.5} mu N");
+            assert!(worst < LINE_ERROR, "{worst:e}");
         }
     }
 }
@@ -233,8 +232,7 @@ fn motion_along_y_is_that_along_x_of_the_swapped_ellipse() {
                 let (step, expected) = (contact.to([0.0, u, w]), other.to([u, 0.0, w]));
                 assert_eq!(step.force[0], 0.0);
                 let error = (step.force[1] - expected.force[0]).abs() / slip_force(&element);
-                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
-                assert!(error < BANK_ERROR[place], "{ratio}: {error:e}");
+                assert!(error < LINE_ERROR, "{ratio}: {error:e}");
             }
         }
     }

@@ -96,7 +96,7 @@ fn advance_of<const N: usize>(
             let Some(springs) = Springs::<N>::new(from.under_flat, &memory) else { return Step::NONE };
             let mut from_line = SpringState::RELAXED;
             if from.load > 0.0 {
-                from_line = from_diagram(element, &springs, &from, there.knots);
+                from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
             }
             let of_springs = Requested { tangent: true, energy: false };
             let (step, _) = advance_springs(element, &from, &springs, &mut from_line, displacement, of_springs);
@@ -109,7 +109,7 @@ fn advance_of<const N: usize>(
         let Some(springs) = Springs::<N>::new(from.under_flat, memory) else { return Step::NONE };
         let mut from_line = SpringState::RELAXED;
         if from.load > 0.0 {
-            from_line = from_diagram(element, &springs, &from, there.knots);
+            from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
         }
         tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
         (from, from_line)
@@ -194,7 +194,8 @@ fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header, 
         let mut old = stored.copied();
         stick::settle(&old_springs, &mut old, &header.offset);
         let old_now = header.pressed(element);
-        new = realigned([&old_springs, &springs], &old, [&header.units, &to.units], [&old_now, &now]);
+        let ratio = header.units.shift / to.units.shift;
+        new = realigned([&old_springs, &springs], &old, [&old_now, &now], ratio);
     } else {
         new.edge = super::edge::Edge::new(&springs, &now);
     }
