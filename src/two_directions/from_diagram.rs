@@ -88,7 +88,7 @@ pub(super) fn realigned<const N: usize>(
     [old_now, now]: [&Pressed; 2],
     ratio: f64,
 ) -> SpringState<N> {
-    let (first, last) = (old_springs.under_flat, old.edge.last.min(N - 1));
+    let (first, last) = (old_springs.under_flat.min(N - 1), old.edge.last.min(N - 1));
     let between = |below: [f64; 2], above: [f64; 2], target: f64| {
         let width = above[0] - below[0];
         let part = if width > 0.0 { ((target - below[0]) / width).clamp(0.0, 1.0) } else { 0.0 };
@@ -97,7 +97,7 @@ pub(super) fn realigned<const N: usize>(
     let polygon = |k: usize, target: f64, parts: usize, value: &dyn Fn(usize, usize) -> f64| {
         let mut below = [0.0, value(first, 0)];
         for j in first..=last {
-            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts } {
+            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts.min(PARTS) } {
                 let corner = [old_springs.fine_shift[k][r][j], value(j, r)];
                 if corner[0] > target {
                     return between(below, corner, target);

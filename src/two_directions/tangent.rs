@@ -265,8 +265,10 @@ pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usi
     if record.slips {
         inner = inner.min(if record.slip.converged { record.slip.first } else { 0 });
     }
+    let first = springs.under_flat;
     for row in &record.fine_square {
-        inner = (springs.under_flat..inner.min(N)).find(|j| *j <= new.edge.last && row[*j] > 1.0).unwrap_or(inner);
+        let slips = |(j, square): (usize, &f64)| (j >= first && j <= new.edge.last && *square > 1.0).then_some(j);
+        inner = row.iter().enumerate().find_map(slips).unwrap_or(N).min(inner);
     }
     inner
 }
@@ -307,10 +309,14 @@ fn kernel<const N: usize, const C: usize>(
         slide(taken, parameters, derivatives);
     } else if record.slips {
         for j in 0..=last {
-            let (limit, over) = (at(&record.limit, j), 1.0 + record.overshoot[j]);
-            let displacement = *derivatives.displacement;
-            let [x, y] = &mut derivatives.springs;
-            returned(at(&new.v, j), limit, over, [0, j], parameters, &displacement, [&mut x[j], &mut y[j]]);
+            if record.overshoot[j] > 0.0 {
+                let per_limit = [1.0 / record.limit[0][j], 1.0 / record.limit[1][j]];
+                let per_over = 1.0 / (1.0 + record.overshoot[j]);
+                let returned = Returned { end: at(&new.v, j), per_over, per_limit, place: [0, j] };
+                let displacement = *derivatives.displacement;
+                let [x, y] = &mut derivatives.springs;
+                returned.differentiate(parameters, &displacement, [&mut x[j], &mut y[j]]);
+            }
         }
     }
     stuck_tractions(taken, parameters, first, derivatives);
@@ -548,34 +554,40 @@ fn stuck_tractions<const N: usize, const C: usize>(
     }
 }
 
-/// Derivatives of a spring that returned to its limit, `v = v*/over`, from those of its trial state, less those of the displacement.
-#[inline(always)]
-fn returned<const N: usize, const C: usize>(
+/// A spring that returned to its limit, `v = v*/over`.
+struct Returned {
     end: Both<f64>,
-    limit: Both<f64>,
-    over: f64,
-    [r, j]: [usize; 2],
-    parameters: Parameters<N, C>,
-    [d_x, d_y]: &Both<Columns<C>>,
-    [x, y]: [&mut Columns<C>; 2],
-) {
-    if over <= 1.0 {
-        return;
-    }
-    let (per_over, per_limit) = (1.0 / over, [1.0 / limit[0], 1.0 / limit[1]]);
-    let ratios = [0, 1].map(|k| end[k] * per_limit[k]);
-    let weights = [0, 1].map(|k| ratios[k] * per_limit[k] * per_over);
-    // d(over)/over.
-    let mut change = [0.0; C];
-    for (of, column) in parameters.iter() {
-        let by = |k: usize| weights[k] * ratios[k] * of.limit[k][r][j];
-        put(&mut change, -over * (by(0) + by(1)), column);
-    }
-    for c in 0..C {
-        let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
-        let change = weights[0] * v_x + weights[1] * v_y + change[c];
-        x[c] = per_over * v_x - end[0] * change - d_x[c];
-        y[c] = per_over * v_y - end[1] * change - d_y[c];
+    per_over: f64,
+    per_limit: Both<f64>,
+    /// Part of the fine correction, and node.
+    place: [usize; 2],
+}
+
+impl Returned {
+    /// Derivatives of the spring from those of its trial state, less those of the displacement.
+    #[inline(always)]
+    fn differentiate<const N: usize, const C: usize>(
+        &self,
+        parameters: Parameters<N, C>,
+        [d_x, d_y]: &Both<Columns<C>>,
+        [x, y]: [&mut Columns<C>; 2],
+    ) {
+        let Returned { end, per_over, per_limit, place: [r, j] } = *self;
+        let ratios = [end[0] * per_limit[0], end[1] * per_limit[1]];
+        let weights = [per_over * ratios[0] * per_limit[0], per_over * ratios[1] * per_limit[1]];
+        // d(over)/over.
+        let mut change = [0.0; C];
+        for (of, column) in parameters.iter() {
+            let by_x = ratios[0] * ratios[0] * per_limit[0] * of.limit[0][r][j];
+            let by_y = ratios[1] * ratios[1] * per_limit[1] * of.limit[1][r][j];
+            put(&mut change, -(by_x + by_y), column);
+        }
+        for c in 0..C {
+            let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
+            let change = weights[0] * v_x + weights[1] * v_y + change[c];
+            x[c] = per_over * v_x - end[0] * change - d_x[c];
+            y[c] = per_over * v_y - end[1] * change - d_y[c];
+        }
     }
 }
 
@@ -594,16 +606,23 @@ fn fine_correction<const N: usize, const C: usize>(
     let last = edge.last.min(N - 1);
     let displacement = *derivatives.displacement;
     let rises = motion.per_rise[0] > 0.0;
+    let first = inner.max(springs.under_flat);
     let [fine_x, fine_y] = &mut derivatives.fine;
     for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
-        for j in inner.max(springs.under_flat)..=last {
+        let limit = fine::limits(springs, edge, &motion.now.shift, r);
+        let stiffness = [fine::stiffnesses(springs, edge, 0, r), fine::stiffnesses(springs, edge, 1, r)];
+        let (mut per_over, mut per_limit) = ([0.0; N], [[0.0; N]; 2]);
+        for j in 0..N {
+            let square = record.fine_square[r][j];
+            per_over[j] = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
+            let per_area = 1.0 / (limit[0][j] * limit[1][j]);
+            (per_limit[0][j], per_limit[1][j]) = (limit[1][j] * per_area, limit[0][j] * per_area);
+        }
+        let stop = if r <= edge.part { last + 1 } else { last };
+        for j in first..stop {
             let (x, y) = (&mut x[j], &mut y[j]);
-            if j == last && r > edge.part {
-                continue;
-            }
-            let limit = [0, 1].map(|k| motion.now.shift[k] - springs.fine_shift[k][r][j]);
             if rises && j >= record.last_before {
-                let share = motion.share(limit[0], limit[1]);
+                let share = motion.share(limit[0][j], limit[1][j]);
                 let engaged = j > record.last_before || r > record.part_before;
                 for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
                     if engaged {
@@ -614,14 +633,14 @@ fn fine_correction<const N: usize, const C: usize>(
                     follow(row, [k, r, j], share[k], taken, columns, parameters);
                 }
             }
-            let square = record.fine_square[r][j];
-            if square > 1.0 {
+            if record.fine_square[r][j] > 1.0 {
                 let end = [new.fine[0][r][j], new.fine[1][r][j]];
-                returned(end, limit, square.sqrt(), [r, j], parameters, &displacement, [&mut *x, &mut *y]);
+                let per_limit = at(&per_limit, j);
+                let returned = Returned { end, per_over: per_over[j], per_limit, place: [r, j] };
+                returned.differentiate(parameters, &displacement, [&mut *x, &mut *y]);
             }
-            let w = |k: usize| if j == last { edge.fine_stiffness[k][r] } else { springs.fine_stiffness[k][r][j] };
-            put(&mut force[0], w(0), x);
-            put(&mut force[1], w(1), y);
+            put(&mut force[0], stiffness[0][j], x);
+            put(&mut force[1], stiffness[1][j], y);
         }
     }
 }
