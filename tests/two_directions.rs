@@ -446,10 +446,11 @@ fn by_approach_and_force() -> Vec<Element> {
     vec![flat(1e-4, NormalInput::Approach, Directions::Two), ellipse(3.0)]
 }
 
-/// A mean displacement along x beside a vibration across it, under a normal input that swings about 0.7 of that of the tables.
+/// A mean displacement along x beside a vibration across it, under a normal input that swings up to that of the tables: with the largest
+/// load of a period the springs of the harmonic force are aligned, with a power of 1.25 times that of the tables those of steps.
 fn shaken(element: &Element, swing: f64) -> [f64; COEFFICIENTS] {
     let (u, normal) = (unit(element), |share: f64| normal_input(element, share));
-    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(0.7), normal(0.7 + swing) - normal(0.7), 0.0]
+    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(1.0 - swing), normal(1.0) - normal(1.0 - swing), 0.0]
 }
 
 /// The forces at the samples of a motion, by steps: those of the last period and of the one before.
@@ -489,7 +490,8 @@ fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
                 assert!((drift - expected).abs() < 1e-10, "{swing} {periods}: {drift:e} {expected:e}");
                 let mean = last.iter().map(|force| force[0]).sum::<f64>() / SAMPLES as f64;
                 assert!((force[0] - mean).abs() < 1e-10 * slip_force, "{swing} {periods}: {} {mean}", force[0]);
-                assert!(drift < 0.8 * before, "{swing} {periods}: {drift:e} after {before:e}");
+                // Down to the roundings of the forces.
+                assert!(drift < (0.8 * before).max(1e-14), "{swing} {periods}: {drift:e} after {before:e}");
                 before = drift;
             }
             let [by_default, one, many] = [0, 1, 400].map(|periods| harmonic(&element, periods, &motion));

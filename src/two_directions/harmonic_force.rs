@@ -571,6 +571,7 @@ mod tests {
             normal_force: 1000.0,
             friction_coefficient: 0.4,
             material,
+            ..EllipticParameters::default()
         };
         let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
         vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
@@ -612,6 +613,7 @@ mod tests {
             force: Some(&mut result.force),
             jacobian: Some(&mut result.jacobian),
             dissipated: Some(&mut result.dissipated),
+            drift: None,
         };
         harmonic_force(element, &mut workspace, motion, output).unwrap();
         result
