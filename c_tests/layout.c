@@ -53,7 +53,7 @@ OFFSET(mslip_element, normal_input, 60);
 OFFSET(mslip_element, reserved, 64);
 AT_COMPILE_TIME(mslip_element_directions_size, sizeof(((mslip_element *)0)->directions) == 4);
 AT_COMPILE_TIME(mslip_element_normal_input_size, sizeof(((mslip_element *)0)->normal_input) == 4);
-SIZE(mslip_element, 44336);
+SIZE(mslip_element, 17336);
 
 /* The library writes the fields at the offsets of the header, and nothing else. */
 int main(int argc, char **argv)

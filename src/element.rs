@@ -58,7 +58,7 @@ pub struct Element {
     /// 1/(2 mu); 0 without friction.
     pub(crate) per_two_mu: f64,
     /// The largest normal force, approach and shift for which the laws hold.
-    largest_load: f64,
+    pub(crate) largest_load: f64,
     largest_approach: f64,
     pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.

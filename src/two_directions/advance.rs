@@ -167,7 +167,8 @@ fn aligned_state<const N: usize>(element: &Element, header: &Header, load: f64) 
     // Above 0, whose logarithm is no number.
     let level = (load / (OUTGROWN * element.normal_force)).max(0.1).ln() / LEVEL.ln();
     let level = if level > LEAST_LEVEL { level.ceil() } else { LEAST_LEVEL };
-    aligned::<N>(element, header, element.normal_force * LEVEL.powi(level as i32))
+    let load = element.normal_force * LEVEL.powi(level as i32);
+    aligned::<N>(element, header, load.min(element.largest_load))
 }
 
 /// A header with the units of springs that are aligned with a load.

@@ -3,7 +3,7 @@
 
 use super::edge::Edge;
 use super::energy;
-use super::springs::{Both, Fine, Increment, PARTS, Row, Springs};
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, total};
 
 /// Limits of a part of the shells; 1 outside.
 #[inline(always)]
@@ -35,6 +35,9 @@ pub(crate) fn stiffnesses<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, 
     row
 }
 
+/// Factors by which springs return to their limits, below 1 by more than roundings, which the mode of rounding may leave.
+pub(crate) const SLIPS: f64 = 1.0 - 4.0 * f64::EPSILON;
+
 /// A step of the correction: force, and dissipated energy if requested.
 #[inline(always)]
 pub(crate) fn step<const N: usize>(
@@ -43,7 +46,7 @@ pub(crate) fn step<const N: usize>(
     v: &mut Both<Fine<N>>,
     motion: &Increment,
     energy: bool,
-    squares: &mut Fine<N>,
+    scales: &mut Fine<N>,
 ) -> (Both<f64>, f64) {
     let (mut sums, mut loss) = ([[0.0; N]; 2], 0.0);
     let last = edge.last;
@@ -52,43 +55,40 @@ pub(crate) fn step<const N: usize>(
         let (old_x, old_y) = (v_x[r], v_y[r]);
         let (first, stop) = (springs.under_flat, if r <= edge.part { last + 1 } else { last });
         let limit = limits(springs, edge, &motion.now.shift, r);
-        let (mut trial_x, mut trial_y, mut square) = ([0.0; N], [0.0; N], [0.0; N]);
+        let (mut trial_x, mut trial_y, mut scale) = ([0.0; N], [0.0; N], [1.0; N]);
         for j in 0..N {
             let inside = j >= first && j < stop;
             let share = motion.share(limit[0][j], limit[1][j]);
             let (x, y) = (old_x[j] + motion.by[0] * share[0], old_y[j] + motion.by[1] * share[1]);
             (trial_x[j], trial_y[j]) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
-            // One division for both directions.
-            let per_area = 1.0 / (limit[0][j] * limit[1][j]);
-            let (x, y) = (trial_x[j] * limit[1][j] * per_area, trial_y[j] * limit[0][j] * per_area);
-            square[j] = x * x + y * y;
+            // A quotient whose divisor is positive in any case: the compiler may evaluate it in all lanes.
+            let (x, y, area) = (trial_x[j] * limit[1][j], trial_y[j] * limit[0][j], limit[0][j] * limit[1][j]);
+            let (square, bound) = (x * x + y * y, area * area);
+            scale[j] = area / (if square > bound { square } else { bound }).sqrt();
         }
-        let (mut x, mut y) = (trial_x, trial_y);
+        let (mut x, mut y) = ([0.0; N], [0.0; N]);
+        for j in 0..N {
+            (x[j], y[j]) = (trial_x[j] * scale[j], trial_y[j] * scale[j]);
+        }
         let stiffness = [stiffnesses(springs, edge, 0, r), stiffnesses(springs, edge, 1, r)];
-        if super::springs::largest(&square) > 1.0 {
+        if energy {
+            let mut losses = [0.0; N];
             for j in 0..N {
-                let scale = 1.0 / (if square[j] > 1.0 { square[j] } else { 1.0 }).sqrt();
-                (x[j], y[j]) = (trial_x[j] * scale, trial_y[j] * scale);
+                let before = motion.before.shift[0] - springs.fine_shift[0][r][j];
+                let before = if before > 0.0 { before } else { 0.0 };
+                let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
+                let places = [[old_x[j], old_y[j]], [trial_x[j], trial_y[j]], [x[j], y[j]]];
+                let w = [stiffness[0][j], stiffness[1][j]];
+                let of_spring = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0);
+                losses[j] = if scale[j] < SLIPS { of_spring } else { 0.0 };
             }
-            if energy {
-                let mut losses = [0.0; N];
-                for j in 0..N {
-                    let before = motion.before.shift[0] - springs.fine_shift[0][r][j];
-                    let before = if before > 0.0 { before } else { 0.0 };
-                    let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
-                    let places = [[old_x[j], old_y[j]], [trial_x[j], trial_y[j]], [x[j], y[j]]];
-                    let w = [stiffness[0][j], stiffness[1][j]];
-                    let of_spring = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0);
-                    losses[j] = if square[j] > 1.0 { of_spring } else { 0.0 };
-                }
-                loss += super::springs::total(&losses);
-            }
+            loss += total(&losses);
         }
         for j in 0..N {
             sums[0][j] += stiffness[0][j] * x[j];
             sums[1][j] += stiffness[1][j] * y[j];
         }
-        (v_x[r], v_y[r], squares[r]) = (x, y, square);
+        (v_x[r], v_y[r], scales[r]) = (x, y, scale);
     }
-    ([super::springs::total(&sums[0]), super::springs::total(&sums[1])], loss)
+    ([total(&sums[0]), total(&sums[1])], loss)
 }

@@ -380,7 +380,8 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
         write_jacobian(workspace, slides.then_some(from.units.load * element.friction_coefficient), jacobian);
     }
     if let Some(drift) = drift {
-        *drift = if slides && !opens { largest_change.sqrt() / (element.friction_coefficient * top_load) } else { 0.0 };
+        let slip_force = (element.friction_coefficient * top_load).max(f64::MIN_POSITIVE);
+        *drift = if slides && !opens { largest_change.sqrt() / slip_force } else { 0.0 };
     }
 }
 

@@ -358,7 +358,8 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
                     let last = r + 1 == PARTS;
                     let outer = |rows: &Fine<N>, end: f64| if last { next(&rows[0], j, end) } else { rows[r + 1][j] };
                     let (upper, upper_load) = (outer(fine_shift[k], end), outer(fine_load, end_load));
-                    let own = (upper_load - fine_load[r][j]) / (upper - fine_shift[k][r][j]).max(TINY);
+                    // Not in use, and decreasing, behind the last node.
+                    let own = (upper_load - fine_load[r][j]).max(0.0) / (upper - fine_shift[k][r][j]).max(TINY);
                     fine_stiffness[r][j] = own - fine_before - if r == 0 { law } else { 0.0 };
                     fine_before = own;
                 }

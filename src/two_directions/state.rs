@@ -257,17 +257,10 @@ pub(super) fn line_mut(state: &mut [f64]) -> Option<(&mut f64, &mut [f64])> {
     Some((v, line))
 }
 
-/// Copies what is in use of a state whose header was checked to one that is as long.
+/// Copies a state whose header was checked to one that is as long.
 #[inline(always)]
 pub(super) fn copy_used(from: &[f64], to: &mut [f64]) {
-    if let (Some(line), Some((head, to_line))) = (line_of(from), to.split_first_chunk_mut::<LINE>()) {
-        from.first_chunk().into_iter().for_each(|from| *head = *from);
-        state::copy_used(line, to_line);
-        return;
-    }
-    let n = read_header(from).springs.min(MOST);
-    let used = HEADER + springs_length(n) + tables_length(n);
-    if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
-        to.copy_from_slice(from);
+    if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
+        *to = *from;
     }
 }

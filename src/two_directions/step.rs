@@ -35,8 +35,8 @@ pub(crate) struct StepRecord<const N: usize> {
     pub overshoot: Row<N>,
     pub start: Both<Row<N>>,
     pub slip: Slip<N>,
-    /// Squares of the trial state of the fine springs over their limits.
-    pub fine_square: Fine<N>,
+    /// Factors by which the fine springs return to their limits.
+    pub fine_scale: Fine<N>,
     /// The last shell at the start, and its part.
     pub last_before: usize,
     pub part_before: usize,
@@ -56,7 +56,7 @@ impl<const N: usize> StepRecord<N> {
         overshoot: [0.0; N],
         start: [[0.0; N]; 2],
         slip: Slip::NONE,
-        fine_square: [[0.0; N]; PARTS],
+        fine_scale: [[1.0; N]; PARTS],
         last_before: 0,
         part_before: 0,
         slips: false,
@@ -182,7 +182,7 @@ fn kernel<const N: usize>(
         }
     }
     (*tractions, *v) = (r, end);
-    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, energy, &mut record.fine_square);
+    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, energy, &mut record.fine_scale);
     let sum = [dot(&record.stiffness[0], &end[0]) + addition[0], dot(&record.stiffness[1], &end[1]) + addition[1]];
     let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
     record.sum = sum;

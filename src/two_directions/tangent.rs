@@ -13,7 +13,7 @@
 //! does not change as long as the spring sticks.
 
 use super::edge::Edge;
-use super::fine;
+use super::fine::{self, SLIPS};
 use super::spring_state::SpringState;
 use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
 use super::step::StepRecord;
@@ -266,8 +266,8 @@ pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usi
         inner = inner.min(if record.slip.converged { record.slip.first } else { 0 });
     }
     let first = springs.under_flat;
-    for row in &record.fine_square {
-        let slips = |(j, square): (usize, &f64)| (j >= first && j <= new.edge.last && *square > 1.0).then_some(j);
+    for row in &record.fine_scale {
+        let slips = |(j, scale): (usize, &f64)| (j >= first && j <= new.edge.last && *scale < SLIPS).then_some(j);
         inner = row.iter().enumerate().find_map(slips).unwrap_or(N).min(inner);
     }
     inner
@@ -611,10 +611,8 @@ fn fine_correction<const N: usize, const C: usize>(
     for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
         let limit = fine::limits(springs, edge, &motion.now.shift, r);
         let stiffness = [fine::stiffnesses(springs, edge, 0, r), fine::stiffnesses(springs, edge, 1, r)];
-        let (mut per_over, mut per_limit) = ([0.0; N], [[0.0; N]; 2]);
+        let (per_over, mut per_limit) = (&record.fine_scale[r], [[0.0; N]; 2]);
         for j in 0..N {
-            let square = record.fine_square[r][j];
-            per_over[j] = 1.0 / (if square > 1.0 { square } else { 1.0 }).sqrt();
             let per_area = 1.0 / (limit[0][j] * limit[1][j]);
             (per_limit[0][j], per_limit[1][j]) = (limit[1][j] * per_area, limit[0][j] * per_area);
         }
@@ -633,7 +631,7 @@ fn fine_correction<const N: usize, const C: usize>(
                     follow(row, [k, r, j], share[k], taken, columns, parameters);
                 }
             }
-            if record.fine_square[r][j] > 1.0 {
+            if per_over[j] < SLIPS {
                 let end = [new.fine[0][r][j], new.fine[1][r][j]];
                 let per_limit = at(&per_limit, j);
                 let returned = Returned { end, per_over: per_over[j], per_limit, place: [r, j] };
