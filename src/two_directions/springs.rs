@@ -289,7 +289,8 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
     // N and S at the nodes and at the end of the last shell.
     let at = |w: f64| {
         let w = w * units.size;
-        if w >= plane.largest {
+        // The same for slightly larger and smaller sizes.
+        if w >= plane.largest * reference {
             return [NEVER; 3];
         }
         let (load, approach) = (plane.shape.load(w), plane.shape.approach(w));
