@@ -112,6 +112,7 @@ impl ElementLaw for TwoDirections {
         advance_along(path, output, |displacement| Self::advance(element, state, displacement, requested));
     }
 
+    #[inline(never)]
     fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
         let mut copy = [0.0; state_length()];
         state::copy_used(state, &mut copy);

@@ -68,7 +68,7 @@ impl<const N: usize> Edge<N> {
             edge.pressure[i] = if i < last { pressure[i] } else { 1.0 };
         }
         for k in 0..2 {
-            edge.step[k] = (now.shift[k] - springs.shift[k][last]).max(TINY);
+            edge.step[k] = distance(now.shift[k], springs.shift[k][last]);
             edge.secant[k] = (now.load - springs.load[last]) / edge.step[k];
             let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
             edge.stiffness[k] = (edge.secant[k] - before).max(LEAST_STIFFNESS * edge.secant[k]).max(TINY);
@@ -76,7 +76,7 @@ impl<const N: usize> Edge<N> {
                 edge.column[k][j] = edge.step[k] - super::springs::dot(&springs.displacement[k][j], &edge.reach);
             }
             // The fine correction.
-            edge.fine_step[k] = (now.shift[k] - springs.fine_shift[k][part][last]).max(TINY);
+            edge.fine_step[k] = distance(now.shift[k], springs.fine_shift[k][part][last]);
             edge.fine_secant[k] = (now.load - springs.fine_load[part][last]) / edge.fine_step[k];
             let law = edge.secant[k] - if first { 0.0 } else { before };
             let secant = |upper: [usize; 2], lower: [usize; 2]| {
@@ -131,4 +131,11 @@ impl<const N: usize> Edge<N> {
         }
         q
     }
+}
+
+/// The distance from a node to the edge, not 0: for springs of slightly larger sizes, whose derivatives are needed, it may be negative.
+#[inline(always)]
+fn distance(edge: f64, node: f64) -> f64 {
+    let distance = edge - node;
+    if distance.abs() > TINY { distance } else { TINY }
 }
