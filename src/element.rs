@@ -82,7 +82,7 @@ pub struct Element {
 }
 
 /// The number of springs unless another one is requested.
-const SPRINGS: usize = 12;
+const SPRINGS: usize = 16;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;

@@ -32,7 +32,7 @@ const BEYOND: [f64; PARTS - 1] = [1.0, 1.04, 1.12, 1.4];
 /// Load and shift that no contact reaches.
 const NEVER: f64 = 1e30;
 /// Share of the sine in the distribution of nodes: they are densest at the edge.
-const GRADING: f64 = 0.65;
+const GRADING: f64 = 0.8;
 /// Position of x_i in its shell. In the inner half, F_ij/ΔS_j decreases with j, so that motion on a line keeps its sign of slip.
 const POINT: f64 = 0.1;
 /// The smallest flat over w that has springs: widths of smaller ones would round to equal values.
