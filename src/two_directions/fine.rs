@@ -29,8 +29,9 @@ pub(crate) fn limits<const N: usize>(
 pub(crate) fn stiffnesses<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, k: usize, r: usize) -> Row<N> {
     let mut row = [0.0; N];
     for j in 0..N {
-        let inner = if j < edge.last { springs.fine_stiffness[k][r][j] } else { 0.0 };
-        row[j] = if j == edge.last { edge.fine_stiffness[k][r] } else { inner };
+        // Products, not choices: of a part of a vector these would be branches.
+        let (inner, at_edge) = (if j < edge.last { 1.0 } else { 0.0 }, if j == edge.last { 1.0 } else { 0.0 });
+        row[j] = inner * springs.fine_stiffness[k][r][j] + at_edge * edge.fine_stiffness[k][r];
     }
     row
 }
