@@ -645,13 +645,18 @@ mod tests {
                         motion[j] += h;
                         compute(&element, &motion).force
                     };
-                    let (high, low) = (moved(h), moved(-h));
+                    // A point that begins to slip between both motions is a corner, which smaller differences avoid.
+                    let steps = [h, h / 128.0];
+                    let moved = steps.map(|h| [moved(h), moved(-h)]);
                     for i in 0..COEFFICIENTS {
-                        let difference = (high[i] - low[i]) / (2.0 * h);
                         let exact = result.jacobian[i + COEFFICIENTS * j];
-                        // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-10 of the force.
-                        let error = (difference - exact).abs() * scale / (0.4 * 1000.0);
-                        assert!(error < 1e-6, "kind {kind}, entry {i} {j}: {difference:e} {exact:e}, error {error:e}");
+                        // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-8 of the force.
+                        let error = |k: usize| {
+                            let difference = (moved[k][0][i] - moved[k][1][i]) / (2.0 * steps[k]);
+                            (difference - exact).abs() * scale / (0.4 * 1000.0)
+                        };
+                        let error = error(0).min(error(1));
+                        assert!(error < 1e-6, "kind {kind}, entry {i} {j}: {exact:e}, error {error:e}");
                     }
                 }
                 assert!(result.dissipated > 0.0);

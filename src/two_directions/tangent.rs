@@ -74,9 +74,9 @@ pub(crate) struct Taken<'a, const N: usize> {
     pub start_slopes: PressedSlopes,
 }
 
-/// Relative distance of the sizes of the neighbours: the square of it and a rounding error over it are as small as derivatives of the
-/// alignment need to be, which are some percent of the others.
-pub(crate) const NEIGHBOUR: f64 = 2e-5;
+/// Relative distance of the sizes of the neighbours: the error is the square of it times the third derivative, up to 1e5 where the edge is
+/// close to a node, and a rounding error over it.
+pub(crate) const NEIGHBOUR: f64 = 1e-6;
 
 /// y += a x.
 #[inline(always)]
