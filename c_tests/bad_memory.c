@@ -86,7 +86,7 @@ static void test_tags(const function *f)
     }
     for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
         const uint64_t most = f->takes & IS_ELEMENT ? PIECES + 1 : REVERSALS;
-        const uint64_t counts[] = { most + 1, 200, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
+        const uint64_t counts[] = { most + 1, 2000, (uint64_t)1 << 32, ((uint64_t)1 << COUNT_BITS) - 1 };
         double *state = STATES + i * STATE;
         const uint64_t tag = get_word(state, 0);
         tag_bits_are_rejected(f, state, kind_and_layout, MSLIP_BAD_STATE, "the tag of a state");

@@ -235,7 +235,7 @@ enum { COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
 enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
 /* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
-enum { REVERSALS = 125, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 92, USED_PIECES = 5 };
+enum { REVERSALS = 620, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 463, USED_PIECES = 5 };
 
 #include "functions.h"
 

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MOST_STEPS = 128, PIECES = 64, STATE = 8 + 4 * (PIECES + 1), LONGEST = 380 };
+enum { MOST_STEPS = 128, PIECES = 64, STATE = 8 + 4 * (PIECES + 1), LONGEST = 1800 };
 
 static const double PI = 3.14159265358979323846;
 

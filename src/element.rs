@@ -1,7 +1,6 @@
 //! A friction contact element: the laws of a shape in tables that are independent of the load, so that one element serves all
 //! contact points of a geometry.
 
-pub(crate) mod springs;
 mod table;
 
 use crate::error::Error;
@@ -12,7 +11,6 @@ use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
-use springs::{Pressed, PressedSlopes, Springs};
 use table::{PIECES, Table};
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
@@ -61,7 +59,7 @@ pub struct Element {
     /// 1/(2 mu); 0 without friction.
     pub(crate) per_two_mu: f64,
     /// The largest normal force, approach and shift for which the laws hold.
-    largest_load: f64,
+    pub(crate) largest_load: f64,
     largest_approach: f64,
     pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.
@@ -80,15 +78,15 @@ pub struct Element {
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: [f64; PIECES],
-    /// For two directions: S along y = `lateral[0]` U + `lateral[1]` N, the shift across under the normal force of the parameters, its
-    /// size w, and the springs.
+    /// For two directions: S along y = `lateral[0]` U + `lateral[1]` N, and a number that two shapes hardly share.
     lateral: [f64; 2],
-    shift: f64,
-    size: f64,
-    /// The number of springs of the parameters; 0: the default.
-    pub springs_requested: u64,
-    pub(crate) springs: Springs,
+    pub(crate) key: f64,
+    /// Springs of a contact, 8, 12 or 16; 0 with one direction.
+    pub(crate) springs: usize,
 }
+
+/// The number of springs unless another one is requested.
+const SPRINGS: usize = 16;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
@@ -182,7 +180,7 @@ impl Element {
         let plane = Plane { shape: &layered, ..flat.plane() };
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
-        self.springs_requested = parameters.springs.unsigned_abs().into();
+        self.springs = springs_of(parameters.springs, directions);
         (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
         Ok(())
     }
@@ -215,7 +213,7 @@ impl Element {
         self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
-        self.springs_requested = parameters.springs.unsigned_abs().into();
+        self.springs = springs_of(parameters.springs, directions);
         (self.flat, self.ellipse) = (EMPTY.flat, layered);
         Ok(())
     }
@@ -276,15 +274,19 @@ impl Element {
         self.has_third = per_load.is_none().into();
         self.checksum = 0;
         self.lateral = [plane.per_approach[1], plane.per_load[1]];
-        (self.shift, self.size) = (shift, w);
-        if directions == Directions::Two {
-            self.springs.fill(plane, w);
-        } else {
-            self.springs = Springs::EMPTY;
-        }
         if !self.has_third() {
             self.third = Table::EMPTY;
         }
+        self.key = key_of(&[
+            normal_force,
+            friction_coefficient,
+            w,
+            approach,
+            shift,
+            plane.flat,
+            self.lateral[0],
+            self.lateral[1],
+        ]);
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
@@ -314,38 +316,25 @@ impl Element {
         Ok(())
     }
 
-    /// The unit of shifts: S across the line under the normal force of the parameters \[m\].
-    pub(crate) fn shift_unit(&self) -> f64 {
-        self.shift
-    }
-
-    /// The normal state in the units of the springs, from a load > 0 and its shift.
-    pub(crate) fn pressed(&self, load: f64, shift: f64) -> Pressed {
-        let size = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force)) / self.size;
-        Pressed { size: size * size, ..self.pressed_without_size(load, shift) }
-    }
-
-    /// The same without the size.
-    pub(crate) fn pressed_without_size(&self, load: f64, shift: f64) -> Pressed {
-        let approach = (shift - self.shift_per_load * load) / self.shift_per_approach;
-        let lateral = self.lateral[0] * approach + self.lateral[1] * load;
-        let per_shift = 1.0 / self.shift;
-        Pressed { load: load / self.normal_force, shift: [shift * per_shift, lateral * per_shift], size: 0.0 }
-    }
-
-    /// Derivatives of the normal state with respect to the input.
-    pub(crate) fn pressed_slopes(&self, normal: &Normal) -> PressedSlopes {
-        let Normal { load, load_slope, shift_slope, .. } = *normal;
-        let approach = (shift_slope - self.shift_per_load * load_slope) / self.shift_per_approach;
-        let lateral = self.lateral[0] * approach + self.lateral[1] * load_slope;
-        let w = self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force));
-        let size = self.shape().size_slope(w) * load_slope / self.size / self.size;
-        let per_shift = 1.0 / self.shift;
-        PressedSlopes {
-            load: load_slope / self.normal_force,
-            shift: [shift_slope * per_shift, lateral * per_shift],
-            size,
+    /// The family of sizes in both directions.
+    pub(crate) fn plane(&self) -> Plane<'_> {
+        if self.tag & ELLIPTIC == 0 {
+            Plane { shape: &self.flat, ..self.flat.shape.plane() }
+        } else {
+            Plane { shape: &self.ellipse, ..self.ellipse.shape.plane() }
         }
+    }
+
+    /// S along y, from a load and its shift along x, or their derivatives.
+    #[inline(always)]
+    pub(crate) fn lateral_shift(&self, load: f64, shift: f64) -> f64 {
+        let approach = (shift - self.shift_per_load * load) / self.shift_per_approach;
+        self.lateral[0] * approach + self.lateral[1] * load
+    }
+
+    /// The size w under a load > 0.
+    pub(crate) fn size_under(&self, load: f64) -> f64 {
+        self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force))
     }
 
     /// Whether the tag is that of an element initialised by this version.
@@ -829,10 +818,23 @@ const EMPTY: Element = Element {
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
     lateral: [0.0; 2],
-    shift: 0.0,
-    size: 0.0,
-    springs_requested: 0,
-    springs: Springs::EMPTY,
+    key: 0.0,
+    springs: 0,
 };
 
-const _: () = assert!(size_of::<Element>() <= 53_200);
+/// The number of springs of parameters that were checked.
+fn springs_of(requested: i32, directions: Directions) -> usize {
+    match (directions, requested) {
+        (Directions::One, _) => 0,
+        (Directions::Two, 0) => SPRINGS,
+        (Directions::Two, springs) => springs.unsigned_abs() as usize,
+    }
+}
+
+/// A number from 1 to 2 that depends on the bits of all values.
+fn key_of(values: &[f64]) -> f64 {
+    let mix = |hash: u64, value: &f64| (hash ^ value.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    f64::from_bits((values.iter().fold(1, mix) >> 12) | (1023 << 52))
+}
+
+const _: () = assert!(size_of::<Element>() <= 26_000);

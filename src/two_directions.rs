@@ -4,11 +4,11 @@
 //! the family carry the displacement of the sizes within; the tractions at one point of each shell are a triangular map of them, and
 //! Coulomb's law holds at these points, with slip in the direction of the traction.
 //!
-//! - `element::springs`: the nodes of a shape and the map, independent of the load;
+//! - `springs`: the springs of a shape, aligned with a size, and the map;
 //! - `edge`: the shell that ends at the present size;
-//! - `slip`: Coulomb's law at the points, by Newton's method;
-//! - `fine`: correction by a finer bank of springs;
-//! - `spring_state`, `step`, `tangent`: the state of the springs, a step, and its derivatives, as `columns`;
+//! - `slip`: Coulomb's law at the points, by Newton's method for the angles of the tractions;
+//! - `energy`: energy that springs dissipate in a step;
+//! - `spring_state`, `step`, `tangent`: the state of the springs, a step, and its derivatives;
 //! - `stick`: a step in which nothing slips;
 //! - `load_path`: a step between contacts that may be open;
 //! - `state`, `advance`: the state in the caller's memory, and a step of it;
@@ -20,13 +20,14 @@
 pub mod harmonic_force;
 
 mod advance;
-mod columns;
 mod edge;
+mod energy;
 mod fine;
 mod from_diagram;
 mod load_path;
 mod slip;
 mod spring_state;
+mod springs;
 mod state;
 mod step;
 mod stick;
@@ -111,6 +112,7 @@ impl ElementLaw for TwoDirections {
         advance_along(path, output, |displacement| Self::advance(element, state, displacement, requested));
     }
 
+    #[inline(never)]
     fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
         let mut copy = [0.0; state_length()];
         state::copy_used(state, &mut copy);
@@ -135,7 +137,7 @@ impl ElementLaw for TwoDirections {
         motion: &[f64],
         output: harmonic_force::HarmonicOutput,
     ) -> Result<(), Error> {
-        harmonic_force::harmonic_force(element, workspace, motion, output)
+        harmonic_force::harmonic_force(element, workspace, motion, output).map(|_| ())
     }
 }
 

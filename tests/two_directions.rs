@@ -181,9 +181,9 @@ fn apart(one: &Step, two: &Step) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
 }
 
-/// Error of the bank of fine springs over mu N, up to the normal force of the parameters and beyond, with longer secants: 1.4e-4 and 2.8e-4
-/// by the secants; a flat at a few percent of the normal force has 1 % of its present mu N, which is up to 3.9e-4 and remains.
-const BANK_ERROR: [f64; 2] = [4e-4, 4e-4];
+/// Error of springs on a line over mu N in histories whose load rises and falls at random: a corner of the distribution of displacements is
+/// cut between the nodes of the fine springs, and again by each new alignment.
+const LINE_ERROR: f64 = 2.5e-3;
 
 /// Loads and displacements along x, with separation.
 fn on_line(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
@@ -200,7 +200,7 @@ fn motion_along_x_is_that_of_one_direction() {
             let (mut contact, mut disturbed) = (Contact::new(element), Contact::new(element));
             let mut state = vec![0.0; state_length() - 2];
             one_direction::state_init(&mut state).unwrap();
-            let mut worst = [0.0f64; 2];
+            let mut worst = 0.0f64;
             for (k, [u, v, w]) in on_line(element, 300, &mut random).into_iter().enumerate() {
                 let (step, expected) =
                     (contact.to([u, v, w]), one_direction::advance(single, &mut state, [u, w], true).unwrap());
@@ -212,11 +212,10 @@ fn motion_along_x_is_that_of_one_direction() {
                 assert_eq!([x, xw, ww], [expected.tangent[0], expected.tangent[2], expected.tangent[3]]);
                 let tilted = disturbed.to([u, v + [0.0, 1e-9][k % 2] * unit(element), w]);
                 let error = apart(&step, &tilted) / slip_force(element);
-                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
-                worst[place] = worst[place].max(error);
+                worst = worst.max(error);
             }
-            println!("disturbed line: {worst:.5?} mu N");
-            assert!((0..2).all(|place| worst[place] < BANK_ERROR[place]), "{worst:?}");
+            println!("disturbed line: {worst:.5} mu N");
+            assert!(worst < LINE_ERROR, "{worst:e}");
         }
     }
 }
@@ -234,8 +233,7 @@ fn motion_along_y_is_that_along_x_of_the_swapped_ellipse() {
                 let (step, expected) = (contact.to([0.0, u, w]), other.to([u, 0.0, w]));
                 assert_eq!(step.force[0], 0.0);
                 let error = (step.force[1] - expected.force[0]).abs() / slip_force(&element);
-                let place = usize::from(step.force[2] > element.normal_force * (1.0 + 1e-14));
-                assert!(error < BANK_ERROR[place], "{ratio}: {error:e}");
+                assert!(error < LINE_ERROR, "{ratio}: {error:e}");
             }
         }
     }
@@ -449,10 +447,11 @@ fn by_approach_and_force() -> Vec<Element> {
     vec![flat(1e-4, NormalInput::Approach, Directions::Two), ellipse(3.0)]
 }
 
-/// A mean displacement along x beside a vibration across it, under a normal input that swings about 0.7 of that of the tables.
+/// A mean displacement along x beside a vibration across it, under a normal input that swings up to that of the tables: with the largest
+/// load of a period the springs of the harmonic force are aligned, with a power of 1.25 times that of the tables those of steps.
 fn shaken(element: &Element, swing: f64) -> [f64; COEFFICIENTS] {
     let (u, normal) = (unit(element), |share: f64| normal_input(element, share));
-    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(0.7), normal(0.7 + swing) - normal(0.7), 0.0]
+    [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(1.0 - swing), normal(1.0) - normal(1.0 - swing), 0.0]
 }
 
 /// The forces at the samples of a motion, by steps: those of the last period and of the one before.
@@ -492,7 +491,8 @@ fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
                 assert!((drift - expected).abs() < 1e-10, "{swing} {periods}: {drift:e} {expected:e}");
                 let mean = last.iter().map(|force| force[0]).sum::<f64>() / SAMPLES as f64;
                 assert!((force[0] - mean).abs() < 1e-10 * slip_force, "{swing} {periods}: {} {mean}", force[0]);
-                assert!(drift < 0.8 * before, "{swing} {periods}: {drift:e} after {before:e}");
+                // Down to the roundings of the forces.
+                assert!(drift < (0.8 * before).max(1e-14), "{swing} {periods}: {drift:e} after {before:e}");
                 before = drift;
             }
             let [by_default, one, many] = [0, 1, 400].map(|periods| harmonic(&element, periods, &motion));

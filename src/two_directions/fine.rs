@@ -1,106 +1,95 @@
-//! The difference of two banks of springs, a fine one and that of the law, each spring with its own limit: added to the law, it makes
-//! motion on a line as exact as the fine bank.
+//! The fine correction: the difference of two banks of springs, a fine one and that of the nodes of the law, each spring with its own
+//! limit. Added to the law, it makes motion on a line as exact as the fine bank.
 
-use super::edge::{Edge, Share};
-use crate::element::springs::{Both, FINE, Pressed, SPRINGS, Springs};
-use crate::shape::TINY;
+use super::edge::Edge;
+use super::energy;
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, total};
 
-pub(crate) type FineRow = [f64; FINE];
-
-/// Stiffnesses of the springs under the present load: their difference from those of the bank of the law.
-pub(crate) struct FineEdge {
-    pub last: usize,
-    /// The node of the law whose spring has changed too.
-    pub coarse: usize,
-    pub stiffness: Both<FineRow>,
-    pub secant: Both<f64>,
-    pub step: Both<f64>,
-}
-
-impl FineEdge {
-    pub const NONE: FineEdge =
-        FineEdge { last: 0, coarse: 0, stiffness: [[0.0; FINE]; 2], secant: [0.0; 2], step: [1.0; 2] };
-
-    #[inline(always)]
-    pub fn new(springs: &Springs, now: &Pressed, edge: &Edge) -> FineEdge {
-        let (coarse, last) = (springs.fine_node(edge.last), springs.last_fine_shell(edge.last, now.shift[0]));
-        let mut fine = FineEdge { last, coarse, stiffness: [[0.0; FINE]; 2], secant: [0.0; 2], step: [0.0; 2] };
-        for k in 0..2 {
-            fine.step[k] = (now.shift[k] - springs.fine_shift[k][last]).max(TINY);
-            fine.secant[k] = (now.load - springs.fine_load[last]) / fine.step[k];
-            for j in 0..FINE {
-                fine.stiffness[k][j] = if j < last { springs.fine_stiffness[k][j] } else { 0.0 };
-            }
-            let before = |secant: &[f64], j: usize| if j > 0 { secant[j - 1] } else { 0.0 };
-            fine.stiffness[k][last] = fine.secant[k] - before(&springs.fine_secant[k], last);
-            // The bank of the law has no springs under the flat: at its first spring begins all stiffness.
-            let node = edge.last.min(SPRINGS - 1);
-            let coarse_before = if node > springs.under_flat { springs.secant[k][node - 1] } else { 0.0 };
-            let own = if coarse == last { fine.stiffness[k][last] } else { springs.fine_own(k, coarse) };
-            fine.stiffness[k][coarse] = own - (edge.secant[k] - coarse_before);
-        }
-        fine
-    }
-}
-
-/// A step of the bank.
+/// Limits of a part of the shells; 1 outside.
 #[inline(always)]
-pub(crate) fn step(
-    springs: &Springs,
-    fine: &FineEdge,
-    displacement: &mut Both<FineRow>,
-    before: &Pressed,
-    now: &Pressed,
-    motion: &Both<f64>,
-    constant_load: bool,
-) -> (Both<f64>, f64) {
-    let (mut forces, mut energy) = ([[0.0; 4]; 2], 0.0);
-    let share = Share::new(before, now);
-    // The fourth powers of large limits overflow.
-    let per_shift = 1.0 / now.shift[1];
-    let [x, y] = displacement;
-    let (blocks_x, blocks_y) = (x.as_chunks_mut::<4>().0, y.as_chunks_mut::<4>().0);
-    for (block, (x, y)) in blocks_x.iter_mut().zip(blocks_y).enumerate() {
-        let at = |row: &FineRow| row.as_chunks::<4>().0.get(block).copied().unwrap_or([0.0; 4]);
-        let shifts = [at(&springs.fine_shift[0]), at(&springs.fine_shift[1])];
-        let stiffness = [at(&fine.stiffness[0]), at(&fine.stiffness[1])];
-        let (old, mut trial, mut limit) = ([*x, *y], [[0.0; 4]; 2], [[0.0; 4]; 2]);
-        let (mut over, mut bound) = ([0.0; 4], [0.0; 4]);
-        let mut any = false;
-        for lane in 0..4 {
-            let inside = 4 * block + lane <= fine.last;
-            for k in 0..2 {
-                // Beyond the contact nothing moves.
-                limit[k][lane] = if inside { now.shift[k] - shifts[k][lane] } else { 1.0 };
-                let moved = old[k][lane] + motion[k] * share.of(k, limit[k][lane]);
-                trial[k][lane] = if inside { moved } else { 0.0 };
-            }
-            let lateral = limit[1][lane] * per_shift;
-            let (x, y) = (trial[0][lane] * lateral, trial[1][lane] * per_shift * limit[0][lane]);
-            over[lane] = x * x + y * y;
-            bound[lane] = limit[0][lane] * lateral;
-            any |= over[lane] > bound[lane] * bound[lane];
-        }
-        let mut new = trial;
-        if any {
-            for lane in 0..4 {
-                let square = bound[lane] * bound[lane];
-                let scale = bound[lane] / over[lane].max(square).sqrt().max(TINY);
-                for k in 0..2 {
-                    let value = if over[lane] > square { trial[k][lane] * scale } else { trial[k][lane] };
-                    new[k][lane] = value;
-                    let mean = if constant_load { value } else { 0.5 * (old[k][lane] + value) };
-                    energy += stiffness[k][lane] * mean * (trial[k][lane] - value);
-                }
-            }
-        }
-        (*x, *y) = (new[0], new[1]);
-        for k in 0..2 {
-            for lane in 0..4 {
-                forces[k][lane] += stiffness[k][lane] * new[k][lane];
-            }
+pub(crate) fn limits<const N: usize>(
+    springs: &Springs<N>,
+    edge: &Edge<N>,
+    shift: &Both<f64>,
+    r: usize,
+) -> Both<Row<N>> {
+    let (first, stop) = (springs.under_flat, if r <= edge.part { edge.last + 1 } else { edge.last });
+    let mut limits = [[1.0; N]; 2];
+    for k in 0..2 {
+        for j in 0..N {
+            let limit = shift[k] - springs.fine_shift[k][r][j];
+            limits[k][j] = if j >= first && j < stop { limit } else { 1.0 };
         }
     }
-    let force = forces.map(|sums| (sums[0] + sums[1]) + (sums[2] + sums[3]));
-    (force, energy)
+    limits
+}
+
+/// Stiffnesses of a part of the shells under the present load, less those of the springs of the law; 0 outside.
+#[inline(always)]
+pub(crate) fn stiffnesses<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, k: usize, r: usize) -> Row<N> {
+    let mut row = [0.0; N];
+    for j in 0..N {
+        // Products, not choices: of a part of a vector these would be branches.
+        let (inner, at_edge) = (if j < edge.last { 1.0 } else { 0.0 }, if j == edge.last { 1.0 } else { 0.0 });
+        row[j] = inner * springs.fine_stiffness[k][r][j] + at_edge * edge.fine_stiffness[k][r];
+    }
+    row
+}
+
+/// Factors by which springs return to their limits, below 1 by more than roundings, which the mode of rounding may leave.
+pub(crate) const SLIPS: f64 = 1.0 - 4.0 * f64::EPSILON;
+
+/// A step of the correction: force, and dissipated energy if requested.
+#[inline(always)]
+pub(crate) fn step<const N: usize>(
+    springs: &Springs<N>,
+    edge: &Edge<N>,
+    v: &mut Both<Fine<N>>,
+    motion: &Increment,
+    energy: bool,
+    scales: &mut Fine<N>,
+) -> (Both<f64>, f64) {
+    let (mut sums, mut loss) = ([[0.0; N]; 2], 0.0);
+    let last = edge.last;
+    let [v_x, v_y] = v;
+    for r in 0..PARTS {
+        let (old_x, old_y) = (v_x[r], v_y[r]);
+        let (first, stop) = (springs.under_flat, if r <= edge.part { last + 1 } else { last });
+        let limit = limits(springs, edge, &motion.now.shift, r);
+        let (mut trial_x, mut trial_y, mut scale) = ([0.0; N], [0.0; N], [1.0; N]);
+        for j in 0..N {
+            let inside = j >= first && j < stop;
+            let share = motion.share(limit[0][j], limit[1][j]);
+            let (x, y) = (old_x[j] + motion.by[0] * share[0], old_y[j] + motion.by[1] * share[1]);
+            (trial_x[j], trial_y[j]) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
+            // A quotient whose divisor is positive in any case: the compiler may evaluate it in all lanes.
+            let (x, y, area) = (trial_x[j] * limit[1][j], trial_y[j] * limit[0][j], limit[0][j] * limit[1][j]);
+            let (square, bound) = (x * x + y * y, area * area);
+            scale[j] = area / (if square > bound { square } else { bound }).sqrt();
+        }
+        let (mut x, mut y) = ([0.0; N], [0.0; N]);
+        for j in 0..N {
+            (x[j], y[j]) = (trial_x[j] * scale[j], trial_y[j] * scale[j]);
+        }
+        let stiffness = [stiffnesses(springs, edge, 0, r), stiffnesses(springs, edge, 1, r)];
+        if energy {
+            let mut losses = [0.0; N];
+            for j in 0..N {
+                let before = motion.before.shift[0] - springs.fine_shift[0][r][j];
+                let before = if before > 0.0 { before } else { 0.0 };
+                let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
+                let places = [[old_x[j], old_y[j]], [trial_x[j], trial_y[j]], [x[j], y[j]]];
+                let w = [stiffness[0][j], stiffness[1][j]];
+                let of_spring = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0);
+                losses[j] = if scale[j] < SLIPS { of_spring } else { 0.0 };
+            }
+            loss += total(&losses);
+        }
+        for j in 0..N {
+            sums[0][j] += stiffness[0][j] * x[j];
+            sums[1][j] += stiffness[1][j] * y[j];
+        }
+        (v_x[r], v_y[r], scales[r]) = (x, y, scale);
+    }
+    ([total(&sums[0]), total(&sums[1])], loss)
 }

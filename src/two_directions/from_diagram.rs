@@ -1,10 +1,10 @@
-//! The springs of a diagram: the first step that leaves a line starts from them.
+//! The springs of a diagram: the first step that leaves a line starts from them. The springs of another alignment.
 
 use crate::element::Element;
-use crate::element::springs::{FINE, SPRINGS};
 use crate::one_direction::state;
-use crate::two_directions::edge::{Edge, Map};
+use crate::two_directions::edge::Edge;
 use crate::two_directions::spring_state::SpringState;
+use crate::two_directions::springs::{PARTS, Pressed, Springs, Units};
 use crate::two_directions::state::Header;
 
 /// The header of a diagram.
@@ -18,18 +18,51 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
     }
 }
 
-/// Writes the springs of a diagram to a relaxed state: their displacements are those of the sizes from theirs on.
-pub(super) fn fill_from_diagram(state: &mut SpringState, element: &Element, header: &Header, knots: &[[f64; 4]]) {
-    if header.load <= 0.0 {
-        return;
+/// Springs from their displacements as functions of direction, node and S, those of the law and those of the fine correction: tractions
+/// and the edge follow.
+fn fill<const N: usize>(
+    springs: &Springs<N>,
+    now: &Pressed,
+    law: impl Fn(usize, usize, f64) -> f64,
+    fine: impl Fn(usize, f64) -> f64,
+) -> SpringState<N> {
+    let mut state = SpringState { edge: Edge::new(springs, now), ..SpringState::RELAXED };
+    for k in 0..2 {
+        for j in 0..=state.edge.last.min(N - 1) {
+            state.v[k][j] = law(k, j, springs.shift[k][j]);
+            for r in 0..PARTS {
+                if j >= springs.under_flat && (j < state.edge.last || r <= state.edge.part) {
+                    state.fine[k][r][j] = fine(k, springs.fine_shift[k][r][j]);
+                }
+            }
+        }
     }
-    let springs = &element.springs;
-    let (unit, now) = (element.shift_unit(), element.pressed(header.load, header.shift));
+    let q = [state.edge.tractions(springs, 0, &state.v[0]), state.edge.tractions(springs, 1, &state.v[1])];
+    for i in 0..=state.edge.last.min(N - 1) {
+        let (x, y) = (q[0][i] / state.edge.pressure[i], q[1][i] / state.edge.pressure[i]);
+        let over = (x * x + y * y).max(1.0).sqrt();
+        (state.tractions[0][i], state.tractions[1][i]) = (x / over, y / over);
+    }
+    state
+}
+
+/// The springs of a diagram: their displacements are those of the sizes from theirs on.
+pub(super) fn from_diagram<const N: usize>(
+    element: &Element,
+    springs: &Springs<N>,
+    units: &Units,
+    header: &Header,
+    knots: &[[f64; 4]],
+) -> SpringState<N> {
     let mu = element.friction_coefficient;
     let [u, _] = header.displacement;
-    let at = |shift: f64| {
+    let now = header.pressed(element);
+    let at = |k: usize, shift: f64| {
+        if k > 0 {
+            return 0.0;
+        }
         // P(S) of the polygon; beyond its end the displacement is that of the contact.
-        let target = shift * unit;
+        let target = shift * units.shift;
         let mut inner = knots.first().copied().unwrap_or([u, u, 0.0, 0.0]);
         for knot in knots {
             let [xi, eta, ..] = *knot;
@@ -38,35 +71,48 @@ pub(super) fn fill_from_diagram(state: &mut SpringState, element: &Element, head
                 let start = 0.5 * (inner[1] - inner[0]) / mu;
                 let part = ((target - start) / (end - start).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
                 let position = |knot: &[f64; 4]| 0.5 * (knot[0] - u) + 0.5 * (knot[1] - u);
-                return -(position(&inner) + part * (position(knot) - position(&inner))) / (mu * unit);
+                return -(position(&inner) + part * (position(knot) - position(&inner))) / (mu * units.shift);
             }
             inner = *knot;
         }
         0.0
     };
-    let edge = Edge::new(springs, &now, None);
-    for j in 0..SPRINGS {
-        if j <= edge.last {
-            state.springs[0][j] = at(springs.shift[0][j]);
+    fill(springs, &now, |k, _, shift| at(k, shift), at)
+}
+
+/// The springs of a state in another alignment: the fine springs are the corners of a polygon over S, and so are the differences of those of
+/// the law from them.
+pub(super) fn realigned<const N: usize>(
+    [old_springs, springs]: [&Springs<N>; 2],
+    old: &SpringState<N>,
+    [old_now, now]: [&Pressed; 2],
+    ratio: f64,
+) -> SpringState<N> {
+    let (first, last) = (old_springs.under_flat.min(N - 1), old.edge.last.min(N - 1));
+    let between = |below: [f64; 2], above: [f64; 2], target: f64| {
+        let width = above[0] - below[0];
+        let part = if width > 0.0 { ((target - below[0]) / width).clamp(0.0, 1.0) } else { 0.0 };
+        below[1] + part * (above[1] - below[1])
+    };
+    let polygon = |k: usize, target: f64, parts: usize, value: &dyn Fn(usize, usize) -> f64| {
+        let mut below = [0.0, value(first, 0)];
+        for j in first..=last {
+            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts.min(PARTS) } {
+                let corner = [old_springs.fine_shift[k][r][j], value(j, r)];
+                if corner[0] > target {
+                    return between(below, corner, target);
+                }
+                below = corner;
+            }
         }
-    }
-    for j in 0..FINE {
-        if springs.fine_shift[0][j] < now.shift[0] {
-            state.fine[0][j] = at(springs.fine_shift[0][j]);
+        between(below, [old_now.shift[k], 0.0], target)
+    };
+    let fine = |k: usize, shift: f64| ratio * polygon(k, shift / ratio, PARTS, &|j, r| old.fine[k][r][j]);
+    let law = |k: usize, j: usize, shift: f64| {
+        if j < first && first == springs.under_flat {
+            return ratio * old.v[k][j];
         }
-    }
-    let map = Map::new(springs, &edge);
-    let mut scaled = state.springs;
-    for j in 0..SPRINGS {
-        scaled[0][j] *= map.root[0][j];
-    }
-    let mut tractions = [[0.0; SPRINGS]; 2];
-    map.tractions(&scaled, &[false; SPRINGS], &mut tractions);
-    let [tractions, _] = tractions;
-    for i in 0..SPRINGS {
-        if i <= edge.last {
-            state.tractions[0][i] = (tractions[i] / edge.pressure[i]).clamp(-1.0, 1.0);
-        }
-    }
-    (state.shell_pressure, state.pressure) = (edge.shell_pressure, edge.pressure);
+        fine(k, shift) + ratio * polygon(k, shift / ratio, 1, &|j, _| old.v[k][j] - old.fine[k][0][j])
+    };
+    fill(springs, now, law, fine)
 }

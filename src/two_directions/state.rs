@@ -2,19 +2,25 @@
 //!
 //! ```text
 //! on a line:  [tag 0, v, state of one direction]
-//! springs:    [tag 1, v, u, normal component, N, S, offset (2), force (2), 0, 0,
-//!              displacements, tractions, edge and whole pressure, fine bank]
+//! springs:    [tag 1, v, u, normal component, N, S, offset (2), force (2), key of the element, units of the springs (3), their number,
+//!              those under the flat, w², 0, 0, 0,
+//!              springs, tables]
 //! ```
+//!
+//! The tables are those of the springs, aligned with a size: the state carries them, as they change with its history only.
 
-use crate::element::springs::{Both, FINE, SPRINGS};
+use crate::element::Element;
 use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::state;
 use crate::tag::Kind;
-use crate::two_directions::spring_state::{LONGEST, SpringState, StoredSprings};
+use crate::two_directions::spring_state::{LONGEST, SpringState, StoredSprings, springs_length};
+use crate::two_directions::springs::{Both, Pressed, Springs, Units, tables_length};
 
-const HEADER: usize = 12;
-pub(super) const LENGTH: usize = HEADER + 6 * SPRINGS + 2 * FINE;
+const HEADER: usize = 20;
+/// The largest number of springs.
+const MOST: usize = 16;
+pub(super) const LENGTH: usize = HEADER + springs_length(MOST) + tables_length(MOST);
 /// Values before the state of one direction.
 const LINE: usize = 2;
 
@@ -84,14 +90,17 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if let Some(line) = line_of(state) {
         return state::state_check(line);
     }
-    let (header, Some(springs)) = (read_header(state), stored(state)) else { return Err(Error::StateTooShort) };
-    let bounded = |x: f64, y: f64| x * x + y * y <= 1.0 + 1e-9;
-    let [x, y] = springs.tractions;
-    let within = x.iter().zip(y).all(|(x, y)| x.abs() <= 2.0 && y.abs() <= 2.0 && bounded(*x, *y));
-    let positive = springs.shell_pressure.iter().chain(springs.pressure).all(|value| *value >= 0.0);
-    let loads = header.load > 0.0 && header.shift > 0.0;
+    let header = read_header(state);
+    let Units { load, shift, size } = header.units;
+    let loads = [header.load, header.shift, load, shift, size].iter().all(|value| *value > 0.0);
     let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
-    if within && positive && loads && held { Ok(()) } else { Err(Error::BadState) }
+    let within = match header.springs {
+        8 => stored::<8>(state).is_some_and(|springs| springs.is_within()),
+        12 => stored::<12>(state).is_some_and(|springs| springs.is_within()),
+        16 => stored::<16>(state).is_some_and(|springs| springs.is_within()),
+        _ => false,
+    };
+    if within && loads && held { Ok(()) } else { Err(Error::BadState) }
 }
 
 /// A bound on the error of the force \[N\] from merging pieces of the diagram on a line; 0 otherwise.
@@ -107,45 +116,132 @@ pub(super) struct Header {
     pub input: f64,
     pub load: f64,
     pub shift: f64,
+    /// w² in the units of the springs.
+    pub size: f64,
     /// Motion of the springs since they last changed, and the sum of their forces then.
     pub offset: Both<f64>,
     pub sum: Both<f64>,
+    /// Of the element whose tables these are, their units and the number of springs.
+    pub key: f64,
+    pub units: Units,
+    pub springs: usize,
+    /// Springs under the flat.
+    pub under_flat: usize,
 }
 
 impl Header {
     /// Without springs.
-    pub const NONE: Header =
-        Header { displacement: [0.0; 2], input: 0.0, load: 0.0, shift: 0.0, offset: [0.0; 2], sum: [0.0; 2] };
+    pub const NONE: Header = Header {
+        displacement: [0.0; 2],
+        input: 0.0,
+        load: 0.0,
+        shift: 0.0,
+        size: 0.0,
+        offset: [0.0; 2],
+        sum: [0.0; 2],
+        key: 0.0,
+        units: Units::NONE,
+        springs: 0,
+        under_flat: 0,
+    };
+
+    /// The normal state in the units of the springs.
+    #[inline(always)]
+    pub fn pressed(&self, element: &Element) -> Pressed {
+        self.units.pressed(element, self.load, self.shift, self.size)
+    }
+
+    /// Whether the tables are those of an element.
+    #[inline(always)]
+    pub fn belongs_to(&self, element: &Element) -> bool {
+        self.key == element.key && self.springs == element.springs
+    }
 }
 
 #[inline(always)]
-pub(super) fn stored(state: &[f64]) -> Option<StoredSprings<'_>> {
+pub(super) fn stored<const N: usize>(state: &[f64]) -> Option<StoredSprings<'_, N>> {
     StoredSprings::new(state.get(HEADER..)?)
+}
+
+/// The tables in a state.
+#[inline(always)]
+pub(super) fn tables<'a, const N: usize>(header: &Header, state: &'a [f64]) -> Option<Springs<'a, N>> {
+    Springs::new(header.under_flat, state.get(HEADER + springs_length(N)..)?)
+}
+
+/// The place of the tables in a state.
+pub(super) fn tables_mut<const N: usize>(state: &mut [f64]) -> &mut [f64] {
+    state.get_mut(HEADER + springs_length(N)..).unwrap_or(&mut [])
 }
 
 #[inline(always)]
 pub(super) fn read_header(state: &[f64]) -> Header {
-    let [_, v, u, input, load, shift, offset_x, offset_y, sum_x, sum_y, ..] =
-        *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
-    Header { displacement: [u, v], input, load, shift, offset: [offset_x, offset_y], sum: [sum_x, sum_y] }
+    let [
+        _,
+        v,
+        u,
+        input,
+        load,
+        shift,
+        offset_x,
+        offset_y,
+        sum_x,
+        sum_y,
+        key,
+        unit_load,
+        unit_shift,
+        unit_size,
+        count,
+        flat,
+        size,
+        ..,
+    ] = *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
+    Header {
+        displacement: [u, v],
+        input,
+        load,
+        shift,
+        size,
+        offset: [offset_x, offset_y],
+        sum: [sum_x, sum_y],
+        key,
+        units: Units { load: unit_load, shift: unit_shift, size: unit_size },
+        springs: count as usize,
+        under_flat: flat as usize,
+    }
 }
 
-/// Writes a state of springs.
-pub(super) fn write(state: &mut [f64], header: &Header, springs: &SpringState) {
-    let Some((place, mut rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
-    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y] } = *header;
-    *place = [Kind::TwoDirectionsState.tag(SPRUNG), v, u, input, load, shift, x, y, sum_x, sum_y, 0.0, 0.0];
-    let mut put = |from: &[f64]| {
-        if let Some((values, behind)) = core::mem::take(&mut rest).split_at_mut_checked(from.len()) {
-            values.copy_from_slice(from);
-            rest = behind;
-        }
-    };
-    springs.springs.iter().for_each(|row| put(row));
-    springs.tractions.iter().for_each(|row| put(row));
-    put(&springs.shell_pressure);
-    put(&springs.pressure);
-    springs.fine.iter().for_each(|row| put(row));
+/// Writes a state of springs, except for the tables.
+pub(super) fn write<const N: usize>(state: &mut [f64], header: &Header, springs: &SpringState<N>) {
+    let Some((place, rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
+    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y], key, units, .. } =
+        *header;
+    let under_flat = header.under_flat as f64;
+    let tag = Kind::TwoDirectionsState.tag(SPRUNG);
+    let Units { load: unit_load, shift: unit_shift, size: unit_size } = units;
+    *place = [
+        tag,
+        v,
+        u,
+        input,
+        load,
+        shift,
+        x,
+        y,
+        sum_x,
+        sum_y,
+        key,
+        unit_load,
+        unit_shift,
+        unit_size,
+        N as f64,
+        under_flat,
+        header.size,
+        0.0,
+        0.0,
+        0.0,
+    ];
+    springs.write(rest);
 }
 
 /// Moves the springs of a state in which nothing slipped.
@@ -161,7 +257,7 @@ pub(super) fn line_mut(state: &mut [f64]) -> Option<(&mut f64, &mut [f64])> {
     Some((v, line))
 }
 
-/// Copies what is in use of a state whose header was checked to one that is as long.
+/// Copies a state whose header was checked to one that is as long.
 #[inline(always)]
 pub(super) fn copy_used(from: &[f64], to: &mut [f64]) {
     if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {

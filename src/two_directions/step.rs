@@ -1,67 +1,74 @@
 //! A step of a closed contact in both directions.
 //!
-//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If the traction at no point then
-//! exceeds the pressure, this is the end of the step; otherwise the points slip. All in the units of the springs.
+//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If the
+//! traction at no point then exceeds the pressure, this is the end of the step; otherwise the points slip. All in the units of the springs.
 
-use super::edge::{Edge, Map, Share};
-use super::fine::{self, FineEdge};
-use super::slip::{Problem, Slip, at, product};
+use super::edge::Edge;
+use super::energy;
+use super::fine;
+use super::slip::{Guess, LARGEST_TURN, LOST, Problem, Set, Slip};
 use super::spring_state::SpringState;
-use crate::element::springs::{Both, Pressed, Row, SPRINGS, Springs, dot};
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
 /// Excess of the square of a traction over that of its limit by which a state that has slipped may round: it sticks.
 pub(crate) const ROUNDING: f64 = 1e-14;
+/// |r|² from which on a point has slipped before.
+pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
 
-/// A step, straight in S and in the displacement.
-pub(crate) struct Increment {
-    pub before: Pressed,
-    pub now: Pressed,
-    pub by: Both<f64>,
-    /// Whether the load is that of the state.
-    pub constant_load: bool,
-}
+/// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
+const NEAR: f64 = 0.5;
+/// Cosine of the angle between a motion and a traction from which on a point turns back.
+const BACKWARDS: f64 = 0.6;
 
 /// What a step leads through.
 #[repr(align(32))]
-pub(crate) struct StepRecord {
-    pub edge: Edge,
-    pub fine: FineEdge,
-    /// The slip, if there is any.
-    pub slip: Option<SlipRecord>,
+pub(crate) struct StepRecord<const N: usize> {
+    /// Distances S_b - S_j, the parts of the motion that the springs follow, and the trial state; 1, 1 and 0 outside.
+    pub limit: Both<Row<N>>,
+    pub part: Both<Row<N>>,
+    pub trial: Both<Row<N>>,
+    /// Stiffnesses.
+    pub stiffness: Both<Row<N>>,
+    /// τ, and r at the start.
+    pub overshoot: Row<N>,
+    pub start: Both<Row<N>>,
+    pub slip: Slip<N>,
+    /// Factors by which the fine springs return to their limits.
+    pub fine_scale: Fine<N>,
+    /// The last shell at the start, and its part.
+    pub last_before: usize,
+    pub part_before: usize,
+    /// Whether any point slips, and the number of times that Newton's method failed.
+    pub slips: bool,
+    pub failures: usize,
     /// Sum of the forces of the springs, before Coulomb's bound.
     pub sum: Both<f64>,
 }
 
-impl StepRecord {
-    #[inline(always)]
-    pub fn new() -> StepRecord {
-        StepRecord { edge: Edge::NONE, fine: FineEdge::NONE, slip: None, sum: [0.0; 2] }
-    }
-}
-
-/// A step with slip: the springs at its end in units of the roots, tractions there and over the pressure at the start.
-pub(crate) struct SlipRecord {
-    pub slip: Slip,
-    /// Displacements of the springs of the trial state.
-    pub trial: Both<Row>,
-    pub end: Both<Row>,
-    pub tractions: Both<Row>,
-    pub start: Both<Row>,
-    pub overshoot: Row,
-}
-
-impl SlipRecord {
-    /// Zeros, which are written in place: a value that is returned takes as much stack again.
-    const ZERO: SlipRecord = SlipRecord {
-        slip: Slip::ZERO,
-        trial: [[0.0; SPRINGS]; 2],
-        end: [[0.0; SPRINGS]; 2],
-        tractions: [[0.0; SPRINGS]; 2],
-        start: [[0.0; SPRINGS]; 2],
-        overshoot: [0.0; SPRINGS],
+impl<const N: usize> StepRecord<N> {
+    pub const NONE: StepRecord<N> = StepRecord {
+        limit: [[1.0; N]; 2],
+        part: [[1.0; N]; 2],
+        trial: [[0.0; N]; 2],
+        stiffness: [[0.0; N]; 2],
+        overshoot: [0.0; N],
+        start: [[0.0; N]; 2],
+        slip: Slip::NONE,
+        fine_scale: [[1.0; N]; PARTS],
+        last_before: 0,
+        part_before: 0,
+        slips: false,
+        failures: 0,
+        sum: [0.0; 2],
     };
+
+    /// Points that slip, found by Newton's method.
+    #[inline(always)]
+    pub fn slipping(&self) -> u32 {
+        if self.slips && self.slip.converged { self.slip.set } else { 0 }
+    }
 }
 
 /// Force and dissipated energy.
@@ -73,233 +80,281 @@ pub(crate) struct Outcome {
 
 /// Advances the state. Requested are the energy, and what the derivatives of the step need.
 #[inline(always)]
-pub(crate) fn step(
-    springs: &Springs,
-    state: &mut SpringState,
+pub(crate) fn step<const N: usize>(
+    springs: &Springs<N>,
+    state: &mut SpringState<N>,
     motion: &Increment,
     requested: [bool; 2],
-    record: &mut StepRecord,
+    record: &mut StepRecord<N>,
 ) -> Outcome {
     dispatch!(
         kernel,
-        springs: &Springs,
-        state: &mut SpringState,
+        [const N: usize]
+        springs: &Springs<N>,
+        state: &mut SpringState<N>,
         motion: &Increment,
         requested: [bool; 2],
-        record: &mut StepRecord => Outcome
+        record: &mut StepRecord<N> => Outcome
     )
 }
 
 #[inline(always)]
-fn kernel(
-    springs: &Springs,
-    state: &mut SpringState,
+fn kernel<const N: usize>(
+    springs: &Springs<N>,
+    state: &mut SpringState<N>,
     motion: &Increment,
-    [energy, factors]: [bool; 2],
-    record: &mut StepRecord,
+    [energy, derivatives]: [bool; 2],
+    record: &mut StepRecord<N>,
 ) -> Outcome {
-    let Increment { before, now, by, constant_load } = motion;
-    let edge = Edge::new(springs, now, constant_load.then_some((&state.shell_pressure, &state.pressure)));
-    let last = edge.last.min(SPRINGS - 1);
-    let share = Share::new(before, now);
-    let old = state.springs;
-    let (mut trial, mut limits) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; 2]);
-    for k in 0..2 {
-        for j in 0..SPRINGS {
-            let limit = now.shift[k] - springs.shift[k][j];
-            limits[k][j] = limit;
-            let inside = j <= last && j < springs.used;
-            trial[k][j] = if inside { old[k][j] + by[k] * share.of(k, limit) } else { 0.0 };
-        }
+    let Increment { before, now, by, constant_load, .. } = motion;
+    // Of springs that lose contact, before the edge is replaced.
+    let mut dissipated =
+        if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
+    (record.last_before, record.part_before) = (state.edge.last, state.edge.part);
+    if !constant_load {
+        state.edge = Edge::new(springs, now);
     }
-    let mut root = springs.root;
-    for k in 0..2 {
-        root[k][last] = edge.root[k];
+    let SpringState { v, tractions, edge, .. } = state;
+    let last = edge.last.min(N - 1);
+    let old = *v;
+    let [mut limit_x, mut limit_y] = [[1.0; N]; 2];
+    for j in 0..N {
+        let inside = j <= last;
+        limit_x[j] = if inside { now.shift[0] - springs.shift[0][j] } else { 1.0 };
+        limit_y[j] = if inside { now.shift[1] - springs.shift[1][j] } else { 1.0 };
+        let [x, y] = motion.share(limit_x[j], limit_y[j]);
+        (record.part[0][j], record.part[1][j]) = (x, y);
+        record.trial[0][j] = if inside { old[0][j] + by[0] * x } else { 0.0 };
+        record.trial[1][j] = if inside { old[1][j] + by[1] * y } else { 0.0 };
     }
-    // Tractions of the trial state.
-    let mut sticks = true;
-    let mut tractions = [[0.0; SPRINGS]; 2];
-    let map = if *constant_load {
-        for k in 0..2 {
+    record.limit = [limit_x, limit_y];
+    record.start = *tractions;
+    let mut q = [[0.0; N]; 2];
+    for k in 0..2 {
+        record.stiffness[k] = edge.stiffnesses(springs, k);
+        if *constant_load {
             let per_step = by[k] / edge.step[k];
-            for i in 0..SPRINGS {
-                tractions[k][i] = state.tractions[k][i] * edge.pressure[i] + edge.shell_pressure[i] * per_step;
+            for i in 0..N {
+                q[k][i] = tractions[k][i] * edge.pressure[i] + edge.reach[i] * per_step;
             }
+        } else {
+            q[k] = edge.tractions(springs, k, &record.trial[k]);
         }
-        None
-    } else {
-        let map = Map::new(springs, &edge);
-        let z = scaled(&trial, &map.root);
-        map.tractions(&z, &[false; SPRINGS], &mut tractions);
-        Some(map)
-    };
-    for i in 0..SPRINGS {
-        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        sticks &= x * x + y * y <= p * p * (1.0 + ROUNDING) || i > last;
     }
-    let mut dissipated = 0.0;
-    let mut end = trial;
-    record.slip = None;
-    if !sticks {
-        let map = map.unwrap_or_else(|| Map::new(springs, &edge));
-        let slipped = record.slip.insert(SlipRecord::ZERO);
-        slipped.slip.first = SPRINGS;
-        slipped.trial = trial;
-        slide(state, &edge, &map, by, [&trial, &limits, &tractions], factors, slipped);
+    let mut beyond = [0.0; N];
+    for i in 0..N {
+        let p = edge.pressure[i];
+        beyond[i] = q[0][i] * q[0][i] + q[1][i] * q[1][i] - p * p * (1.0 + ROUNDING);
+    }
+    record.slips = largest(&beyond) > 0.0;
+    let mut end = record.trial;
+    let slips = record.slips;
+    if slips {
+        slide(springs, edge, [&q[0], &q[1]], by, &beyond, derivatives, record, &mut end);
+        let every_point = record.slip.converged && record.slip.first == 0 && record.slip.count == 0;
+        if !every_point {
+            q = [edge.tractions(springs, 0, &end[0]), edge.tractions(springs, 1, &end[1])];
+        }
+        if energy {
+            let loss = if *constant_load && record.slip.converged {
+                pointwise(springs, edge, record)
+            } else {
+                of_springs(springs, last, record, motion, &old, &end)
+            };
+            dissipated += loss;
+        }
+    }
+    // Tractions over the pressure, at most 1.
+    let slipping = record.slipping();
+    let mut r = [[0.0; N]; 2];
+    for i in 0..N {
+        let (x, y, p) = (q[0][i], q[1][i], edge.pressure[i]);
+        let square = x * x + y * y;
+        let bound = if square > p * p { square } else { p * p };
+        let scale = if i <= last { 1.0 / bound.sqrt() } else { 0.0 };
+        (r[0][i], r[1][i]) = (x * scale, y * scale);
+    }
+    if slipping != 0 {
         for k in 0..2 {
-            let mut per_root = springs.per_root[k];
-            per_root[last] = 1.0 / edge.root[k];
-            for j in 0..SPRINGS {
-                end[k][j] = slipped.end[k][j] * per_root[j];
-            }
-        }
-        if energy && *constant_load {
-            dissipated = pointwise(slipped, &map, &edge);
-        }
-        tractions = slipped.tractions;
-    }
-    let mut sum = [0.0; 2];
-    for k in 0..2 {
-        let mut weights = [0.0; SPRINGS];
-        for j in 0..SPRINGS {
-            weights[j] = if j <= last { root[k][j] * root[k][j] } else { 0.0 };
-        }
-        sum[k] = dot(&weights, &end[k]);
-        if energy && !constant_load {
-            for j in 0..SPRINGS {
-                dissipated += 0.5 * weights[j] * (old[k][j] + end[k][j]) * (trial[k][j] - end[k][j]);
+            for i in 0..N {
+                r[k][i] = if record.slip.slips[i] > 0.0 { record.slip.e[k][i] } else { r[k][i] };
             }
         }
     }
-    if energy && !constant_load {
-        dissipated = dissipated.max(0.0) + separated_from(springs, &old, motion, Some(last));
-    }
-    for i in 0..SPRINGS {
-        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        let scale = if i <= last { 1.0 / (x * x + y * y).max(p * p).max(TINY).sqrt() } else { 0.0 };
-        (state.tractions[0][i], state.tractions[1][i]) = (x * scale, y * scale);
-    }
-    state.springs = end;
-    (state.shell_pressure, state.pressure) = (edge.shell_pressure, edge.pressure);
-    let fine = FineEdge::new(springs, now, &edge);
-    let (addition, loss) = fine::step(springs, &fine, &mut state.fine, before, now, by, *constant_load);
-    sum = [sum[0] + addition[0], sum[1] + addition[1]];
-    let over = (product(&sum, &sum).sqrt() / now.load).max(1.0);
-    let force = [sum[0] / over, sum[1] / over];
-    (record.edge, record.fine, record.sum) = (edge, fine, sum);
-    Outcome { force, dissipated: (dissipated + loss).max(0.0) }
+    (*tractions, *v) = (r, end);
+    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, energy, &mut record.fine_scale);
+    let sum = [dot(&record.stiffness[0], &end[0]) + addition[0], dot(&record.stiffness[1], &end[1]) + addition[1]];
+    let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
+    record.sum = sum;
+    Outcome { force: [sum[0] / over, sum[1] / over], dissipated: (dissipated + loss).max(0.0) }
 }
 
+/// The slip from a trial state that exceeds Coulomb's bound.
 #[inline(always)]
-fn scaled(springs: &Both<Row>, root: &Both<Row>) -> Both<Row> {
-    let mut scaled = *springs;
-    for k in 0..2 {
-        for j in 0..SPRINGS {
-            scaled[k][j] *= root[k][j];
-        }
-    }
-    scaled
-}
-
-/// The slip from a trial state that exceeds Coulomb's bound: displacements, distances to the present size, tractions.
-#[inline(always)]
-fn slide(
-    state: &SpringState,
-    edge: &Edge,
-    map: &Map,
+#[expect(clippy::too_many_arguments, reason = "parts of one step")]
+fn slide<const N: usize>(
+    springs: &Springs<N>,
+    edge: &Edge<N>,
+    q: [&Row<N>; 2],
     by: &Both<f64>,
-    [trial, limits, tractions]: [&Both<Row>; 3],
-    factors: bool,
-    slipped: &mut SlipRecord,
+    beyond: &Row<N>,
+    derivatives: bool,
+    record: &mut StepRecord<N>,
+    end: &mut Both<Row<N>>,
 ) {
-    let last = edge.last;
-    let SlipRecord { slip, end, tractions: end_tractions, start, overshoot, .. } = slipped;
-    *start = state.tractions;
-    for i in (0..SPRINGS).rev() {
-        if i > last {
-            continue;
-        }
-        let (x, y) = (trial[0][i] / limits[0][i].max(TINY), trial[1][i] / limits[1][i].max(TINY));
-        let over = (x * x + y * y).sqrt();
-        overshoot[i] = (over - 1.0).max(0.0);
-        if over > 1.0 {
-            let per_over = 1.0 / over.max(TINY);
-            slip.begin(i, [x * per_over, y * per_over]);
-            continue;
-        }
-        // A point that slipped before continues if the next one outside does, unless the motion turns back.
-        let (x, y, p) = (tractions[0][i], tractions[1][i], edge.pressure[i]);
-        let r = [start[0][i], start[1][i]];
-        let slipped = product(&r, &r) > 1.0 - 1e-9 && product(&r, by) > 0.0 && slip.first == i + 1;
-        if slipped || x * x + y * y > p * p {
-            let per_length = 1.0 / (x * x + y * y).max(TINY).sqrt();
-            slip.begin(i, [x * per_length, y * per_length]);
+    let StepRecord { limit, trial, overshoot, start, slip, stiffness, failures, .. } = record;
+    let last = edge.last.min(N - 1);
+    let ([mut trial_x, mut trial_y], [mut e_x, mut e_y]) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+    let (mut over, mut continues) = ([0.0; N], [0.0; N]);
+    let backwards = -BACKWARDS * (by[0] * by[0] + by[1] * by[1]).sqrt();
+    for i in 0..N {
+        let (x, y) = (trial[0][i] / limit[0][i], trial[1][i] / limit[1][i]);
+        let square = x * x + y * y;
+        let outside = square > 1.0;
+        let (x, y) = if outside { (x, y) } else { (q[0][i], q[1][i]) };
+        let square = x * x + y * y;
+        let length = (if square > TINY { square } else { TINY }).sqrt();
+        let (x, y) = (x / length, y / length);
+        over[i] = if outside { length - 1.0 } else { 0.0 };
+        (trial_x[i], trial_y[i]) = (x, y);
+        let (r_x, r_y) = (start[0][i], start[1][i]);
+        let slipped = r_x * r_x + r_y * r_y > SLIPPED;
+        let near = slipped && x * r_x + y * r_y > NEAR;
+        (e_x[i], e_y[i]) = (if near { r_x } else { x }, if near { r_y } else { y });
+        continues[i] = if slipped && r_x * by[0] + r_y * by[1] > backwards { 1.0 } else { 0.0 };
+    }
+    *overshoot = over;
+    let (mut outside, mut set) = (0, 0);
+    for i in (0..=last).rev() {
+        let is_outside = over[i] > 0.0 || beyond[i] > 0.0;
+        outside |= Set::from(is_outside) << i;
+        // A point that slipped before continues if the next one outside does.
+        let outer = set >> (i + 1) & 1 == 1;
+        set |= Set::from(is_outside || (outer && continues[i] > 0.0)) << i;
+    }
+    let problem = Problem { springs, edge, stiffness, trial, start, overshoot };
+    // A contact that slips on hardly turns; otherwise slip begins from the trial state.
+    let from_start = Guess { e: [e_x, e_y], set, largest_turn: LARGEST_TURN };
+    let from_trial = Guess { e: [trial_x, trial_y], set: outside, largest_turn: LOST };
+    for guess in [from_start, from_trial] {
+        slip.solve(&problem, &guess, derivatives, end);
+        if slip.converged {
+            break;
         }
     }
-    let trial = scaled(trial, &map.root);
-    let problem = Problem { map, trial: &trial, pressure: &edge.pressure, start, overshoot };
-    slip.solve(&problem, factors, [end, end_tractions]);
     if !slip.converged {
+        *failures += 1;
         // Each spring returns to its own limit.
         for k in 0..2 {
-            for j in 0..SPRINGS {
+            for j in 0..N {
                 end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
             }
         }
-        *end_tractions = [[0.0; SPRINGS]; 2];
-        map.tractions(end, &[false; SPRINGS], end_tractions);
     }
 }
 
-/// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at the end.
+/// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at
+/// the end.
 #[inline(always)]
-fn pointwise(slipped: &SlipRecord, map: &Map, edge: &Edge) -> f64 {
-    let SlipRecord { slip, start, .. } = slipped;
-    let mut energy = 0.0;
-    for i in 0..SPRINGS {
-        if i > edge.last || !slip.slips[i] {
-            continue;
+fn pointwise<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, record: &StepRecord<N>) -> f64 {
+    let StepRecord { slip, start, stiffness, .. } = record;
+    let last = edge.last.min(N - 1);
+    // Σ C_ij²/w_j, the traction that a unit of slip at the point alone relaxes.
+    let mut relaxed = [[0.0; N]; 2];
+    for k in 0..2 {
+        let (mut sum, mut before) = ([0.0; N], [0.0; N]);
+        for j in slip.first..=last {
+            let fixed = j < last;
+            let row = if fixed { &springs.traction[j] } else { &edge.reach };
+            let per_step = if fixed { springs.per_step[k][j] } else { 1.0 / edge.step[k] };
+            let per_stiffness = 1.0 / stiffness[k][j];
+            for i in 0..N {
+                let now = row[i] * per_step;
+                let entry = if i <= j { now - before[i] } else { 0.0 };
+                sum[i] += entry * entry * per_stiffness;
+                before[i] = now;
+            }
         }
-        let sigma = at(&slip.sigma, i);
+        relaxed[k] = sum;
+    }
+    let mut energy = [0.0; N];
+    for i in 0..N {
         let p = edge.pressure[i];
-        let (end, r) = (at(&slip.e, i).map(|e| p * e), at(start, i).map(|r| p * r));
-        let mut path = [0.0; 2];
-        for k in 0..2 {
-            let row = map.row(k, i);
-            path[k] = end[k] + dot(&row, &row) * sigma[k] - r[k];
-        }
-        let (square, along) = (product(&path, &path), product(&r, &path));
-        let inside = (p * p - product(&r, &r)).max(0.0);
-        let root = (along * along + square * inside).sqrt();
-        let part = (inside / (along + root).max(TINY)).min(1.0);
-        let part = if along > 0.0 { part } else { ((root - along) / square.max(TINY)).min(1.0) };
-        let exit = [r[0] + part * path[0], r[1] + part * path[1]];
-        energy += (0.5 * (product(&sigma, &exit) + product(&sigma, &end))).max(0.0);
+        let (s_x, s_y) = (slip.sigma[0][i], slip.sigma[1][i]);
+        let (r_x, r_y) = (start[0][i] * p, start[1][i] * p);
+        let (q_x, q_y) = (slip.e[0][i] * p, slip.e[1][i] * p);
+        let (g_x, g_y) = (q_x + relaxed[0][i] * s_x - r_x, q_y + relaxed[1][i] * s_y - r_y);
+        let inside = r_x * r_x + r_y * r_y - p * p;
+        let inside = if inside < 0.0 { inside } else { 0.0 };
+        let part = energy::exit(g_x * g_x + g_y * g_y, r_x * g_x + r_y * g_y, inside);
+        let work = 0.5 * (s_x * (r_x + part * g_x + q_x) + s_y * (r_y + part * g_y + q_y));
+        energy[i] = if slip.slips[i] > 0.0 && work > 0.0 { work } else { 0.0 };
     }
-    energy
+    total(&energy)
 }
 
-/// Energy dissipated if the contact opens.
-pub(crate) fn separated(springs: &Springs, state: &SpringState, motion: &Increment) -> f64 {
-    separated_from(springs, &state.springs, motion, None)
+/// Energy dissipated by the springs under a load that changes.
+#[inline(always)]
+fn of_springs<const N: usize>(
+    springs: &Springs<N>,
+    last: usize,
+    record: &StepRecord<N>,
+    motion: &Increment,
+    old: &Both<Row<N>>,
+    end: &Both<Row<N>>,
+) -> f64 {
+    let StepRecord { limit, trial, start, slip, stiffness, .. } = record;
+    let mut energy = [0.0; N];
+    let converged = if slip.converged { 1.0 } else { 0.0 };
+    for j in 0..N {
+        let inside = j <= last;
+        let before = motion.before.shift[0] - springs.shift[0][j];
+        let before = if inside && before > 0.0 { before } else { 0.0 };
+        let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
+        let old = [if inside { old[0][j] } else { 0.0 }, if inside { old[1][j] } else { 0.0 }];
+        let (w, trial) = ([stiffness[0][j], stiffness[1][j]], [trial[0][j], trial[1][j]]);
+        let along = slip.e[0][j] * start[0][j] + slip.e[1][j] * start[1][j];
+        let beta = if along > 0.0 { slip.per_along[j] * along * slip.slips[j] * converged } else { 0.0 };
+        let places = [old, trial, [end[0][j], end[1][j]]];
+        energy[j] = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0 - beta);
+    }
+    total(&energy).max(0.0)
 }
 
-/// Energy of the springs beyond the last one, which lose contact in a step: they slip from where they are to nothing.
-fn separated_from(springs: &Springs, old: &Both<Row>, motion: &Increment, last: Option<usize>) -> f64 {
+/// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
+#[inline(always)]
+pub(crate) fn separated<const N: usize>(
+    springs: &Springs<N>,
+    state: &SpringState<N>,
+    motion: &Increment,
+    opens: bool,
+) -> f64 {
     let Increment { before, now, by, .. } = motion;
+    let edge = &state.edge;
+    let outer = edge.last.min(N - 1);
+    let last = if opens { 0 } else { springs.last_shell(now.shift[0]).min(outer) };
+    let part = if opens { 0 } else { springs.last_part(last, now.shift[0]) };
+    let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
     let mut energy = 0.0;
-    for j in 0..SPRINGS {
-        let stays = last.is_some_and(|last| j <= last);
-        if stays || j >= springs.used || springs.shift[0][j] >= before.shift[0] {
-            continue;
+    for j in last..=outer {
+        for r in 0..PARTS {
+            if (!opens && j == last && r <= part) || (j == outer && r > edge.part) {
+                continue;
+            }
+            let (mut limit, mut w, mut fine) = ([0.0; 2], edge.stiffness, [0.0; 2]);
+            for k in 0..2 {
+                limit[k] = (before.shift[k] - springs.fine_shift[k][r][j]).max(TINY);
+                let inner = j < outer;
+                w[k] = if inner { springs.stiffness[k][j] } else { w[k] };
+                fine[k] = if inner { springs.fine_stiffness[k][r][j] } else { edge.fine_stiffness[k][r] };
+            }
+            if r == 0 {
+                energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by);
+            }
+            if j >= springs.under_flat {
+                energy += energy::lost(fine, [state.fine[0][r][j], state.fine[1][r][j]], limit, fall, *by);
+            }
         }
-        let mut of_spring = 0.0;
-        for k in 0..2 {
-            let part = (before.shift[k] - springs.shift[k][j]).max(0.0) / (before.shift[k] - now.shift[k]).max(TINY);
-            let weight = springs.root[k][j] * springs.root[k][j];
-            of_spring += 0.5 * weight * old[k][j] * (old[k][j] + part * by[k]);
-        }
-        energy += of_spring.max(0.0);
     }
-    energy
+    energy.max(0.0)
 }

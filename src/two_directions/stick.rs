@@ -1,98 +1,100 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion, which the state keeps as one offset.
 
+use super::edge::Edge;
+use super::fine;
 use super::spring_state::{SpringState, StoredSprings};
-use super::step::ROUNDING;
-use crate::element::springs::{Both, FINE, Pressed, SPRINGS, Springs};
-use crate::shape::TINY;
+use super::springs::{Both, PARTS, Pressed, Springs, largest};
+use super::step::{ROUNDING, SLIPPED};
 use crate::simd::dispatch;
-
-/// The spring at the edge of each bank: its stiffness is that of all springs together, W.
-struct Edges {
-    last: usize,
-    fine_last: usize,
-    /// S_b - S.
-    step: Both<f64>,
-    fine_step: Both<f64>,
-}
-
-impl Edges {
-    #[inline(always)]
-    fn new(springs: &Springs, now: &Pressed) -> Edges {
-        let last = springs.last_shell(now.shift[0]);
-        let fine_last = springs.last_fine_shell(last, now.shift[0]);
-        let distance = |shift: &Both<f64>| [0, 1].map(|k| (now.shift[k] - shift[k]).max(TINY));
-        let step = distance(&[springs.shift[0][last], springs.shift[1][last]]);
-        let fine_step = distance(&[springs.fine_shift[0][fine_last], springs.fine_shift[1][fine_last]]);
-        Edges { last, fine_last, step, fine_step }
-    }
-}
 
 /// Stiffness, and derivatives of the force with respect to the load and to the shift.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stuck {
     pub stiffness: Both<f64>,
+    /// Whether a point is at its limit, so that another load makes it slip.
+    pub at_limit: bool,
     pub per_load: Both<f64>,
     pub per_shift: Both<f64>,
 }
 
 /// The contact if nothing slips with the offset, from the state without.
 #[inline(always)]
-pub(crate) fn stuck(springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
-    dispatch!(kernel, springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64> => Option<Stuck>)
+pub(crate) fn stuck<const N: usize>(
+    springs: &Springs<N>,
+    state: &StoredSprings<N>,
+    now: &Pressed,
+    offset: &Both<f64>,
+) -> Option<Stuck> {
+    dispatch!(
+        kernel,
+        [const N: usize]
+        springs: &Springs<N>,
+        state: &StoredSprings<N>,
+        now: &Pressed,
+        offset: &Both<f64> => Option<Stuck>
+    )
 }
 
 #[inline(always)]
-fn kernel(springs: &Springs, state: &StoredSprings, now: &Pressed, offset: &Both<f64>) -> Option<Stuck> {
-    let Edges { last, fine_last, step, fine_step } = Edges::new(springs, now);
-    let per_step = [offset[0] / step[0], offset[1] / step[1]];
-    let mut slips = false;
-    for i in 0..SPRINGS {
+fn kernel<const N: usize>(
+    springs: &Springs<N>,
+    state: &StoredSprings<N>,
+    now: &Pressed,
+    offset: &Both<f64>,
+) -> Option<Stuck> {
+    let edge: &Edge<N> = &state.edge();
+    let last = edge.last.min(N - 1);
+    let per_step = [offset[0] / edge.step[0], offset[1] / edge.step[1]];
+    let (mut beyond, mut squares) = ([0.0; N], [0.0; N]);
+    let [x, y] = state.tractions;
+    for i in 0..N {
         let p = state.pressure[i];
-        let x = state.tractions[0][i] * p + state.shell_pressure[i] * per_step[0];
-        let y = state.tractions[1][i] * p + state.shell_pressure[i] * per_step[1];
-        slips |= x * x + y * y > p * p * (1.0 + ROUNDING);
+        squares[i] = x[i] * x[i] + y[i] * y[i];
+        let x = x[i] * p + state.reach[i] * per_step[0];
+        let y = y[i] * p + state.reach[i] * per_step[1];
+        beyond[i] = x * x + y * y - p * p * (1.0 + ROUNDING);
     }
-    // The fourth powers of large limits overflow.
-    let per_shift = 1.0 / now.shift[1];
-    for j in 0..FINE {
-        let inside = j <= fine_last;
-        let limit = [0, 1].map(|k| if inside { now.shift[k] - springs.fine_shift[k][j] } else { 1.0 });
-        let value = [0, 1].map(|k| if inside { state.fine[k][j] + offset[k] } else { 0.0 });
-        let lateral = limit[1] * per_shift;
-        let (x, y, bound) = (value[0] * lateral, value[1] * per_shift * limit[0], limit[0] * lateral);
-        slips |= x * x + y * y > bound * bound;
+    for r in 0..PARTS {
+        let stop = if r <= edge.part { last + 1 } else { last };
+        let limit = fine::limits(springs, edge, &now.shift, r);
+        for j in 0..N {
+            let inside = j >= springs.under_flat && j < stop;
+            let (x, y) =
+                ((state.fine[0][r][j] + offset[0]) * limit[1][j], (state.fine[1][r][j] + offset[1]) * limit[0][j]);
+            let bound = limit[0][j] * limit[1][j];
+            let excess = x * x + y * y - bound * bound;
+            beyond[j] = if inside && excess > beyond[j] { excess } else { beyond[j] };
+        }
     }
-    if slips {
+    if largest(&beyond) > 0.0 {
         return None;
     }
-    let coarse = springs.fine_node(last);
-    let mut stuck = Stuck { stiffness: [0.0; 2], per_load: [0.0; 2], per_shift: [0.0; 2] };
+    let at_limit = largest(&squares) > SLIPPED;
+    let mut stuck = Stuck { stiffness: edge.fine_secant, at_limit, per_load: [0.0; 2], per_shift: [0.0; 2] };
     for k in 0..2 {
-        let secant = (now.load - springs.load[last]) / step[k];
-        let fine_secant = (now.load - springs.fine_load[fine_last]) / fine_step[k];
-        stuck.stiffness[k] = fine_secant;
         // Of the springs at the edge, which change with the load.
-        let coarse = (state.springs[k][last] - state.fine[k][coarse]) / step[k];
-        let fine = (state.fine[k][fine_last] + offset[k]) / fine_step[k];
-        stuck.per_load[k] = coarse + fine;
-        stuck.per_shift[k] = -(coarse * secant + fine * fine_secant);
+        let law = (state.v[k][last] - state.fine[k][0][last]) / edge.step[k];
+        let fine = (state.fine[k][edge.part.min(PARTS - 1)][last] + offset[k]) / edge.fine_step[k];
+        stuck.per_load[k] = law + fine;
+        stuck.per_shift[k] = -(law * edge.secant[k] + fine * edge.fine_secant[k]);
     }
     Some(stuck)
 }
 
 /// Adds the offset to the state.
 #[inline(always)]
-pub(crate) fn settle(springs: &Springs, state: &mut SpringState, now: &Pressed, offset: &Both<f64>) {
-    let Edges { last, fine_last, step, .. } = Edges::new(springs, now);
+pub(crate) fn settle<const N: usize>(springs: &Springs<N>, state: &mut SpringState<N>, offset: &Both<f64>) {
+    let edge = &state.edge;
     for k in 0..2 {
-        for i in 0..SPRINGS {
-            if i <= last {
-                state.springs[k][i] += offset[k];
-                state.tractions[k][i] += state.shell_pressure[i] * offset[k] / step[k] / state.pressure[i].max(TINY);
-            }
+        for i in 0..=edge.last.min(N - 1) {
+            state.v[k][i] += offset[k];
+            state.tractions[k][i] += edge.reach[i] * offset[k] / edge.step[k] / edge.pressure[i];
         }
-        for j in 0..FINE {
-            state.fine[k][j] += if j <= fine_last { offset[k] } else { 0.0 };
+        for r in 0..PARTS {
+            let stop = if r <= edge.part { edge.last + 1 } else { edge.last };
+            for j in springs.under_flat..stop.min(N) {
+                state.fine[k][r][j] += offset[k];
+            }
         }
     }
 }

@@ -1,417 +1,644 @@
-//! Derivatives of a step with respect to any number of parameters, its columns: exact, by differentiating the equations of the slip.
+//! Derivatives of a step: those of the state at its end and of the force, from those at its start, for C columns at once; exact, by
+//! differentiating the equations of the slip.
 //!
-//! The map B depends on the load through the column of the last spring only. With `h = B (dz* - dB'σ) + dB z - e dp` the multipliers
-//! change by `dσ = S (h - p e' dθ)`, and the angles by `K dθ = -(dσ at fixed angles) × n - σ × dn`, with the factors of Newton's method.
+//! At the solution the set of slipping points is fixed, and the angles of the tractions follow from the linear system of Newton's
+//! method with its inverse J:
+//!
+//! ```text
+//! dθ = J (n × dσ + σ × dn),   dσ = U' w (dv* - dU q - U e dp) + d(U' w) (v* - v) at fixed angles,   dq = p de + e dp
+//! ```
+//!
+//! The springs follow as `dv = U dq + dU q`. U, w and p depend on the load through the last shell only. Points that stick within are
+//! eliminated with the pivots of the step. What is kept of a spring is its derivative less that of the displacement of the contact, which
+//! does not change as long as the spring sticks.
 
-use super::columns::{add, add_row, row, row_mut, scale};
-use super::edge::{Map, Share};
-use super::slip::{DirectionSlopes, at, product, solve_columns};
+use super::edge::Edge;
+use super::fine::{self, SLIPS};
 use super::spring_state::SpringState;
-use super::step::{Increment, SlipRecord, StepRecord};
-use crate::element::springs::{Both, FINE, Row, SPRINGS, Springs};
+use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
+use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// Rows of the derivatives of a state: springs, tractions, fine bank.
-const TRACTIONS: usize = 2 * SPRINGS;
-const FINE_ROWS: usize = 4 * SPRINGS;
-pub(crate) const ROWS: usize = FINE_ROWS + 2 * FINE;
-/// Rows of scratch memory: h of both directions, the angles, and one row.
-const ANGLES: usize = 2 * SPRINGS;
-const SINGLE: usize = 3 * SPRINGS;
-pub(crate) const SCRATCH: usize = SINGLE + 1;
+/// Derivatives of a value, a column per parameter.
+pub(crate) type Columns<const C: usize> = [f64; C];
+/// Those of a row.
+type Rows<const N: usize, const C: usize> = [[f64; C]; N];
 
-/// Derivatives of the motion, a row of columns each: displacements; N, S of both directions and w² at the end; S at the start.
-pub(crate) struct IncrementColumns<'a> {
-    pub by: Both<&'a [f64]>,
-    pub load: &'a [f64],
-    pub shift: Both<&'a [f64]>,
-    pub size: &'a [f64],
-    pub before: Both<&'a [f64]>,
+/// Rows of the derivatives of a state of N springs.
+pub(crate) const fn rows(n: usize) -> usize {
+    2 + (4 + 2 * PARTS) * n
 }
 
-/// A step, and what was recorded of it.
-pub(crate) struct RecordedStep<'a> {
-    pub springs: &'a Springs,
-    /// The state at the start and at the end.
-    pub memories: [&'a SpringState; 2],
-    pub motion: &'a Increment,
-    pub record: &'a StepRecord,
+/// Derivatives of a state.
+pub(crate) struct Derivatives<'a, const N: usize, const C: usize> {
+    /// Of the displacement since the contact closed.
+    displacement: &'a mut Both<Columns<C>>,
+    /// Of the springs, less that of the displacement; of the tractions.
+    springs: Both<&'a mut Rows<N, C>>,
+    tractions: Both<&'a mut Rows<N, C>>,
+    fine: Both<&'a mut [Rows<N, C>; PARTS]>,
 }
 
-/// Derivatives of a quantity of direction k by w², S_k and N at the end.
-#[derive(Debug, Clone, Copy, Default)]
-struct Slopes {
-    size: f64,
-    shift: f64,
-    load: f64,
-}
-
-impl Slopes {
-    /// place += factor × the change of the quantity.
+impl<'a, const N: usize, const C: usize> Derivatives<'a, N, C> {
+    /// Of [`rows`].
     #[inline(always)]
-    fn add(&self, place: &mut [f64], factor: f64, columns: &IncrementColumns, k: usize) {
-        if self.size != 0.0 {
-            add(place, factor * self.size, columns.size);
-        }
-        add(place, factor * self.shift, columns.shift[k]);
-        add(place, factor * self.load, columns.load);
+    pub fn new(values: &'a mut [[f64; C]]) -> Option<Derivatives<'a, N, C>> {
+        let (displacement, values) = values.split_first_chunk_mut()?;
+        let ([x, y, r_x, r_y], fine) = values.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
+        let (fine_x, fine) = fine.split_first_chunk_mut()?;
+        let fine = [fine_x, fine.first_chunk_mut()?];
+        Some(Derivatives { displacement, springs: [x, y], tractions: [r_x, r_y], fine })
     }
 }
 
-/// What the edge depends on the load through: the pressures, and the root of the stiffness and the column of the last spring.
-struct EdgeSlopes {
-    /// dp_i/d(w²).
-    pressure: Row,
-    /// d(root)/root.
-    root: Both<Slopes>,
-    column: Both<[Slopes; SPRINGS]>,
+/// Derivatives of the motion: its displacements, the normal component at its end and at its start, and the logarithm of the size that the
+/// springs are aligned with.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct IncrementColumns<const C: usize> {
+    pub by: Both<Columns<C>>,
+    pub end: Columns<C>,
+    pub start: Columns<C>,
+    pub alignment: Columns<C>,
 }
 
-impl EdgeSlopes {
+/// A step that was taken.
+pub(crate) struct Taken<'a, const N: usize> {
+    pub springs: &'a Springs<'a, N>,
+    /// The state at its end.
+    pub new: &'a SpringState<N>,
+    pub motion: &'a Increment,
+    pub record: &'a StepRecord<N>,
+    /// Derivatives of the normal state at the end and at the start.
+    pub slopes: PressedSlopes,
+    pub start_slopes: PressedSlopes,
+}
+
+/// Relative distance of the sizes of the neighbours: the error is the square of it times the third derivative, up to 1e5 where the edge is
+/// close to a node, and a rounding error over it.
+pub(crate) const NEIGHBOUR: f64 = 1e-6;
+
+/// y += a x.
+#[inline(always)]
+fn put<const C: usize>(y: &mut Columns<C>, a: f64, x: &Columns<C>) {
+    add(y, a, x);
+}
+
+#[inline(always)]
+fn scaled<const C: usize>(a: f64, x: &Columns<C>) -> Columns<C> {
+    let mut y = [0.0; C];
+    for c in 0..C {
+        y[c] = a * x[c];
+    }
+    y
+}
+
+#[inline(always)]
+fn sum_of<const C: usize>(a: &Columns<C>, b: &Columns<C>) -> Columns<C> {
+    let mut y = [0.0; C];
+    for c in 0..C {
+        y[c] = a[c] + b[c];
+    }
+    y
+}
+
+/// The normal state and the alignment, which a step depends on besides the displacement and the state at its start: derivatives of the
+/// step with respect to one of them, at fixed angles of slip and springs at the start.
+pub(crate) struct Parameter<const N: usize> {
+    /// Of the distances from the nodes of the fine springs to the edge: part 0 is that of the law.
+    limit: Both<Fine<N>>,
+    /// Of the pressure; of σ through U and w, and through the pressures.
+    pressure: Row<N>,
+    sigma: Both<Row<N>>,
+    sigma_by_pressure: Both<Row<N>>,
+    /// Of the springs, dU q; of the tractions at fixed springs, and of the force.
+    springs: Both<Row<N>>,
+    tractions: Both<Row<N>>,
+    force: Both<f64>,
+}
+
+impl<const N: usize> Parameter<N> {
+    const NONE: Parameter<N> = Parameter {
+        limit: [[[0.0; N]; PARTS]; 2],
+        pressure: [0.0; N],
+        sigma: [[0.0; N]; 2],
+        sigma_by_pressure: [[0.0; N]; 2],
+        springs: [[0.0; N]; 2],
+        tractions: [[0.0; N]; 2],
+        force: [0.0; 2],
+    };
+
+    /// The normal component at the end.
+    pub fn load(taken: &Taken<N>) -> Parameter<N> {
+        dispatch!(by_load, [const N: usize] taken: &Taken<N> => Parameter<N>)
+    }
+
+    /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
+    pub fn alignment(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
+        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: &[Springs<N>; 2] => Parameter<N>)
+    }
+
     #[inline(always)]
-    fn new(recorded: &RecordedStep, map: &Map) -> EdgeSlopes {
-        let RecordedStep { springs, motion, record, .. } = *recorded;
-        let edge = &record.edge;
-        let last = edge.last.min(SPRINGS - 1);
-        let mut slopes = EdgeSlopes {
-            pressure: [0.0; SPRINGS],
-            root: [Slopes::default(); 2],
-            column: [[Slopes::default(); SPRINGS]; 2],
-        };
-        for i in 0..last {
-            let height = (motion.now.size - springs.point[i]).max(TINY).sqrt();
-            slopes.pressure[i] = 0.5 * springs.weight[last] * springs.unit[i] / height;
+    fn through_pressure(&mut self, taken: &Taken<N>) {
+        let slip = &taken.record.slip;
+        if taken.record.slipping() == 0 {
+            return;
         }
         for k in 0..2 {
-            let (per_root, per_step) = (1.0 / edge.root[k], 1.0 / edge.step[k]);
-            let load = 0.5 * per_root * per_root * per_step;
-            let root = Slopes { size: 0.0, shift: -load * edge.secant[k], load };
-            slopes.root[k] = root;
-            for i in 0..SPRINGS {
-                if i <= last {
-                    let column = map.column[k][i];
-                    slopes.column[k][i] = Slopes {
-                        size: slopes.pressure[i] * per_step * per_root,
-                        shift: -edge.slope(k, i) * per_step * per_root - column * root.shift,
-                        load: -column * root.load,
-                    };
+            for i in slip.first..N {
+                if slip.contains(i) {
+                    add(&mut self.sigma_by_pressure[k], -self.pressure[i] * slip.e[k][i], &slip.square[k][i]);
                 }
             }
         }
-        slopes
     }
 }
 
-/// Replaces the derivatives of the state at the start of a step, `ROWS` rows of n columns, by those at its end, and writes those of
-/// the force of both directions.
 #[inline(always)]
-pub(crate) fn step(
-    recorded: &RecordedStep,
-    columns: &IncrementColumns,
-    derivatives: &mut [f64],
-    scratch: &mut [f64],
-    force: Both<&mut [f64]>,
-) {
+fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
+    let Taken { springs, new, motion, record, slopes, .. } = *taken;
+    let (edge, slip) = (&new.edge, &record.slip);
+    let last = edge.last.min(N - 1);
+    let mut load = Parameter::NONE;
+    let [_, by_size] = springs.reach(last, &motion.now);
+    for i in 0..N {
+        load.pressure[i] = by_size[i] * slopes.size;
+    }
+    for k in 0..2 {
+        let shift = slopes.shift[k];
+        load.limit[k] = [[shift; N]; PARTS];
+        let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
+        let fine_stiffness = (slopes.load - edge.fine_secant[k] * shift) / edge.fine_step[k];
+        load.force[k] = (new.v[k][last] - new.fine[k][0][last]) * stiffness
+            + new.fine[k][edge.part.min(PARTS - 1)][last] * fine_stiffness;
+        let at_edge = new.v[k][last] / edge.step[k];
+        for i in 0..N {
+            load.tractions[k][i] = (load.pressure[i] - edge.reach[i] * shift / edge.step[k]) * at_edge;
+        }
+        if record.slipping() == 0 {
+            continue;
+        }
+        let mut corner = edge.step[k] * stiffness * (record.trial[k][last] - new.v[k][last]);
+        for j in slip.first..=last {
+            let column = shift - dot(&springs.displacement[k][j], &load.pressure);
+            corner += column * record.stiffness[k][j] * (record.trial[k][j] - new.v[k][j]);
+            load.springs[k][j] = column * slip.q[k][last];
+        }
+        load.sigma[k][last] = corner;
+    }
+    load.through_pressure(taken);
+    load
+}
+
+#[inline(always)]
+fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
+    let Taken { new, motion, record, .. } = *taken;
+    let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
+    let mut of = Parameter::NONE;
+    for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
+        let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
+        add(&mut of.pressure, weight, &edge.pressure);
+        for k in 0..2 {
+            let stiffness = edge.stiffnesses(springs, k);
+            add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
+            of.force[k] += weight * dot(&stiffness, &new.v[k]);
+            for r in 0..PARTS {
+                add(&mut of.limit[k][r], -weight, &springs.fine_shift[k][r]);
+                of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
+            }
+            if record.slipping() == 0 {
+                continue;
+            }
+            for j in slip.first.min(N - 1)..=last {
+                let row = edge.displacement(springs, k, j);
+                of.springs[k][j] += weight * dot(&row, &slip.q[k]);
+                add(&mut of.sigma[k], weight * stiffness[j] * (record.trial[k][j] - new.v[k][j]), &row);
+            }
+        }
+    }
+    of.through_pressure(taken);
+    of
+}
+
+/// Parameters, the load first, and their derivatives.
+#[derive(Clone, Copy)]
+struct Parameters<'a, const N: usize, const C: usize> {
+    of: &'a [Parameter<N>],
+    columns: [&'a Columns<C>; 2],
+}
+
+impl<'a, const N: usize, const C: usize> Parameters<'a, N, C> {
+    #[inline(always)]
+    fn iter(self) -> impl Iterator<Item = (&'a Parameter<N>, &'a Columns<C>)> {
+        self.of.iter().zip(self.columns)
+    }
+}
+
+/// Replaces the derivatives of the state at the start of a step by those at its end; those of the force. `inner` is the first shell whose
+/// spring has slipped, or was engaged, since the contact closed.
+#[inline(always)]
+pub(crate) fn tangent<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    parameters: &[Parameter<N>],
+    columns: &IncrementColumns<C>,
+    derivatives: &mut Derivatives<N, C>,
+    inner: usize,
+) -> Both<Columns<C>> {
     dispatch!(
         kernel,
-        recorded: &RecordedStep,
-        columns: &IncrementColumns,
-        derivatives: &mut [f64],
-        scratch: &mut [f64],
-        force: Both<&mut [f64]> => ()
-    );
+        [const N: usize, const C: usize]
+        taken: &Taken<N>,
+        parameters: &[Parameter<N>],
+        columns: &IncrementColumns<C>,
+        derivatives: &mut Derivatives<N, C>,
+        inner: usize => Both<Columns<C>>
+    )
+}
+
+/// The first shell whose spring has slipped or was engaged, from that before the step.
+pub(crate) fn inner_after<const N: usize>(taken: &Taken<N>, inner: usize) -> usize {
+    let Taken { springs, new, motion, record, .. } = *taken;
+    let mut inner = inner;
+    if motion.per_rise[0] > 0.0 {
+        inner = inner.min(record.last_before);
+    }
+    if record.slips {
+        inner = inner.min(if record.slip.converged { record.slip.first } else { 0 });
+    }
+    let first = springs.under_flat;
+    for row in &record.fine_scale {
+        let slips = |(j, scale): (usize, &f64)| (j >= first && j <= new.edge.last && *scale < SLIPS).then_some(j);
+        inner = row.iter().enumerate().find_map(slips).unwrap_or(N).min(inner);
+    }
+    inner
 }
 
 #[inline(always)]
-fn kernel(
-    recorded: &RecordedStep,
-    columns: &IncrementColumns,
-    derivatives: &mut [f64],
-    scratch: &mut [f64],
-    [force_x, force_y]: Both<&mut [f64]>,
-) {
-    let RecordedStep { springs, memories: [_, new], motion, record } = *recorded;
-    let (n, last) = (columns.load.len(), record.edge.last.min(SPRINGS - 1));
-    let share = Share::new(&motion.before, &motion.now);
-    let map = Map::new(springs, &record.edge);
-    let edge = EdgeSlopes::new(recorded, &map);
-    let slipped = record.slip.as_ref();
-    let converged = slipped.filter(|slipped| slipped.slip.converged);
-    trial(recorded, &share, columns, derivatives);
-    if let Some(slipped) = converged {
-        scratch.get_mut(..n * SCRATCH).unwrap_or(&mut []).fill(0.0);
-        directions(recorded, slipped, columns, derivatives, scratch);
-    }
-    // From v to z = sqrt(w) v.
-    let trial = slipped.map_or(&new.springs, |slipped| &slipped.trial);
+fn kernel<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    parameters: &[Parameter<N>],
+    columns: &IncrementColumns<C>,
+    derivatives: &mut Derivatives<N, C>,
+    inner: usize,
+) -> Both<Columns<C>> {
+    let Taken { new, motion, record, slopes, .. } = *taken;
+    let (edge, slip) = (&new.edge, &record.slip);
+    let last = edge.last.min(N - 1);
+    let parameters = Parameters { of: parameters, columns: [&columns.end, &columns.alignment] };
+    // The trial state. Springs that are engaged in the step did not follow the displacement before.
+    let rises = motion.per_rise[0] > 0.0;
     for k in 0..2 {
-        for j in 0..SPRINGS {
-            scale(row_mut(derivatives, n, k * SPRINGS + j), map.root[k][j]);
+        if !rises {
+            break;
         }
-        edge.root[k].add(row_mut(derivatives, n, k * SPRINGS + last), map.root[k][last] * trial[k][last], columns, k);
+        let before = derivatives.displacement[k];
+        for j in record.last_before..=last {
+            let row = &mut derivatives.springs[k][j];
+            if j > record.last_before {
+                *row = scaled(-1.0, &before);
+            }
+            follow(row, [k, 0, j], record.part[k][j], taken, columns, parameters);
+        }
     }
-    if let Some(slipped) = converged {
-        slip(recorded, slipped, &map, &edge, columns, derivatives, scratch);
-    } else if let Some(slipped) = slipped {
-        for k in 0..2 {
-            for j in 0..SPRINGS {
-                scale(row_mut(derivatives, n, k * SPRINGS + j), 1.0 / (1.0 + slipped.overshoot[j]));
+    for k in 0..2 {
+        derivatives.displacement[k] = sum_of(&derivatives.displacement[k], &columns.by[k]);
+    }
+    let mut first = last + 1;
+    if record.slipping() != 0 {
+        first = slip.first.min(N - 1);
+        slide(taken, parameters, derivatives);
+    } else if record.slips {
+        for j in 0..=last {
+            if record.overshoot[j] > 0.0 {
+                let per_limit = [1.0 / record.limit[0][j], 1.0 / record.limit[1][j]];
+                let per_over = 1.0 / (1.0 + record.overshoot[j]);
+                let returned = Returned { end: at(&new.v, j), per_over, per_limit, place: [0, j] };
+                let displacement = *derivatives.displacement;
+                let [x, y] = &mut derivatives.springs;
+                returned.differentiate(parameters, &displacement, [&mut x[j], &mut y[j]]);
             }
         }
     }
-    tractions(recorded, converged, &map, &edge, columns, derivatives, scratch);
-    // Back to v, and the force.
-    force_x.fill(0.0);
-    force_y.fill(0.0);
+    stuck_tractions(taken, parameters, first, derivatives);
+    let mut force = [[0.0; C]; 2];
     for k in 0..2 {
-        let sum = if k == 0 { &mut *force_x } else { &mut *force_y };
-        let outer = new.springs[k][last];
-        edge.root[k].add(row_mut(derivatives, n, k * SPRINGS + last), -map.root[k][last] * outer, columns, k);
-        for j in 0..SPRINGS {
-            if j <= last {
-                let (root, place) = (map.root[k][j], row_mut(derivatives, n, k * SPRINGS + j));
-                scale(place, if root > 0.0 { 1.0 / root.max(TINY) } else { 0.0 });
-                add(sum, root * root, place);
-            }
+        let mut sum = scaled(edge.fine_secant[k], &derivatives.displacement[k]);
+        for (of, column) in parameters.iter() {
+            put(&mut sum, of.force[k], column);
         }
-        // The stiffness of the last spring.
-        edge.root[k].add(sum, 2.0 * map.root[k][last] * map.root[k][last] * outer, columns, k);
+        for j in inner..=last {
+            put(&mut sum, record.stiffness[k][j], &derivatives.springs[k][j]);
+        }
+        force[k] = sum;
     }
-    fine(recorded, &share, columns, derivatives, [&mut *force_x, &mut *force_y]);
+    fine_correction(taken, columns, parameters, derivatives, inner, &mut force);
     // Coulomb's bound.
-    let size = product(&record.sum, &record.sum).sqrt().max(TINY);
+    let size = (record.sum[0] * record.sum[0] + record.sum[1] * record.sum[1]).sqrt().max(TINY);
     if size > motion.now.load {
-        let (ratio, e) = (motion.now.load / size, [record.sum[0] / size, record.sum[1] / size]);
-        for ((x, y), load) in force_x.iter_mut().zip(force_y.iter_mut()).zip(columns.load) {
-            let along = e[0] * *x + e[1] * *y;
-            *x = ratio * (*x - e[0] * along) + e[0] * load;
-            *y = ratio * (*y - e[1] * along) + e[1] * load;
+        let (ratio, x, y) = (motion.now.load / size, record.sum[0] / size, record.sum[1] / size);
+        for c in 0..C {
+            let along = x * force[0][c] + y * force[1][c];
+            let bound = slopes.load * columns.end[c];
+            force[0][c] = ratio * (force[0][c] - x * along) + x * bound;
+            force[1][c] = ratio * (force[1][c] - y * along) + y * bound;
         }
     }
+    force
 }
 
-/// Trial displacements of the springs.
+/// The trial state of a spring that follows a part of the motion.
 #[inline(always)]
-fn trial(recorded: &RecordedStep, share: &Share, columns: &IncrementColumns, derivatives: &mut [f64]) {
-    let RecordedStep { springs, motion, record, .. } = *recorded;
-    let n = columns.load.len();
+fn follow<const N: usize, const C: usize>(
+    row: &mut Columns<C>,
+    [k, r, j]: [usize; 3],
+    part: f64,
+    taken: &Taken<N>,
+    columns: &IncrementColumns<C>,
+    parameters: Parameters<N, C>,
+) {
+    if part < 1.0 {
+        let rate = taken.motion.by[k] * taken.motion.per_rise[k];
+        put(row, part - 1.0, &columns.by[k]);
+        for (of, column) in parameters.iter() {
+            put(row, rate * of.limit[k][r][j], column);
+        }
+        put(row, -rate * part * taken.slopes.shift[k], &columns.end);
+        put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
+    }
+}
+
+/// Springs and tractions of slipping points.
+#[inline(always)]
+#[expect(clippy::too_many_lines, reason = "the equations in their order")]
+fn slide<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    parameters: Parameters<N, C>,
+    derivatives: &mut Derivatives<N, C>,
+) {
+    let Taken { springs, new, record, .. } = *taken;
+    let StepRecord { slip, trial, limit, overshoot, start, .. } = record;
+    let edge = &new.edge;
+    let (first, last) = (slip.first.min(N - 1), edge.last.min(N - 1));
+    let entry = |k: usize, j: usize, i: usize| if i < last { springs.displacement[k][j][i] } else { edge.column[k][j] };
+    // dσ at fixed angles.
+    let mut sigma = [[[0.0; C]; N]; 2];
     for k in 0..2 {
-        for j in 0..SPRINGS {
-            let place = row_mut(derivatives, n, k * SPRINGS + j);
-            if j > record.edge.last || j >= springs.used {
-                place.fill(0.0);
-                continue;
+        let mut relaxed = [[0.0; C]; N];
+        let displacement = derivatives.displacement[k];
+        for j in first..=last {
+            let w = record.stiffness[k][j];
+            let mut row = scaled(w, &sum_of(&derivatives.springs[k][j], &displacement));
+            for (of, column) in parameters.iter() {
+                put(&mut row, -w * of.springs[k][j], column);
             }
-            share.differentiate(place, motion.now.shift[k] - springs.shift[k][j], motion, columns, k);
+            relaxed[j] = row;
+        }
+        for i in first..=last {
+            let mut sum = [0.0; C];
+            for (of, column) in parameters.iter() {
+                put(&mut sum, of.sigma[k][i], column);
+            }
+            for j in first..=i {
+                let factor = entry(k, j, i);
+                for c in 0..C {
+                    sum[c] += factor * relaxed[j][c];
+                }
+            }
+            sigma[k][i] = sum;
+        }
+        for n in 0..slip.count.min(N) {
+            let t = slip.points[n].min(N - 1);
+            let there = sigma[k][t];
+            for i in first..=last {
+                if i != t {
+                    put(&mut sigma[k][i], -slip.square[k][t][i] * slip.pivots[k][t], &there);
+                }
+            }
+        }
+        for i in first..=last {
+            if slip.contains(i) {
+                for (of, column) in parameters.iter() {
+                    put(&mut sigma[k][i], of.sigma_by_pressure[k][i], column);
+                }
+            }
+        }
+    }
+    // n × dσ + σ × dn.
+    let mut right = [[0.0; C]; N];
+    for i in first..=last {
+        if !slip.contains(i) {
+            continue;
+        }
+        let mut row = scaled(slip.n[0][i], &sigma[1][i]);
+        put(&mut row, -slip.n[1][i], &sigma[0][i]);
+        let (e_x, e_y, r_x, r_y) = (slip.e[0][i], slip.e[1][i], start[0][i], start[1][i]);
+        let (along, u) = (e_x * r_x + e_y * r_y, 2.0 * (r_x * r_x + r_y * r_y) - 1.0);
+        if along > 0.0 && u > 0.0 {
+            let (s_x, s_y) = (slip.sigma[0][i], slip.sigma[1][i]);
+            let (factor, per_over) = (slip.per_along[i], 1.0 / (1.0 + overshoot[i] * (1.0 / 3.0)));
+            let (beta, across) = (factor * along, s_y * r_x - s_x * r_y);
+            let by_square = 8.0 * along * u * per_over;
+            put(&mut row, (factor * e_x + by_square * r_x) * across + beta * s_y, &derivatives.tractions[0][i]);
+            put(&mut row, (factor * e_y + by_square * r_y) * across - beta * s_x, &derivatives.tractions[1][i]);
+            if overshoot[i] > 0.0 {
+                let by_over = -beta * (1.0 / 3.0) * per_over * across / (1.0 + overshoot[i]);
+                for k in 0..2 {
+                    let ratio = trial[k][i] / limit[k][i];
+                    let factor = by_over * ratio / limit[k][i];
+                    put(&mut row, factor, &derivatives.springs[k][i]);
+                    put(&mut row, factor, &derivatives.displacement[k]);
+                    for (of, column) in parameters.iter() {
+                        put(&mut row, -factor * ratio * of.limit[k][0][i], column);
+                    }
+                }
+            }
+        }
+        right[i] = row;
+    }
+    // Angles and tractions.
+    let mut q = sigma;
+    for i in first..=last {
+        if !slip.contains(i) {
+            continue;
+        }
+        let mut angle = [0.0; C];
+        for m in first..=last {
+            let factor = slip.inverse[m][i];
+            for c in 0..C {
+                angle[c] += factor * right[m][c];
+            }
+        }
+        let (x, y, p) = (slip.e[0][i], slip.e[1][i], edge.pressure[i]);
+        derivatives.tractions[0][i] = scaled(-y, &angle);
+        derivatives.tractions[1][i] = scaled(x, &angle);
+        for (k, along) in [x, y].into_iter().enumerate() {
+            let mut row = scaled(p, &derivatives.tractions[k][i]);
+            for (of, column) in parameters.iter() {
+                put(&mut row, along * of.pressure[i], column);
+            }
+            q[k][i] = row;
+        }
+    }
+    for n in (0..slip.count.min(N)).rev() {
+        let t = slip.points[n].min(N - 1);
+        for k in 0..2 {
+            let mut row = sigma[k][t];
+            for m in first..=last {
+                let known = slip.contains(m) || (n + 1..slip.count.min(N)).any(|later| slip.points[later] == m);
+                if known {
+                    put(&mut row, -slip.square[k][t][m], &q[k][m]);
+                }
+            }
+            q[k][t] = scaled(slip.pivots[k][t], &row);
+            let per_pressure = 1.0 / edge.pressure[t];
+            let mut row = scaled(per_pressure, &q[k][t]);
+            for (of, column) in parameters.iter() {
+                put(&mut row, -per_pressure * of.pressure[t] * new.tractions[k][t], column);
+            }
+            derivatives.tractions[k][t] = row;
+        }
+    }
+    for k in 0..2 {
+        let displacement = derivatives.displacement[k];
+        for j in first..=last {
+            let mut row = scaled(-1.0, &displacement);
+            for (of, column) in parameters.iter() {
+                put(&mut row, of.springs[k][j], column);
+            }
+            for i in j..=last {
+                let factor = entry(k, j, i);
+                for c in 0..C {
+                    row[c] += factor * q[k][i][c];
+                }
+            }
+            derivatives.springs[k][j] = row;
         }
     }
 }
 
-impl Share {
-    /// Adds the derivatives of the part of the motion that a spring follows, at the distance S_b - S_j.
+/// Tractions of the points before the first slipping one, over the pressure, where the direction of the next slip depends on them.
+#[inline(always)]
+fn stuck_tractions<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    parameters: Parameters<N, C>,
+    first: usize,
+    derivatives: &mut Derivatives<N, C>,
+) {
+    let Taken { springs, new, .. } = *taken;
+    let edge = &new.edge;
+    let last = edge.last.min(N - 1);
+    for i in 0..N.min(first).min(last + 1) {
+        let (x, y) = (new.tractions[0][i], new.tractions[1][i]);
+        if x * x + y * y <= 0.5 {
+            continue;
+        }
+        for k in 0..2 {
+            let per_pressure = 1.0 / edge.pressure[i];
+            let reach = edge.reach[i] / edge.step[k];
+            let mut row = [0.0; C];
+            for (of, column) in parameters.iter() {
+                let change = of.tractions[k][i] - new.tractions[k][i] * of.pressure[i];
+                put(&mut row, change * per_pressure, column);
+            }
+            put(&mut row, reach * per_pressure, &derivatives.springs[k][last]);
+            put(&mut row, reach * per_pressure, &derivatives.displacement[k]);
+            let mut before = 0.0;
+            for j in i..=last {
+                let factor =
+                    if j < last { springs.traction[j][i] * springs.per_step[k][j] * per_pressure } else { 0.0 };
+                put(&mut row, factor - before, &derivatives.springs[k][j]);
+                before = factor;
+            }
+            derivatives.tractions[k][i] = row;
+        }
+    }
+}
+
+/// A spring that returned to its limit, `v = v*/over`.
+struct Returned {
+    end: Both<f64>,
+    per_over: f64,
+    per_limit: Both<f64>,
+    /// Part of the fine correction, and node.
+    place: [usize; 2],
+}
+
+impl Returned {
+    /// Derivatives of the spring from those of its trial state, less those of the displacement.
     #[inline(always)]
-    fn differentiate(&self, place: &mut [f64], limit: f64, motion: &Increment, columns: &IncrementColumns, k: usize) {
-        let part = self.of(k, limit);
-        add(place, part, columns.by[k]);
-        if part < 1.0 {
-            let rate = motion.by[k] * self.per_rise[k];
-            add(place, rate * (1.0 - part), columns.shift[k]);
-            add(place, rate * part, columns.before[k]);
+    fn differentiate<const N: usize, const C: usize>(
+        &self,
+        parameters: Parameters<N, C>,
+        [d_x, d_y]: &Both<Columns<C>>,
+        [x, y]: [&mut Columns<C>; 2],
+    ) {
+        let Returned { end, per_over, per_limit, place: [r, j] } = *self;
+        let ratios = [end[0] * per_limit[0], end[1] * per_limit[1]];
+        let weights = [per_over * ratios[0] * per_limit[0], per_over * ratios[1] * per_limit[1]];
+        // d(over)/over.
+        let mut change = [0.0; C];
+        for (of, column) in parameters.iter() {
+            let by_x = ratios[0] * ratios[0] * per_limit[0] * of.limit[0][r][j];
+            let by_y = ratios[1] * ratios[1] * per_limit[1] * of.limit[1][r][j];
+            put(&mut change, -(by_x + by_y), column);
+        }
+        for c in 0..C {
+            let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
+            let change = weights[0] * v_x + weights[1] * v_y + change[c];
+            x[c] = per_over * v_x - end[0] * change - d_x[c];
+            y[c] = per_over * v_y - end[1] * change - d_y[c];
         }
     }
 }
 
-/// The change of the directions of slip at fixed angles, by tractions at the start and by overshoots of the trial state: -σ × dn.
+/// The fine correction.
 #[inline(always)]
-fn directions(
-    recorded: &RecordedStep,
-    slipped: &SlipRecord,
-    columns: &IncrementColumns,
-    derivatives: &[f64],
-    scratch: &mut [f64],
+fn fine_correction<const N: usize, const C: usize>(
+    taken: &Taken<N>,
+    columns: &IncrementColumns<C>,
+    parameters: Parameters<N, C>,
+    derivatives: &mut Derivatives<N, C>,
+    inner: usize,
+    force: &mut Both<Columns<C>>,
 ) {
-    let RecordedStep { springs, motion, .. } = *recorded;
-    let n = columns.load.len();
-    let SlipRecord { slip, start, overshoot, trial, .. } = slipped;
-    for i in 0..SPRINGS {
-        if !slip.slips[i] {
-            continue;
+    let Taken { springs, new, motion, record, .. } = *taken;
+    let edge = &new.edge;
+    let last = edge.last.min(N - 1);
+    let displacement = *derivatives.displacement;
+    let rises = motion.per_rise[0] > 0.0;
+    let first = inner.max(springs.under_flat);
+    let [fine_x, fine_y] = &mut derivatives.fine;
+    for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
+        let limit = fine::limits(springs, edge, &motion.now.shift, r);
+        let stiffness = [fine::stiffnesses(springs, edge, 0, r), fine::stiffnesses(springs, edge, 1, r)];
+        let (per_over, mut per_limit) = (&record.fine_scale[r], [[0.0; N]; 2]);
+        for j in 0..N {
+            let per_area = 1.0 / (limit[0][j] * limit[1][j]);
+            (per_limit[0][j], per_limit[1][j]) = (limit[1][j] * per_area, limit[0][j] * per_area);
         }
-        let direction = DirectionSlopes::new(&at(&slip.e, i), &at(start, i), overshoot[i]);
-        let sigma = at(&slip.sigma, i);
-        let turned = |vector: &Both<f64>| sigma[0] * vector[1] - sigma[1] * vector[0];
-        let place = row_mut(scratch, n, ANGLES + i);
-        let per_over = turned(&direction.by_overshoot) / (1.0 + overshoot[i]);
-        for k in 0..2 {
-            add(place, -turned(&direction.by_start[k]), row(derivatives, n, TRACTIONS + k * SPRINGS + i));
-            if per_over != 0.0 && overshoot[i] > 0.0 {
-                let limit = (motion.now.shift[k] - springs.shift[k][i]).max(TINY);
-                let ratio = trial[k][i] / limit;
-                let factor = per_over * ratio / limit;
-                add(place, -factor, row(derivatives, n, k * SPRINGS + i));
-                add(place, factor * ratio, columns.shift[k]);
-            }
-        }
-    }
-}
-
-/// Springs and angles, from z* and the change of the directions.
-#[inline(always)]
-fn slip(
-    recorded: &RecordedStep,
-    slipped: &SlipRecord,
-    map: &Map,
-    edge: &EdgeSlopes,
-    columns: &IncrementColumns,
-    derivatives: &mut [f64],
-    scratch: &mut [f64],
-) {
-    let pressure = &recorded.record.edge.pressure;
-    let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
-    let SlipRecord { slip, start, overshoot, end, .. } = slipped;
-    let slipping = || (0..SPRINGS).filter(|i| slip.slips[*i]).map(|i| i.min(SPRINGS - 1));
-    for k in 0..2 {
-        // z* - dB'σ.
-        for i in slipping() {
-            edge.column[k][i].add(row_mut(derivatives, n, k * SPRINGS + last), -slip.sigma[k][i], columns, k);
-        }
-        for i in slipping() {
-            let entries = map.row(k, i);
-            let place = row_mut(scratch, n, k * SPRINGS + i);
-            for j in i..SPRINGS {
-                if j <= last {
-                    add(place, entries[j], row(derivatives, n, k * SPRINGS + j));
+        let stop = if r <= edge.part { last + 1 } else { last };
+        for j in first..stop {
+            let (x, y) = (&mut x[j], &mut y[j]);
+            if rises && j >= record.last_before {
+                let share = motion.share(limit[0][j], limit[1][j]);
+                let engaged = j > record.last_before || r > record.part_before;
+                for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
+                    if engaged {
+                        // Less the displacement at the start.
+                        *row = columns.by[k];
+                        put(row, -1.0, &displacement[k]);
+                    }
+                    follow(row, [k, r, j], share[k], taken, columns, parameters);
                 }
             }
-            edge.column[k][i].add(place, end[k][last], columns, k);
-            add(place, -slip.e[k][i] * edge.pressure[i], columns.size);
-        }
-    }
-    // dσ at fixed angles × n.
-    for i in slipping() {
-        let n_i = DirectionSlopes::new(&at(&slip.e, i), &at(start, i), overshoot[i]).vector;
-        for j in slipping() {
-            add_row(scratch, n, ANGLES + i, -n_i[1] * slip.inverse[0][i][j], j);
-            add_row(scratch, n, ANGLES + i, n_i[0] * slip.inverse[1][i][j], SPRINGS + j);
-        }
-    }
-    let angles = scratch.get_mut(ANGLES * n..SINGLE * n).unwrap_or(&mut []);
-    solve_columns(&slip.factors, slip.first, last, angles, n);
-    // h - p e' dθ, dσ and the springs.
-    for i in slipping() {
-        add_row(scratch, n, i, pressure[i] * slip.e[1][i], ANGLES + i);
-        add_row(scratch, n, SPRINGS + i, -pressure[i] * slip.e[0][i], ANGLES + i);
-    }
-    for k in 0..2 {
-        for i in slipping() {
-            row_mut(scratch, n, SINGLE).fill(0.0);
-            for j in slipping() {
-                add_row(scratch, n, SINGLE, slip.inverse[k][i][j], k * SPRINGS + j);
+            if per_over[j] < SLIPS {
+                let end = [new.fine[0][r][j], new.fine[1][r][j]];
+                let per_limit = at(&per_limit, j);
+                let returned = Returned { end, per_over: per_over[j], per_limit, place: [r, j] };
+                returned.differentiate(parameters, &displacement, [&mut *x, &mut *y]);
             }
-            let entries = map.row(k, i);
-            for j in i..SPRINGS {
-                if j <= last {
-                    add(row_mut(derivatives, n, k * SPRINGS + j), -entries[j], row(scratch, n, SINGLE));
-                }
-            }
+            put(&mut force[0], stiffness[0][j], x);
+            put(&mut force[1], stiffness[1][j], y);
         }
-    }
-}
-
-/// Tractions over the pressure, from z and the angles.
-#[inline(always)]
-fn tractions(
-    recorded: &RecordedStep,
-    slipped: Option<&SlipRecord>,
-    map: &Map,
-    edge: &EdgeSlopes,
-    columns: &IncrementColumns,
-    derivatives: &mut [f64],
-    scratch: &[f64],
-) {
-    let RecordedStep { memories: [_, new], record, .. } = *recorded;
-    let (n, last) = (columns.load.len(), map.last.min(SPRINGS - 1));
-    for i in 0..SPRINGS {
-        let slides = slipped.filter(|slipped| slipped.slip.slips[i]);
-        let per_pressure = 1.0 / record.edge.pressure[i].max(TINY);
-        for k in 0..2 {
-            let r = TRACTIONS + k * SPRINGS + i;
-            row_mut(derivatives, n, r).fill(0.0);
-            if i > last {
-                continue;
-            }
-            if let Some(slipped) = slides {
-                let [x, y] = at(&slipped.slip.e, i);
-                add(row_mut(derivatives, n, r), if k == 0 { -y } else { x }, row(scratch, n, ANGLES + i));
-                continue;
-            }
-            let entries = map.row(k, i);
-            for j in i..SPRINGS {
-                if j <= last {
-                    add_row(derivatives, n, r, entries[j] * per_pressure, k * SPRINGS + j);
-                }
-            }
-            let outer = new.springs[k][last] * map.root[k][last];
-            let place = row_mut(derivatives, n, r);
-            edge.column[k][i].add(place, outer * per_pressure, columns, k);
-            add(place, -new.tractions[k][i] * edge.pressure[i] * per_pressure, columns.size);
-        }
-    }
-}
-
-/// The same for the fine bank.
-#[inline(always)]
-fn fine(
-    recorded: &RecordedStep,
-    share: &Share,
-    columns: &IncrementColumns,
-    derivatives: &mut [f64],
-    [force_x, force_y]: Both<&mut [f64]>,
-) {
-    let RecordedStep { springs, memories: [old, new], motion, record } = *recorded;
-    let n = columns.load.len();
-    let StepRecord { edge, fine, .. } = record;
-    let rows = derivatives.get_mut(FINE_ROWS * n..).unwrap_or(&mut []);
-    let (rows_x, rows_y) = rows.split_at_mut((FINE * n).min(rows.len()));
-    for j in 0..FINE {
-        let (x, y) = (row_mut(rows_x, n, j), row_mut(rows_y, n, j));
-        if j > fine.last {
-            x.fill(0.0);
-            y.fill(0.0);
-            continue;
-        }
-        let limit: Both<f64> = core::array::from_fn(|k| motion.now.shift[k] - springs.fine_shift[k][j]);
-        let mut trial = [0.0; 2];
-        for k in 0..2 {
-            trial[k] = old.fine[k][j] + motion.by[k] * share.of(k, limit[k]);
-            share.differentiate(if k == 0 { &mut *x } else { &mut *y }, limit[k], motion, columns, k);
-        }
-        let ratios = [trial[0] / limit[0].max(TINY), trial[1] / limit[1].max(TINY)];
-        let over2 = product(&ratios, &ratios);
-        if over2 > 1.0 {
-            // v = v*/over.
-            let per_over = 1.0 / over2.max(TINY).sqrt();
-            let weights: Both<f64> = core::array::from_fn(|k| ratios[k] / over2.max(TINY) / limit[k].max(TINY));
-            let turns: Both<f64> = core::array::from_fn(|k| weights[k] * ratios[k]);
-            for (column, (x, y)) in x.iter_mut().zip(y.iter_mut()).enumerate() {
-                let at = |k: usize| columns.shift[k].get(column).copied().unwrap_or(0.0);
-                // d(over)/over.
-                let change = weights[0] * *x + weights[1] * *y - turns[0] * at(0) - turns[1] * at(1);
-                *x = per_over * (*x - trial[0] * change);
-                *y = per_over * (*y - trial[1] * change);
-            }
-        }
-        add(force_x, fine.stiffness[0][j], x);
-        add(force_y, fine.stiffness[1][j], y);
-    }
-    for k in 0..2 {
-        let sum = if k == 0 { &mut *force_x } else { &mut *force_y };
-        let factor = new.fine[k][fine.last.min(FINE - 1)] / fine.step[k];
-        add(sum, factor, columns.load);
-        add(sum, -factor * fine.secant[k], columns.shift[k]);
-        let factor = -new.fine[k][fine.coarse.min(FINE - 1)] / edge.step[k];
-        add(sum, factor, columns.load);
-        add(sum, -factor * edge.secant[k], columns.shift[k]);
     }
 }

@@ -712,7 +712,7 @@ contains
     integer :: i
 
     call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, other, status)
-    state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 100_mslip_size)))
+    state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 500_mslip_size)))
     call mslip_element_state_init(one, state_of_one, status)
     workspace_of_one = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
     call mslip_element_workspace_init(one, h, samples, periods, workspace_of_one, status)
