@@ -213,6 +213,16 @@ module microslip
     real(mslip_real) :: poisson_ratio = unset  !! Poisson's ratio, 0 to 0.5.
   end type mslip_material
 
+  type, bind(c), public :: mslip_layer
+    !! A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the
+    !! forces of the contact.
+    real(mslip_real) :: normal_compliance = 0
+      !! Compliance c_n >= 0 under the normal force of the parameters [m/N]; 0: none. Not used under a constant normal force.
+    real(mslip_real) :: tangential_compliance = 0  !! Compliance c_t >= 0 under that force [m/N]; 0: none.
+    real(mslip_real) :: stiffening_load = 0
+      !! N_c [N], at least 1e-3 of that force: the stiffness grows in proportion to N + N_c; 0 or infinite: constant stiffness.
+  end type mslip_layer
+
   type, bind(c), public :: mslip_parameters
     !! Flat with rounded edges on a flat (Eq. 1-24). `mslip_contact_init` rejects a value left unset.
     real(mslip_real) :: flat_half_width = unset  !! Half-width a >= 0 of the flat [m]; 0 is a Hertzian cylinder.
@@ -225,6 +235,7 @@ module microslip
     real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact: no force, no stiffness.
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
+    type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
     integer(mslip_int) :: displacement_reference = MSLIP_CENTRE_POINT
       !! `MSLIP_CENTRE_POINT`, as in the paper, or `MSLIP_RIGID_STRIP`.
     integer(mslip_int) :: springs = 0
@@ -239,6 +250,7 @@ module microslip
     real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact.
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
+    type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
     integer(mslip_int) :: springs = 0
       !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
     integer(mslip_int) :: reserved = 0  !! Leave 0.
