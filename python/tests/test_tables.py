@@ -200,4 +200,4 @@ def test_two_directions(group):
     error = np.hypot(path.force[:, 0] - column(group, "Tx"), path.force[:, 1] - column(group, "Ty")).max()
     # The error of the law with its few points of slip.
     assert error <= 0.012 * slip_force
-    assert path.dissipated.sum() == pytest.approx(column(group, "dissipated").sum(), rel=0.06)
+    assert path.dissipated.sum() == pytest.approx(column(group, "dissipated").sum(), rel=0.065)

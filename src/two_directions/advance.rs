@@ -90,28 +90,10 @@ fn advance_of<const N: usize>(
         let from = header_of(&there, v);
         let from = aligned_state::<N>(element, &from, largest_load(element, &from, displacement[2]));
         if on_line {
-            // Of the third component, the diagram has no stiffness: that of the springs.
-            let mut memory = [0.0; tables_length(16)];
-            fill::<N>(&mut memory, element, &from.units, 1.0);
-            let Some(springs) = Springs::<N>::new(from.under_flat, &memory) else { return Step::NONE };
-            let mut from_line = SpringState::RELAXED;
-            if from.load > 0.0 {
-                from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
-            }
-            let of_springs = Requested { tangent: true, energy: false };
-            let (step, _) = advance_springs(element, &from, &springs, &mut from_line, displacement, of_springs);
-            return advance_on_line(element, state, displacement, requested, step.tangent[4]);
+            let lateral = lateral_stiffness::<N>(element, &from, there.knots, displacement);
+            return advance_on_line(element, state, displacement, requested, lateral);
         }
-        // The tables take the place of the diagram.
-        let mut memory = [0.0; tables_length(16)];
-        let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
-        fill::<N>(memory, element, &from.units, 1.0);
-        let Some(springs) = Springs::<N>::new(from.under_flat, memory) else { return Step::NONE };
-        let mut from_line = SpringState::RELAXED;
-        if from.load > 0.0 {
-            from_line = from_diagram(element, &springs, &from.units, &from, there.knots);
-        }
-        tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
+        let from_line = leave_line::<N>(element, state, &from);
         (from, from_line)
     } else {
         let header = read_header(state);
@@ -122,6 +104,37 @@ fn advance_of<const N: usize>(
         align::<N>(element, state, &header, load)
     };
     advance_in_place(element, state, &from, &mut springs, displacement, requested)
+}
+
+/// The springs of a state on a line, whose tables take the place of the diagram.
+#[inline(never)]
+fn leave_line<const N: usize>(element: &Element, state: &mut [f64], from: &Header) -> SpringState<N> {
+    let mut memory = [0.0; tables_length(16)];
+    let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
+    fill::<N>(memory, element, &from.units, 1.0);
+    let mut springs = SpringState::RELAXED;
+    if let (Some(view), Some(line)) = (Springs::<N>::new(from.under_flat, memory), line_of(state))
+        && from.load > 0.0
+    {
+        springs = from_diagram(element, &view, &from.units, from, state::view(line).knots);
+    }
+    tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
+    springs
+}
+
+/// The stiffness along y of a diagram, which has none: that of the springs.
+#[inline(never)]
+fn lateral_stiffness<const N: usize>(element: &Element, from: &Header, knots: &[[f64; 4]], to: [f64; 3]) -> f64 {
+    let mut memory = [0.0; tables_length(16)];
+    fill::<N>(&mut memory, element, &from.units, 1.0);
+    let Some(springs) = Springs::<N>::new(from.under_flat, &memory) else { return 0.0 };
+    let mut state = SpringState::RELAXED;
+    if from.load > 0.0 {
+        state = from_diagram(element, &springs, &from.units, from, knots);
+    }
+    let (step, _) =
+        advance_springs(element, from, &springs, &mut state, to, Requested { tangent: true, energy: false });
+    step.tangent[4]
 }
 
 /// Of springs that are aligned.

@@ -1050,7 +1050,7 @@ contains
     call check('two directions: size of a workspace', all(found == [harmonics, samples, 3_mslip_size]) .and. &
       all(kinds == [two, MSLIP_UNIFORM_SAMPLING]))
     coefficients(:, 1) = [2.0e-7_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 5.0e-8_wp, 30.0_wp, 0.0_wp, 0.0_wp]
-    coefficients(:, 2) = [0.0_wp, 2.0e-7_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 10.0_wp, 5.0_wp]
+    coefficients(:, 2) = [0.0_wp, 5.0e-8_wp, 0.0_wp, 2.0e-7_wp, 1.0e-8_wp, 0.0_wp, 30.0_wp, 1.0_wp, 0.5_wp]
     call mslip_batch_element_harmonic_force(spread(element, 1, 2), workspace, coefficients, status, force=harmonic, &
       jacobian=jacobian, dissipated=energy, drift=drift)
     call check_status('two directions: batch of harmonic forces', status, MSLIP_OK)
