@@ -137,7 +137,7 @@ impl ElementLaw for TwoDirections {
         motion: &[f64],
         output: harmonic_force::HarmonicOutput,
     ) -> Result<(), Error> {
-        harmonic_force::harmonic_force(element, workspace, motion, output).map(|_| ())
+        harmonic_force::harmonic_force(element, workspace, motion, output)
     }
 }
 

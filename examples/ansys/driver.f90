@@ -85,7 +85,7 @@ program driver
   type(mslip_element) :: element
   integer(mslip_int) :: status
 
-  call check('state variables: start and finish of a point fit into an element', 2*contact_variables(2) <= 840)
+  call check('state variables in 2-D: start and finish of a point fit into an element', 2*contact_variables(1) <= 840)
   do directions = 1, 2
     call new_element(MSLIP_INPUT_APPROACH, element, status)
     call check_status('directions', status, MSLIP_OK)

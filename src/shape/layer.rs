@@ -74,7 +74,8 @@ impl Layer {
     pub fn shift_per_load(&self, per_approach: f64, per_load: f64, compliances: [f64; 2]) -> Option<f64> {
         let [normal, tangential] = compliances;
         let is_small = per_approach * self.normal <= 4.0 * tangential && self.tangential <= 4.0 * per_approach * normal;
-        (self.stiffening == 0.0 && is_small).then_some(per_load + (self.tangential - per_approach * self.normal))
+        let is_constant = self.stiffening == 0.0 || self.is_none();
+        (is_constant && is_small).then_some(per_load + (self.tangential - per_approach * self.normal))
     }
 
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
@@ -346,7 +347,8 @@ impl LayeredZones {
         let mut last = [shift, self.slip_shift, 1.0];
         move |remaining| {
             let [of_contact, of_both, rate] = last;
-            let mut own = of_contact * ((remaining / of_both).ln() * rate).exp();
+            // At most the shift of the contact: beyond it are no stick zones.
+            let mut own = shift.min(of_contact * ((remaining / of_both).ln() * rate).exp());
             let mut converged = false;
             let mut found = CurvePoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
             for _ in 0..30 {
@@ -365,7 +367,7 @@ impl LayeredZones {
                     break;
                 }
                 let step = (remaining / sum).ln() * rate;
-                own *= step.exp();
+                own = shift.min(own * step.exp());
                 // Quadratic convergence: the next point is exact.
                 converged = step.abs() < 1e-9;
             }

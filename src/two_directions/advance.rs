@@ -258,8 +258,8 @@ fn without_slip<const N: usize>(
     }
     let now = header.pressed(element);
     let stuck = stick::stuck(springs, &stored::<N>(state)?, &now, &offset)?;
-    // Another load makes a point at its limit slip: the derivative is that of a step.
-    if requested.tangent && stuck.at_limit {
+    // Another load makes a point at its limit slip: the derivative is that of a step, and so is the step, whatever is requested.
+    if stuck.at_limit {
         return None;
     }
     let Stuck { stiffness: [k_x, k_y], .. } = stuck;

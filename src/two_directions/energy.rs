@@ -7,6 +7,9 @@
 use super::springs::Both;
 use crate::shape::TINY;
 
+/// Limits below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
+const LEAST_LIMIT: f64 = 1e-40;
+
 /// The first t in [0, 1] at which `qa t² + 2 qb t + qc` becomes positive.
 #[inline(always)]
 pub(crate) fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
@@ -23,16 +26,18 @@ pub(crate) fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
     if part > 0.0 { part } else { 0.0 }
 }
 
-/// Energy of a spring of stiffness w that slips, from v over the trial state to its end; limits are given by the reciprocals of those at
-/// the end and the ratio of that at the start to it, and by the share 1 - β of the path to the limit on which it sticks.
+/// Energy of a spring of stiffness w that slips, from v over the trial state to its end, with the limits at the end, that at the start and
+/// the share 1 - β of the path to the limit on which it sticks.
 #[inline(always)]
 pub(crate) fn slipped(
     w: Both<f64>,
     [old, trial, end]: [Both<f64>; 3],
-    per_limit: Both<f64>,
-    ratio: f64,
+    limit: Both<f64>,
+    before: f64,
     sticks: f64,
 ) -> f64 {
+    let per_limit = limit.map(|limit| 1.0 / if limit > LEAST_LIMIT { limit } else { LEAST_LIMIT });
+    let ratio = before * per_limit[0];
     let (x, y) = (old[0] * per_limit[0], old[1] * per_limit[1]);
     let (dx, dy) = ((trial[0] - old[0]) * per_limit[0], (trial[1] - old[1]) * per_limit[1]);
     let change = ratio - 1.0;
@@ -46,9 +51,10 @@ pub(crate) fn slipped(
 /// `limit/fall` of the motion, to nothing.
 #[inline(always)]
 pub(crate) fn lost(w: Both<f64>, old: Both<f64>, limit: Both<f64>, fall: Both<f64>, by: Both<f64>) -> f64 {
-    let rate = [0, 1].map(|k| limit[k] / fall[k].max(TINY) * by[k]);
-    let (x, y) = (old[0] / limit[0].max(TINY), old[1] / limit[1].max(TINY));
-    let (dx, dy) = (rate[0] / limit[0].max(TINY), rate[1] / limit[1].max(TINY));
+    let limit = limit.map(|limit| limit.max(LEAST_LIMIT));
+    let rate = [0, 1].map(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
+    let (x, y) = (old[0] / limit[0], old[1] / limit[1]);
+    let (dx, dy) = (rate[0] / limit[0], rate[1] / limit[1]);
     let part = exit(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
     let of = |k: usize| {
         let leaves = old[k] + part * rate[k];

@@ -77,10 +77,9 @@ pub(crate) fn step<const N: usize>(
             for j in 0..N {
                 let before = motion.before.shift[0] - springs.fine_shift[0][r][j];
                 let before = if before > 0.0 { before } else { 0.0 };
-                let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
                 let places = [[old_x[j], old_y[j]], [trial_x[j], trial_y[j]], [x[j], y[j]]];
                 let w = [stiffness[0][j], stiffness[1][j]];
-                let of_spring = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0);
+                let of_spring = energy::slipped(w, places, [limit[0][j], limit[1][j]], before, 1.0);
                 losses[j] = if scale[j] < SLIPS { of_spring } else { 0.0 };
             }
             loss += total(&losses);

@@ -71,7 +71,10 @@ pub(super) fn from_diagram<const N: usize>(
                 let start = 0.5 * (inner[1] - inner[0]) / mu;
                 let part = ((target - start) / (end - start).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
                 let position = |knot: &[f64; 4]| 0.5 * (knot[0] - u) + 0.5 * (knot[1] - u);
-                return -(position(&inner) + part * (position(knot) - position(&inner))) / (mu * units.shift);
+                let place = (position(&inner) + part * (position(knot) - position(&inner))) / (mu * units.shift);
+                // Far from the origin the rounding of positions exceeds the limits.
+                let limit = (now.shift[0] - shift).max(0.0);
+                return -place.min(limit).max(-limit);
             }
             inner = *knot;
         }

@@ -275,18 +275,21 @@ pub fn harmonic_force(
     Ok(())
 }
 
+/// The first sample of largest normal force: its index and its normal component.
+fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
+    let mut largest = (0, f64::MIN);
+    for (index, sample) in workspace.samples.iter().enumerate() {
+        largest = if sample[2] > largest.1 { (index, sample[2]) } else { largest };
+    }
+    largest
+}
+
 /// The periods of a motion that was synthesised.
 fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
-    // The first sample of largest normal force.
-    let mut largest = 0;
-    for (index, sample) in workspace.samples.iter().enumerate() {
-        let so_far = workspace.samples.get(largest).map_or(f64::MIN, |sample| sample[2]);
-        largest = if sample[2] > so_far { index } else { largest };
-    }
-    let top = workspace.samples.get(largest).map_or(0.0, |sample| sample[2]);
+    let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
     let mut from = aligned::<N>(element, &Header::NONE, top_load);

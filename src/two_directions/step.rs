@@ -310,13 +310,12 @@ fn of_springs<const N: usize>(
         let inside = j <= last;
         let before = motion.before.shift[0] - springs.shift[0][j];
         let before = if inside && before > 0.0 { before } else { 0.0 };
-        let per_limit = [1.0 / limit[0][j], 1.0 / limit[1][j]];
         let old = [if inside { old[0][j] } else { 0.0 }, if inside { old[1][j] } else { 0.0 }];
         let (w, trial) = ([stiffness[0][j], stiffness[1][j]], [trial[0][j], trial[1][j]]);
         let along = slip.e[0][j] * start[0][j] + slip.e[1][j] * start[1][j];
         let beta = if along > 0.0 { slip.per_along[j] * along * slip.slips[j] * converged } else { 0.0 };
         let places = [old, trial, [end[0][j], end[1][j]]];
-        energy[j] = energy::slipped(w, places, per_limit, before * per_limit[0], 1.0 - beta);
+        energy[j] = energy::slipped(w, places, [limit[0][j], limit[1][j]], before, 1.0 - beta);
     }
     total(&energy).max(0.0)
 }
