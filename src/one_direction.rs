@@ -134,14 +134,3 @@ pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], wit
     OneDirection::check_step(element, &displacement)?;
     Ok(OneDirection::advance(element, state, displacement, Requested { tangent: true, energy: with_energy }))
 }
-
-/// Advances a state through displacements, two doubles per step.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
-pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-    state::check_header(state)?;
-    OneDirection::check_path(element, path)?;
-    OneDirection::path(element, state, path, output);
-    Ok(())
-}

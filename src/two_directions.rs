@@ -150,14 +150,3 @@ pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> 
     TwoDirections::check_step(element, &displacement)?;
     Ok(TwoDirections::advance(element, state, displacement, Requested { tangent: true, energy: true }))
 }
-
-/// Advances a state through displacements, three doubles per step.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`; the state is unchanged then.
-pub fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) -> Result<(), Error> {
-    state::check_header(state)?;
-    TwoDirections::check_path(element, path)?;
-    TwoDirections::path(element, state, path, output);
-    Ok(())
-}
