@@ -35,7 +35,7 @@ rust() {
 
 programs() {
     step 'archive: symbols and sections' tools/symbols.sh "$prefix"
-    step 'accuracy: short' target/debug/accuracy --check
+    step 'accuracy: short, and the worst cases' target/debug/accuracy --check --replay docs/accuracy.csv
     step 'stress: short' target/debug/stress --scale 0.003
     step 'paper: figures and claims' target/debug/paper --check
     step 'validation: boundary elements, measurements' target/debug/validation --check

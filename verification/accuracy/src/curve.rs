@@ -43,7 +43,7 @@ pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     }
 }
 
-fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
+pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let (law, point) = reference.at_force(force);
     let place = || format!("{} T {force:e}", text(&reference.input));
@@ -100,7 +100,7 @@ pub fn at_displacements(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     }
 }
 
-fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
+pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let place = || format!("{} u {displacement:e}", text(&reference.input));
     let [force, stiffness, stick] = call::force(contact, displacement);
@@ -147,7 +147,7 @@ const NAMES: [&str; 6] = [
     "sensitivity_by_modulus",
 ];
 
-fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
+pub fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let (law, point) = reference.at_displacement(displacement);
     // The displacement of gross slip, at which they jump, is rounded.
@@ -209,8 +209,11 @@ pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 
 /// The error reported for parallel spring-sliders, against the largest distance between their polygon and the curve.
 pub fn sliders(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
+    of_sliders(case, 1 + sampler.below(12), tally);
+}
+
+pub fn of_sliders(case: &Case, n: usize, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
-    let n = 1 + sampler.below(12);
     let ([stiffness, force], reported) = call::iwan(contact, n);
     let law = reference.law(0);
     let mut corners: Vec<(Real, Real)> = stiffness

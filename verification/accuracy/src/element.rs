@@ -26,40 +26,52 @@ fn share_of_load(sampler: &mut Sampler) -> (f64, &'static str) {
 
 /// The normal law at random loads and approaches.
 pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) {
-    let ElementCase { element, reference, kind, input, .. } = case;
+    let element = &case.element;
     for _ in 0..25 {
         let (share, range) = share_of_load(sampler);
         let load = share * element.normal_force;
         if element.check_normal_force(load).is_err() {
             continue;
         }
-        let at_load = element.approach_under(load);
-        let place = || format!("{} N {load:e}", text(input));
-        let family = &reference.family;
-        let exact = family.find(Given::Load, &reference.real(load));
-        let [normal, tangential] = family.log_compliances(&exact);
-        // S is tabulated, and U less than S by the difference of both K times N.
-        let condition = ((normal - tangential).abs() + 1.0) / normal;
-        tally.check(("normal_approach", kind, range), at_load.value, &exact.approach, condition, place);
-        tally.check(("normal_compliance", kind, range), at_load.slope, &exact.normal_compliance, condition, place);
-        let half_width = element.half_width_under(load);
-        tally.check(("normal_half_width", kind, range), half_width, &exact.half_width, 0.0, place);
-        // The same size by its approach.
-        let approach = at_load.value;
-        if element.check_approach(approach).is_err() {
-            continue;
+        let approach = at_load(case, load, range, tally);
+        if element.check_approach(approach).is_ok() {
+            at_approach(case, approach, range, tally);
         }
-        let at_approach = element.normal_force_at(approach);
-        let place = || format!("{} w {approach:e}", text(input));
-        let exact = family.find(Given::Approach, &reference.real(approach));
-        let condition = 1.0 / normal;
-        tally.check(("normal_force", kind, range), at_approach.value, &exact.load, condition, place);
-        let stiffness = 1.0 / &exact.normal_compliance;
-        tally.check(("normal_stiffness", kind, range), at_approach.slope, &stiffness, condition, place);
-        let half_width = element.half_width_under(at_approach.value);
-        let key = ("normal_half_width_inverse", *kind, range);
-        tally.check(key, half_width, &exact.half_width, condition, place);
     }
+}
+
+/// The normal law at a load, and its approach.
+pub fn at_load(case: &ElementCase, load: f64, range: &'static str, tally: &mut Tally) -> f64 {
+    let ElementCase { element, reference, kind, input, .. } = case;
+    let at_load = element.approach_under(load);
+    let place = || format!("{} N {load:e}", text(input));
+    let family = &reference.family;
+    let exact = family.find(Given::Load, &reference.real(load));
+    let [normal, tangential] = family.log_compliances(&exact);
+    // S is tabulated, and U less than S by the difference of both K times N.
+    let condition = ((normal - tangential).abs() + 1.0) / normal;
+    tally.check(("normal_approach", kind, range), at_load.value, &exact.approach, condition, place);
+    tally.check(("normal_compliance", kind, range), at_load.slope, &exact.normal_compliance, condition, place);
+    let half_width = element.half_width_under(load);
+    tally.check(("normal_half_width", kind, range), half_width, &exact.half_width, 0.0, place);
+    at_load.value
+}
+
+/// The same by an approach.
+pub fn at_approach(case: &ElementCase, approach: f64, range: &'static str, tally: &mut Tally) {
+    let ElementCase { element, reference, kind, input, .. } = case;
+    let family = &reference.family;
+    let at_approach = element.normal_force_at(approach);
+    let place = || format!("{} w {approach:e}", text(input));
+    let exact = family.find(Given::Approach, &reference.real(approach));
+    let [normal, _] = family.log_compliances(&exact);
+    let condition = 1.0 / normal;
+    tally.check(("normal_force", kind, range), at_approach.value, &exact.load, condition, place);
+    let stiffness = 1.0 / &exact.normal_compliance;
+    tally.check(("normal_stiffness", kind, range), at_approach.slope, &stiffness, condition, place);
+    let half_width = element.half_width_under(at_approach.value);
+    let key = ("normal_half_width_inverse", *kind, range);
+    tally.check(key, half_width, &exact.half_width, condition, place);
 }
 
 /// Displacements and normal inputs of a history.
@@ -133,11 +145,20 @@ fn history(case: &ElementCase, sampler: &mut Sampler, steps: usize) -> (Vec<[f64
 
 /// Steps along a history, and tractions at its end.
 pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) {
+    let (path, range) = history(case, sampler, 32);
+    let (state, exact, farthest) = steps(case, &path, range, tally);
+    if exact.size.is_some() {
+        let place = || format!("{} path {path:?}", text(&case.input));
+        tractions_at(case, &state, &exact, farthest, sampler, tally, place);
+    }
+}
+
+/// Steps along a history: both states at its end, and the largest displacement.
+pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: &mut Tally) -> (Vec<f64>, State, f64) {
     let ElementCase { element, reference, kind, input } = case;
     let mut library = vec![0.0; state::state_length(64)];
     state::state_init(&mut library).expect("long enough");
     let mut exact = reference.open();
-    let (path, range) = history(case, sampler, 32);
     // Largest displacement and size so far.
     let (mut farthest, mut largest): (f64, Option<Size>) = (0.0, None);
     for (i, &[u, w]) in path.iter().enumerate() {
@@ -162,9 +183,7 @@ pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally
             assert!(got.force == [0.0; 2] && got.tangent == [0.0; 4], "{}: open, but {got:?}", place());
         }
     }
-    if exact.size.is_some() {
-        tractions_at(case, &library, &exact, farthest, sampler, tally, || format!("{} path {path:?}", text(input)));
-    }
+    (library, exact, farthest)
 }
 
 /// A step of a history, for comparisons.

@@ -23,8 +23,6 @@ fn coefficients(sampler: &mut Sampler, harmonics: usize) -> Vec<f64> {
 }
 
 pub fn uniform_sampling(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let Case { contact, reference, kind } = case;
-    let law = reference.law(50);
     let (harmonics, samples, range) = [
         (1, 8, "H = 1, 8 samples"),
         (2, 16, "H = 2, 16"),
@@ -33,8 +31,14 @@ pub fn uniform_sampling(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
         (3, 64, "H = 3, 64"),
     ][sampler.below(5)];
     let displacement: Vec<f64> =
-        coefficients(sampler, harmonics).iter().map(|share| share * contact.slip_displacement).collect();
-    let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_UNIFORM_SAMPLING, &displacement);
+        coefficients(sampler, harmonics).iter().map(|share| share * case.contact.slip_displacement).collect();
+    at(case, samples, &displacement, range, tally);
+}
+
+pub fn at(case: &Case, samples: usize, displacement: &[f64], range: &'static str, tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
+    let law = reference.law(50);
+    let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_UNIFORM_SAMPLING, displacement);
     let u: Vec<_> = displacement.iter().map(|u| law.x(*u)).collect();
     let total: f64 = u.iter().map(|u| u.abs().f64()).sum();
     let (mut condition, mut jumps) = (0.0f64, false);

@@ -42,13 +42,19 @@ fn path(sampler: &mut Sampler, steps: usize) -> Vec<f64> {
 
 /// Updates along a path, and tractions at its end.
 pub fn along_a_path(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
+    let path: Vec<f64> = path(sampler, 48).iter().map(|share| share * case.contact.slip_displacement).collect();
+    let (history, state) = updates(case, &path, tally);
+    shear(case, &history, &state, sampler, tally);
+}
+
+/// Updates along a path, and the history and the state at its end.
+pub fn updates(case: &Case, path: &[f64], tally: &mut Tally) -> (History, Vec<f64>) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(50);
     let mut state = call::state(64);
     let mut history = History::new(law.clone());
     let soft = 1.0 / law.full_stick.f64();
     let energy_unit = law.energy_unit();
-    let path: Vec<f64> = path(sampler, 48).iter().map(|share| share * contact.slip_displacement).collect();
     let farthest = path.iter().fold(0.0, |far: f64, u| far.max(u.abs())) / contact.slip_displacement;
     for (i, &u) in path.iter().enumerate() {
         let got = call::update(contact, &mut state, u);
@@ -74,7 +80,7 @@ pub fn along_a_path(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
         let (exact, scale) = (&energy_unit * dissipated.energy, &energy_unit * (dissipated.size + slip));
         tally.check_scaled(("masing_dissipated", kind, range), got[2], &exact, &scale, 3.0 * soft, place);
     }
-    shear(case, &history, &state, sampler, tally);
+    (history, state)
 }
 
 fn shear(case: &Case, history: &History, state: &[f64], sampler: &mut Sampler, tally: &mut Tally) {
@@ -103,8 +109,6 @@ fn shear(case: &Case, history: &History, state: &[f64], sampler: &mut Sampler, t
 
 /// The closed loop of an amplitude.
 pub fn closed_loop(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let Case { contact, reference, kind } = case;
-    let law = reference.law(50);
     let n = [7, 16, 64, 100][sampler.below(4)];
     let (share, range) = match sampler.below(4) {
         0 => (sampler.power(-9.0, -1.0), "-> 0"),
@@ -112,7 +116,12 @@ pub fn closed_loop(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
         2 => (1.0 - sampler.power(-16.0, -2.0), "-> slip"),
         _ => (sampler.unit(), "between"),
     };
-    let amplitude = share * contact.slip_displacement;
+    of_amplitude(case, share * case.contact.slip_displacement, n, range, tally);
+}
+
+pub fn of_amplitude(case: &Case, amplitude: f64, n: usize, range: &'static str, tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
+    let law = reference.law(50);
     let [u, t] = call::hysteresis_loop(contact, amplitude, n);
     let mut history = History::new(law.clone());
     let x = law.x(amplitude);

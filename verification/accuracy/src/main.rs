@@ -1,9 +1,9 @@
 //! Measures the error of every output of the library against the multi-precision reference.
 //!
-//!     accuracy [--check] [--points N] [--seed N] [--elements] [--regions FILE] [--document FILE]
+//!     accuracy [--check] [--points N] [--seed N] [--elements] [--regions FILE] [--document FILE] [--replay FILE]
 //!
 //! `--check` is short, with a new seed each time. Regions are written to a CSV, tables to a document. `--elements` leaves out the law
-//! of a constant load.
+//! of a constant load. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
 
 mod bounds;
 mod call;
@@ -11,6 +11,7 @@ mod curve;
 mod element;
 mod harmonic;
 mod history;
+mod replay;
 mod report;
 mod sampler;
 mod stiffness;
@@ -73,7 +74,8 @@ fn jobs(points: f64, elements_only: bool) -> Vec<Job> {
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let now = std::time::UNIX_EPOCH.elapsed().map_or(0, |now| now.as_secs());
-    let (mut points, mut seed, mut regions, mut document, mut elements_only) = (1e7, 1u64, None, None, false);
+    let (mut points, mut seed, mut regions, mut document, mut worst, mut elements_only) =
+        (1e7, 1u64, None, None, None, false);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
@@ -82,6 +84,7 @@ fn main() {
             "--seed" => seed = value().parse().expect("a seed"),
             "--elements" => elements_only = true,
             "--regions" => regions = Some(PathBuf::from(value())),
+            "--replay" => worst = Some(PathBuf::from(value())),
             "--document" => document = Some(PathBuf::from(value())),
             other => panic!("unknown argument {other}"),
         }
@@ -111,7 +114,10 @@ fn main() {
             scope.spawn(work);
         }
     });
-    let tally = all.into_inner().unwrap();
+    let mut tally = all.into_inner().unwrap();
+    if let Some(path) = worst {
+        replay::replay(&path, &mut tally);
+    }
     if let Some(path) = regions {
         report::write_regions(&tally, &path);
     }

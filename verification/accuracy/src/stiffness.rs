@@ -35,7 +35,7 @@ pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     }
 }
 
-fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static str, tally: &mut Tally) {
+pub fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let plain = call::complex_stiffness(contact, amplitude);
     let tabulated = call::tabulated(contact, table, amplitude);
@@ -75,21 +75,25 @@ fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static str,
 
 /// The event-driven harmonic force of a cosine about a mean, by K', K'' and the curve.
 pub fn event_driven(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let Case { contact, reference, kind } = case;
     let samples = if sampler.chance(0.5) { 64 } else { 512 };
-    if reference.law(0).full_stick.f64() < 0.3 {
+    if case.reference.law(0).full_stick.f64() < 0.3 {
         return; // the curve bends sharply and the rule converges slowly
     }
+    let share = if sampler.chance(0.3) { sampler.power(0.003, 1.0) } else { sampler.power(-2.0, -0.005) };
+    let (sine, cosine) = sampler.between(-3.2, 3.2).sin_cos();
+    let mean = if sampler.chance(0.3) { 0.0 } else { share * sampler.between(-1.0, 1.0) };
+    let slip = case.contact.slip_displacement;
+    of_cosine(case, samples, [mean * slip, share * slip * cosine, share * slip * sine], tally);
+}
+
+pub fn of_cosine(case: &Case, samples: usize, u: [f64; 3], tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
     let (names, range) = if samples < 100 {
         (["event_driven_64_force", "event_driven_64_jacobian", "event_driven_dissipated"], "64 nodes")
     } else {
         (["event_driven_force", "event_driven_jacobian", "event_driven_dissipated"], "512 nodes")
     };
-    let share = if sampler.chance(0.3) { sampler.power(0.003, 1.0) } else { sampler.power(-2.0, -0.005) };
-    let (sine, cosine) = sampler.between(-3.2, 3.2).sin_cos();
-    let mean = if sampler.chance(0.3) { 0.0 } else { share * sampler.between(-1.0, 1.0) };
-    let slip = contact.slip_displacement;
-    let u = [mean * slip, share * slip * cosine, share * slip * sine];
+    let mean = u[0];
     let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_EVENT_DRIVEN, &u);
     let law = reference.law(64);
     let v = u.map(|u| law.x(u));
@@ -113,7 +117,7 @@ pub fn event_driven(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     }
     let unit = law.energy_unit();
     let exact = &unit * &energy;
-    let loose = &unit * (&energy + if share > 0.5 { 4.0 * amplitude.f64() } else { 0.0 });
+    let loose = &unit * (&energy + if amplitude.f64() > 0.5 * law.x_slip.f64() { 4.0 * amplitude.f64() } else { 0.0 });
     tally.check_scaled((names[2], kind, range), dissipated, &exact, &loose, 3.0 * soft, place);
     if mean == 0.0 {
         return; // the derivative by the mean is one-sided

@@ -40,11 +40,15 @@ pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 }
 
 fn at_force(case: &Case, force: f64, sampler: &mut Sampler, tally: &mut Tally) {
-    let Case { contact, reference, kind } = case;
-    let [_, _, stick] = call::displacement(contact, force);
+    let [_, _, stick] = call::displacement(&case.contact, force);
     let near = sampler.chance(0.3);
-    let spots = [(); 8].map(|()| position(sampler, case, stick, near));
-    let x = spots.map(|(x, _)| x);
+    at_positions(case, force, &[(); 8].map(|()| position(sampler, case, stick, near)), near, tally);
+}
+
+/// At positions and their ranges; some may be near the edge of the stick zone.
+pub fn at_positions(case: &Case, force: f64, spots: &[(f64, &'static str)], near: bool, tally: &mut Tally) {
+    let Case { contact, reference, kind } = case;
+    let x: Vec<f64> = spots.iter().map(|(x, _)| *x).collect();
     let [pressure, shear] = call::tractions(contact, force, &x);
     let no_slip = matches!(reference.input, Input::Ellipse(_));
     let [slip, damage] = if no_slip { [vec![], vec![]] } else { call::slip(contact, force, &x) };
