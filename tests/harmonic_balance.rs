@@ -326,6 +326,27 @@ fn the_stored_result_of_the_fortran_program_is_the_same_motion() {
     compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
 }
 
+/// The printed amplitudes of the small program that users compare theirs with.
+#[test]
+fn the_first_hour_prints_the_same_amplitudes() {
+    let case = case();
+    let table = text(&examples().join("expected/first_hour_after.txt"));
+    let rows: Vec<Vec<f64>> = (table.lines().skip(2))
+        .map(|line| line.split(',').map(|word| word.trim().parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), case.frequencies.len());
+    for (row, &frequency) in rows.iter().zip(&case.frequencies) {
+        assert_eq!(row[0], frequency);
+        let balance = Balance::new(&case, frequency, case.harmonics);
+        let solution = balance.solve(&stepped(&case.contact, case.samples));
+        for (dof, printed) in row[1..].iter().enumerate() {
+            let here = 1e6 * fundamental(&balance.of_dof(&solution.motion, dof));
+            // Six decimals of a micrometre, rounded.
+            assert!((here - printed).abs() < 0.51e-6, "{frequency} Hz, mass {}: {here} µm", dof + 1);
+        }
+    }
+}
+
 /// The Fortran program itself, if `MICROSLIP_PREFIX` is set and a compiler is installed.
 #[test]
 fn the_fortran_program_finds_the_same_motion() {
