@@ -326,7 +326,7 @@ fn the_stored_result_of_the_fortran_program_is_the_same_motion() {
     compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
 }
 
-/// The printed amplitudes of the small program that users compare theirs with.
+/// The printed amplitudes of the small program that users compare theirs with, here and in the document.
 #[test]
 fn the_first_hour_prints_the_same_amplitudes() {
     let case = case();
@@ -335,6 +335,8 @@ fn the_first_hour_prints_the_same_amplitudes() {
         .map(|line| line.split(',').map(|word| word.trim().parse().unwrap()).collect())
         .collect();
     assert_eq!(rows.len(), case.frequencies.len());
+    let document = text(&examples().join("../docs/spring-sliders.md"));
+    assert!(table.lines().all(|row| document.lines().any(|line| line.trim_start() == row.trim_start())));
     for (row, &frequency) in rows.iter().zip(&case.frequencies) {
         assert_eq!(row[0], frequency);
         let balance = Balance::new(&case, frequency, case.harmonics);
