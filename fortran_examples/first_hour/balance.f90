@@ -18,7 +18,7 @@ program balance
   integer :: i, iteration, halving
 
   call contact_init(harmonics)
-  print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um'
+  print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um,contact_energy_uj'
   x = 0
   do i = 1, size(frequency)
     call linear_part(2*pi*frequency(i))
@@ -36,7 +36,8 @@ program balance
       size_of_residual = norm2(residual)
     end do
     if (iteration > 60) error stop 'no convergence'
-    print '(f6.1, 2(",", f11.6))', frequency(i), 1e6_wp*hypot(x(2), x(3)), 1e6_wp*hypot(x(m + 2), x(m + 3))
+    print '(f6.1, 3(",", f11.6))', frequency(i), 1e6_wp*hypot(x(2), x(3)), 1e6_wp*hypot(x(m + 2), x(m + 3)), &
+      1e-6_wp*nint(1e12_wp*contact_energy(2*pi*frequency(i)))             ! rounded, so that 0 has no sign
   end do
 
 contains
@@ -75,6 +76,17 @@ contains
     jacobian = linear
     jacobian(m + 1:, m + 1:) = jacobian(m + 1:, m + 1:) + slope
   end subroutine evaluate
+
+  ! Energy per period: the work of the excitation, less the energy of the dashpots.
+  real(wp) function contact_energy(omega)
+    real(wp), intent(in) :: omega
+    integer :: c
+
+    contact_energy = pi*excitation*x(3)
+    do c = 2, m
+      contact_energy = contact_energy - pi*omega*(c/2)**2*dot_product(x([c, m + c]), matmul(damping, x([c, m + c])))
+    end do
+  end function contact_energy
 
   ! Gaussian elimination with pivoting.
   function solution(matrix, right) result(y)
