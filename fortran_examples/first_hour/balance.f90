@@ -19,8 +19,8 @@ program balance
 
   call contact_init(harmonics)
   print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um,contact_energy_uj'
-  x = 0
   do i = 1, size(frequency)
+    x = 0                                              ! the first step is that of the stuck contact
     call linear_part(2*pi*frequency(i))
     call evaluate(x)
     size_of_residual = norm2(residual)
