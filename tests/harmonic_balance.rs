@@ -326,6 +326,40 @@ fn the_stored_result_of_the_fortran_program_is_the_same_motion() {
     compare(&case(), &text(&examples().join("expected/two_dof.csv")), "stored");
 }
 
+/// The printed amplitudes and energies of the small program that users compare theirs with, here and in the document.
+#[test]
+fn the_first_hour_prints_the_same_motion_and_energy() {
+    let case = case();
+    let table = text(&examples().join("expected/first_hour_after.txt"));
+    let rows: Vec<Vec<f64>> = (table.lines().skip(2))
+        .map(|line| line.split(',').map(|word| word.trim().parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), case.frequencies.len());
+    let document = text(&examples().join("../docs/spring-sliders.md")).replace("\n   ", "\n");
+    for name in ["before", "after"] {
+        assert!(document.contains(&text(&examples().join(format!("expected/first_hour_{name}.txt")))), "{name}");
+    }
+    for (row, &frequency) in rows.iter().zip(&case.frequencies) {
+        assert_eq!(row[0], frequency);
+        let balance = Balance::new(&case, frequency, case.harmonics);
+        let law = stepped(&case.contact, case.samples);
+        let solution = balance.solve(&law);
+        let of_contact = balance.of_dof(&solution.motion, case.touching);
+        let (force, _) = law(&of_contact);
+        let work =
+            |k: usize| PI * k as f64 * (force[2 * k - 1] * of_contact[2 * k] - force[2 * k] * of_contact[2 * k - 1]);
+        let here = [
+            fundamental(&balance.of_dof(&solution.motion, 0)),
+            fundamental(&of_contact),
+            (1..=case.harmonics).map(work).sum(),
+        ];
+        for (here, printed) in here.iter().zip(&row[1..]) {
+            // Six decimals of a micrometre or microjoule, rounded.
+            assert!((1e6 * here - printed).abs() < 0.51e-6, "{frequency} Hz: {here:e}");
+        }
+    }
+}
+
 /// The Fortran program itself, if `MICROSLIP_PREFIX` is set and a compiler is installed.
 #[test]
 fn the_fortran_program_finds_the_same_motion() {

@@ -107,7 +107,7 @@ differences() {
             }' > target/aarch64.md && cat target/aarch64.md
 }
 documented() {
-    sed '/<!-- aarch64: begin -->/,/<!-- aarch64: end -->/!d; /<!--/d' docs/guide.md | diff - target/aarch64.md
+    sed '/<!-- aarch64: begin -->/,/<!-- aarch64: end -->/!d; /<!--/d' docs/accuracy.md | diff - target/aarch64.md
 }
 
 check 'Rust for aarch64' standard_library

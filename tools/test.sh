@@ -1,5 +1,5 @@
 #!/bin/sh
-# test.sh: the daily tests, in Rust, and in C, C++ and Fortran against an installed copy. `make check` has the others.
+# test.sh: the regular tests, in Rust, and in C, C++ and Fortran against an installed copy. `make check` has the others.
 set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh

@@ -1,0 +1,110 @@
+program balance
+  ! Two masses in a row, the second with a friction contact to the ground: harmonic balance by the alternating
+  ! frequency/time method and Newton's method. It knows the contact only by its harmonic force:
+  !
+  !   contact_init(harmonics)                       once
+  !   contact_force(u, force, jacobian)             coefficients of u -> those of the force, and d force_i / d u_j
+  !
+  ! x(t) = c0 + sum over k of cosk cos(k w t) + sink sin(k w t), coefficients in the order c0, cos1, sin1, cos2, sin2, ...
+  implicit none
+  integer, parameter :: wp = kind(1.0d0), harmonics = 5, m = 2*harmonics + 1, n = 2*m
+  real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1e-12_wp      ! of the excitation: rounding errors are smaller
+  real(wp), parameter :: mass(2) = [1.0_wp, 0.5_wp]                                     ! kg
+  real(wp), parameter :: damping(2, 2) = reshape([30.0_wp, -10.0_wp, -10.0_wp, 10.0_wp], [2, 2])      ! N s/m
+  real(wp), parameter :: stiffness(2, 2) = reshape([2.5e7_wp, -2.0e7_wp, -2.0e7_wp, 2.1e7_wp], [2, 2])    ! N/m
+  real(wp), parameter :: excitation = 15                                                ! N, cosine at mass 1
+  real(wp), parameter :: frequency(8) = [300, 500, 650, 690, 710, 750, 790, 900]        ! Hz
+  real(wp) :: linear(n, n), jacobian(n, n), residual(n), x(n), trial(n), step(n), size_of_residual
+  integer :: i, iteration, halving
+
+  call contact_init(harmonics)
+  print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um,contact_energy_uj'
+  do i = 1, size(frequency)
+    x = 0                                              ! the first step is that of the stuck contact
+    call linear_part(2*pi*frequency(i))
+    call evaluate(x)
+    size_of_residual = norm2(residual)
+    do iteration = 1, 60
+      if (size_of_residual < tolerance*excitation) exit
+      step = solution(jacobian, residual)
+      trial = x
+      do halving = 0, 10                               ! a step that does not reduce the residual is halved
+        x = trial - step/2**halving
+        call evaluate(x)
+        if (norm2(residual) < size_of_residual) exit
+      end do
+      size_of_residual = norm2(residual)
+    end do
+    if (iteration > 60) error stop 'no convergence'
+    print '(f6.1, 3(",", f11.6))', frequency(i), 1e6_wp*hypot(x(2), x(3)), 1e6_wp*hypot(x(m + 2), x(m + 3)), &
+      1e-6_wp*nint(1e12_wp*contact_energy(2*pi*frequency(i)))             ! rounded, so that 0 has no sign
+  end do
+
+contains
+
+  ! The matrix of all harmonics: K - (k w)^2 M on both coefficients of harmonic k, and k w D from one to the other.
+  subroutine linear_part(omega)
+    real(wp), intent(in) :: omega
+    integer :: p, q, k, r, c
+
+    linear = 0
+    do p = 1, 2
+      do q = 1, 2
+        r = (p - 1)*m
+        c = (q - 1)*m
+        linear(r + 1, c + 1) = stiffness(p, q)
+        do k = 1, harmonics
+          linear(r + 2*k, c + 2*k) = stiffness(p, q)
+          if (p == q) linear(r + 2*k, c + 2*k) = stiffness(p, q) - (k*omega)**2*mass(p)
+          linear(r + 2*k + 1, c + 2*k + 1) = linear(r + 2*k, c + 2*k)
+          linear(r + 2*k, c + 2*k + 1) = k*omega*damping(p, q)
+          linear(r + 2*k + 1, c + 2*k) = -k*omega*damping(p, q)
+        end do
+      end do
+    end do
+  end subroutine linear_part
+
+  ! The residual and its Jacobian: the structure, less the excitation, plus the contact at mass 2.
+  subroutine evaluate(motion)
+    real(wp), intent(in) :: motion(n)
+    real(wp) :: force(m), slope(m, m)
+
+    call contact_force(motion(m + 1:), force, slope)
+    residual = matmul(linear, motion)
+    residual(2) = residual(2) - excitation
+    residual(m + 1:) = residual(m + 1:) + force
+    jacobian = linear
+    jacobian(m + 1:, m + 1:) = jacobian(m + 1:, m + 1:) + slope
+  end subroutine evaluate
+
+  ! Energy per period: the work of the excitation, less the energy of the dashpots.
+  real(wp) function contact_energy(omega)
+    real(wp), intent(in) :: omega
+    integer :: c
+
+    contact_energy = pi*excitation*x(3)
+    do c = 2, m
+      contact_energy = contact_energy - pi*omega*(c/2)**2*dot_product(x([c, m + c]), matmul(damping, x([c, m + c])))
+    end do
+  end function contact_energy
+
+  ! Gaussian elimination with pivoting.
+  function solution(matrix, right) result(y)
+    real(wp), intent(in) :: matrix(n, n), right(n)
+    real(wp) :: a(n, n + 1), y(n)
+    integer :: k, j, pivot
+
+    a(:, :n) = matrix
+    a(:, n + 1) = right
+    do k = 1, n
+      pivot = k - 1 + maxloc(abs(a(k:, k)), 1)
+      a([k, pivot], :) = a([pivot, k], :)
+      do j = k + 1, n
+        a(j, k:) = a(j, k:) - a(j, k)/a(k, k)*a(k, k:)
+      end do
+    end do
+    do k = n, 1, -1
+      y(k) = (a(k, n + 1) - dot_product(a(k, k + 1:n), y(k + 1:)))/a(k, k)
+    end do
+  end function solution
+end program balance
