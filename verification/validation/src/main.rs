@@ -7,6 +7,7 @@
 #[path = "../../paper/src/documents.rs"]
 mod documents;
 mod drive;
+mod finite_elements;
 mod fretting;
 mod histories;
 mod strips;
@@ -182,12 +183,14 @@ fn main() -> ExitCode {
     documents.results.extend(directions.results());
     let (strips, strip_results) = strips::compare();
     documents.results.extend(strip_results);
+    let (finite_elements, finite_element_results) = finite_elements::compare();
+    documents.results.extend(finite_element_results);
     let fretting = fretting::Comparison::new();
     documents.results.extend(fretting.results());
     let drawings = drawings(&comparisons).into_iter().chain([directions.drawings()]).chain(fretting.drawings());
     drawings.for_each(|table| documents.data(&table));
     let mut tables = Vec::from(directions.tables());
-    tables.extend([("strips", strips), ("fretting", fretting.table())]);
+    tables.extend([("strips", strips), ("finite elements", finite_elements), ("fretting", fretting.table())]);
     documents.page("validation.md", |old| with_tables(old, &comparisons, &tables));
     documents.report()
 }

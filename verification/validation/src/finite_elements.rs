@@ -1,0 +1,101 @@
+//! Tractions of a cylinder on a flat by a finite-element model (`tests/golden/abaqus_mindlin.csv`), loaded and unloaded.
+
+use microslip::constant_load::{masing, state};
+use microslip::{Contact, Material, Parameters};
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+const FRICTION: f64 = 0.6;
+/// Tangential force at the end of loading, over mu N.
+const LOADED: f64 = 0.5;
+/// Spacing of the nodes over the half-width.
+const SPACING: f64 = 0.11;
+
+/// A node: loaded (1) or unloaded again (2), x over the half-width, pressure and shear over the largest pressure.
+struct Node {
+    case: f64,
+    x: f64,
+    pressure: f64,
+    shear: f64,
+}
+
+fn nodes() -> Vec<Node> {
+    let text = include_str!("../../../tests/golden/abaqus_mindlin.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let numbers = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>();
+    rows.map(numbers).map(|row| Node { case: row[0], x: row[1], pressure: row[2], shear: row[3] }).collect()
+}
+
+/// A cylinder of half-width 1 and largest pressure 1.
+fn contact() -> Contact {
+    let length = 50.0;
+    let parameters = Parameters {
+        flat_half_width: 0.0,
+        edge_radius: 1.0,
+        length,
+        normal_force: 0.5 * PI * length,
+        friction_coefficient: FRICTION,
+        // E* = 2: b² = 4 N R/(pi E* L).
+        material: [Material { young_modulus: 4.0, poisson_ratio: 0.0 }; 2],
+        ..Parameters::default()
+    };
+    Contact::rounded_flat(&parameters).expect("a contact")
+}
+
+/// Largest differences of a case in per cent, of pressures over the largest one, and of shear tractions over mu times that: those of
+/// nodes away from edges of contact and stick, and those of all nodes in the contact.
+struct Differences {
+    away: [f64; 2],
+    all: [f64; 2],
+}
+
+fn differences(unloaded: bool) -> Differences {
+    let contact = contact();
+    let at = |force: f64| contact.curve_at_force(force * contact.slip_force).expect("below gross slip");
+    // Masing's rule: half of the change of force is that of the curve.
+    let (top, half) = (at(LOADED), at(0.5 * LOADED));
+    let mut memory = vec![0.0; state::state_length(4)];
+    state::state_init(&mut memory).expect("a state");
+    masing::step(&contact, &memory.clone(), top.displacement()).write(&mut memory);
+    let mut edges = vec![contact.half_width, top.stick_half_width()];
+    if unloaded {
+        masing::step(&contact, &memory.clone(), top.displacement() - 2.0 * half.displacement()).write(&mut memory);
+        edges.push(half.stick_half_width());
+    }
+    let nodes: Vec<Node> =
+        nodes().into_iter().filter(|node| (node.case == 2.0) == unloaded && node.x.abs() < 1.0).collect();
+    let x: Vec<f64> = nodes.iter().map(|node| node.x * contact.half_width).collect();
+    let mut shear = vec![0.0; x.len()];
+    masing::shear_tractions(&contact, &memory, &x, &mut shear).expect("a state");
+    let largest = contact.pressure(0.0);
+    let mut found = Differences { away: [0.0; 2], all: [0.0; 2] };
+    for ((node, &x), shear) in nodes.iter().zip(&x).zip(shear) {
+        let now = [node.pressure - contact.pressure(x) / largest, (node.shear - shear / largest) / FRICTION];
+        let now = now.map(|difference| 100.0 * difference.abs());
+        let is_away = edges.iter().all(|edge| (x.abs() - edge).abs() > 2.0 * SPACING * contact.half_width);
+        for k in 0..2 {
+            found.all[k] = found.all[k].max(now[k]);
+            found.away[k] = if is_away { found.away[k].max(now[k]) } else { found.away[k] };
+        }
+    }
+    found
+}
+
+/// The table of the page, and the checks.
+pub fn compare() -> (String, Vec<Result<(), String>>) {
+    let mut table = String::from(
+        "| state | pressure | shear | pressure, all nodes | shear, all nodes |\n|---|---:|---:|---:|---:|\n",
+    );
+    let mut results = Vec::new();
+    for (unloaded, name) in [(false, "loaded to T = 0.5 μN"), (true, "unloaded to T = 0")] {
+        let Differences { away, all } = differences(unloaded);
+        writeln!(table, "| {name} | {:.2} | {:.2} | {:.1} | {:.1} |", away[0], away[1], all[0], all[1])
+            .expect("a string");
+        // Away from edges: what its authors' mesh leaves of the peak pressure, and slip by the penalty of its contact. At an edge a node
+        // has the mean over its spacing h of a traction that falls like c (1 - x²/c²)^(1/2): about half of c (h/c)^(1/2) = 0.28.
+        let bounds = [(away[0], 0.3), (away[1], 0.6), (all[0], 14.0), (all[1], 14.0)];
+        let holds = bounds.iter().all(|(difference, bound)| difference <= bound);
+        results.push(if holds { Ok(()) } else { Err(format!("finite elements, {name}: {bounds:?}")) });
+    }
+    (table, results)
+}
