@@ -3,6 +3,9 @@
 //!
 //! The tests hold the sliding amplitude: half of the opening of the loop at zero tangential force. The rig is a spring between the
 //! imposed displacement and the contact; at zero force it is relaxed, so the sliding amplitude is that of the contact.
+//!
+//! The same contact where it opens in every cycle: B. van Peteghem, S. Fouvry, J. Petit, Wear 271 (2011) 1535-1542, table 3
+//! (`tests/golden/vanpeteghem2011_energy.csv`).
 
 use crate::drive::displacement_at;
 use crate::table::Table;
@@ -107,16 +110,100 @@ fn cycle(element: &Element, ratio: f64, amplitude: f64, rig: f64, lag: f64) -> C
     cycle
 }
 
-/// The cycle of the sliding amplitude, by the secant method.
+/// The cycle of the sliding amplitude.
 fn held(element: &Element, ratio: f64, rig: f64, lag: f64) -> Cycle {
-    let at = |amplitude| cycle(element, ratio, amplitude, rig, lag);
-    let (mut previous, mut now) = (at(1.3 * SLIDING), at(1.7 * SLIDING));
-    while (now.sliding / SLIDING - 1.0).abs() > CONVERGED {
+    sliding_by(SLIDING, |amplitude| cycle(element, ratio, amplitude, rig, lag))
+}
+
+/// The cycle of a sliding amplitude, by the secant method.
+fn sliding_by(sliding: f64, at: impl Fn(f64) -> Cycle) -> Cycle {
+    let (mut previous, mut now) = (at(1.3 * sliding), at(1.7 * sliding));
+    while (now.sliding / sliding - 1.0).abs() > CONVERGED {
         let slope = (now.imposed - previous.imposed) / (now.sliding - previous.sliding);
-        let next = at(now.imposed + (SLIDING - now.sliding) * slope);
+        let next = at(now.imposed + (sliding - now.sliding) * slope);
         (previous, now) = (now, next);
     }
     now
+}
+
+/// A cycle in which load and displacement rise together from 0, and fall together to 0: the contact opens.
+fn opening_cycle(element: &Element, stroke: f64) -> Cycle {
+    let mut memory = vec![0.0; state::state_length(64)];
+    state::state_init(&mut memory).expect("a state");
+    let mut cycle = Cycle { imposed: stroke, sliding: 0.0, dissipated: 0.0, area: 0.0 };
+    let (mut before, mut force) = (0.0, 0.0);
+    for i in 1..=STEPS {
+        let part = 2.0 * f64::from(i.min(STEPS - i)) / f64::from(STEPS);
+        let step =
+            state::advance(element, &mut memory, [part * stroke, part * element.normal_force], true).expect("a step");
+        let now = part * stroke;
+        cycle.dissipated += step.dissipated;
+        cycle.area += 0.5 * (force + step.force[0]) * (now - before);
+        if force > 0.0 && step.force[0] <= 0.0 {
+            cycle.sliding = before + (now - before) * force / (force - step.force[0]);
+        }
+        (before, force) = (now, step.force[0]);
+    }
+    cycle
+}
+
+/// Friction coefficient of the tests in which the contact opens, "about 0.7".
+const FRICTION_OF_OPENING: f64 = 0.7;
+
+/// A test of table 3.
+struct Test {
+    number: u32,
+    frequency: f64,
+    opens: bool,
+    /// \[m\]
+    stroke: f64,
+    /// Energy per cycle, measured and computed \[J\].
+    energies: [f64; 2],
+}
+
+fn tests_of_table_3() -> Vec<Test> {
+    let element = element(80e-3, 8e-3, 8523.0, FRICTION_OF_OPENING);
+    let text = include_str!("../../../tests/golden/vanpeteghem2011_energy.csv");
+    let test = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| cells[i].parse::<f64>().expect("a number");
+        let (opens, stroke) = (cells[3] == "variable", 1e-6 * number(4));
+        let computed = if opens {
+            sliding_by(stroke, |imposed| opening_cycle(&element, imposed))
+        } else {
+            sliding_by(0.5 * stroke, |amplitude| cycle(&element, 1.0, amplitude, 0.0, 0.0))
+        };
+        assert!((computed.area / computed.dissipated - 1.0).abs() < STEP_ERROR, "area and energy differ");
+        let energies = [number(5) / number(1), computed.dissipated];
+        Test { number: cells[0].parse().expect("a number"), frequency: number(2), opens, stroke, energies }
+    };
+    text.lines().filter(|line| !line.starts_with('#')).skip(1).map(test).collect()
+}
+
+/// The table of the page, and the checks of what it says.
+pub fn opening() -> (String, Vec<Result<(), String>>) {
+    let mut table = String::from(
+        "| test | load | Hz | sliding stroke, μm | measured | computed | measured/computed |\n|---:|---|---:|---:|---:|---:|---:|\n",
+    );
+    let mut results = Vec::new();
+    for Test { number, frequency, opens, stroke, energies: [measured, computed] } in tests_of_table_3() {
+        let (load, share) = (if opens { "opens" } else { "constant" }, measured / computed);
+        let stroke = 1e6 * stroke;
+        writeln!(
+            table,
+            "| {number} | {load} | {frequency} | {stroke:.0} | {measured:.2} | {computed:.2} | {share:.2} |"
+        )
+        .expect("a string");
+        // What the page says.
+        let range = match (opens, number) {
+            (true, _) => 0.70..1.13,
+            (false, 6) => 1.3..1.4,
+            (false, _) => 0.69..0.93,
+        };
+        let holds = range.contains(&share);
+        results.push(if holds { Ok(()) } else { Err(format!("table 3, test {number}: {share} of the energy")) });
+    }
+    (table, results)
 }
 
 /// Energies at a ratio of the loads for both friction coefficients.

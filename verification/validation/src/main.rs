@@ -187,10 +187,17 @@ fn main() -> ExitCode {
     documents.results.extend(finite_element_results);
     let fretting = fretting::Comparison::new();
     documents.results.extend(fretting.results());
+    let (opening, opening_results) = fretting::opening();
+    documents.results.extend(opening_results);
     let drawings = drawings(&comparisons).into_iter().chain([directions.drawings()]).chain(fretting.drawings());
     drawings.for_each(|table| documents.data(&table));
     let mut tables = Vec::from(directions.tables());
-    tables.extend([("strips", strips), ("finite elements", finite_elements), ("fretting", fretting.table())]);
+    tables.extend([
+        ("strips", strips),
+        ("finite elements", finite_elements),
+        ("fretting", fretting.table()),
+        ("opening", opening),
+    ]);
     documents.page("validation.md", |old| with_tables(old, &comparisons, &tables));
     documents.report()
 }
