@@ -73,10 +73,9 @@ fn differences(unloaded: bool) -> Differences {
         let now = [node.pressure - contact.pressure(x) / largest, (node.shear - shear / largest) / FRICTION];
         let now = now.map(|difference| 100.0 * difference.abs());
         let is_away = edges.iter().all(|edge| (x.abs() - edge).abs() > 2.0 * SPACING * contact.half_width);
-        for k in 0..2 {
-            found.all[k] = found.all[k].max(now[k]);
-            found.away[k] = if is_away { found.away[k].max(now[k]) } else { found.away[k] };
-        }
+        let larger = |so_far: [f64; 2]| [so_far[0].max(now[0]), so_far[1].max(now[1])];
+        found.all = larger(found.all);
+        found.away = if is_away { larger(found.away) } else { found.away };
     }
     found
 }
