@@ -84,13 +84,13 @@ fn without_layer(directions: Directions, input: NormalInput) -> Vec<Element> {
 }
 
 /// A cylinder and an ellipse with a rough layer, a flat with a linear one.
-fn layered(directions: Directions, input: NormalInput) -> [Element; 3] {
+fn layered(directions: Directions, input: NormalInput) -> Vec<Element> {
     let flats = [(HALF_WIDTHS[0], (1.0, 0.03)), (HALF_WIDTHS[1], (3.0, 0.0))].map(|(half_width, share)| {
         flat_with(half_width, layer_of(&flat(half_width, input, directions), share), input, directions)
     });
     let ellipse = ellipse_of(1e-3, 3e-3, directions, input);
     let [cylinder, flat] = flats;
-    [cylinder, flat, ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input)]
+    vec![cylinder, flat, ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input)]
 }
 
 const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
