@@ -482,8 +482,7 @@ STATUS(MSLIP_BAD_COUNT, 38,
 STATUS(MSLIP_BAD_RULE, 39,
     "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN")
 STATUS(MSLIP_NOT_AVAILABLE, 40,
-    "not available for this kind of contact; elements have uniform sampling only; for two directions no tractions and no "
-    "layer")
+    "not available for this kind of contact; elements have uniform sampling only; for two directions no tractions")
 STATUS(MSLIP_BAD_INDEX, 41,
     "an index must refer to one of the n_contacts contacts or n_elements elements")
 STATUS(MSLIP_BAD_DIRECTIONS, 42,

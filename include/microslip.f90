@@ -159,8 +159,7 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_COUNT = 38  !! the number of sliders must be between 1 and 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_RULE = 39  !! rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
   integer(mslip_int), parameter, public :: MSLIP_NOT_AVAILABLE = 40
-    !! not available for this kind of contact; elements have uniform sampling only; for two directions no tractions and
-    !! no layer
+    !! not available for this kind of contact; elements have uniform sampling only; for two directions no tractions
   integer(mslip_int), parameter, public :: MSLIP_BAD_INDEX = 41
     !! an index must refer to one of the n_contacts contacts or n_elements elements
   integer(mslip_int), parameter, public :: MSLIP_BAD_DIRECTIONS = 42
@@ -1762,8 +1761,7 @@ contains
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-      !! MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element
-      !! is unchanged then.
+      !! MSLIP_LENGTH_TOO_SHORT, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 
     status = c_element_init(parameters, directions, normal_input, element)
   end subroutine mslip_element_init
@@ -1779,8 +1777,8 @@ contains
       !! The normal component of a displacement: `MSLIP_INPUT_APPROACH` or `MSLIP_INPUT_NORMAL_FORCE`.
     type(mslip_element), intent(inout) :: element  !! The element.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-      !! MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element is unchanged then.
+      !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
+      !! MSLIP_OUT_OF_RANGE; the element is unchanged then.
 
     status = c_element_init_elliptic(parameters, directions, normal_input, element)
   end subroutine mslip_element_init_elliptic

@@ -139,7 +139,7 @@
 // rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN
 #define MSLIP_BAD_RULE 39
 
-// not available for this kind of contact; elements have uniform sampling only; for two directions no tractions and no layer
+// not available for this kind of contact; elements have uniform sampling only; for two directions no tractions
 #define MSLIP_NOT_AVAILABLE 40
 
 // an index must refer to one of the n_contacts contacts or n_elements elements
@@ -689,7 +689,7 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
 // length.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-// MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element is unchanged then.
+// MSLIP_LENGTH_TOO_SHORT, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 int32_t mslip_element_init(const struct mslip_parameters *p,
                            int32_t directions,
                            int32_t normal_input,
@@ -700,7 +700,7 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
 // and with two directions less accurate. directions and normal_input are those of mslip_element_init.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-// MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element is unchanged then.
+// or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     int32_t directions,
                                     int32_t normal_input,

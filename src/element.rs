@@ -78,7 +78,8 @@ pub struct Element {
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: [f64; PIECES],
-    /// For two directions: S along y = `lateral[0]` U + `lateral[1]` N, and a number that two shapes hardly share.
+    /// For two directions: S along y = `lateral[0]` S + `lateral[1]` N, and (1 - `lateral[0]`) S of the layer unless that is a constant
+    /// times N, and a number that two shapes hardly share.
     lateral: [f64; 2],
     pub(crate) key: f64,
     /// Springs of a contact, 8, 12 or 16; 0 with one direction.
@@ -177,8 +178,8 @@ impl Element {
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
         let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)? };
-        let plane = Plane { shape: &layered, ..flat.plane() };
-        self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
+        let plane = Plane { layer: &layered.layer, ..flat.plane() };
+        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
         self.springs = springs_of(parameters.springs, directions);
         (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
@@ -209,8 +210,8 @@ impl Element {
             in_range(&[normal_force], &[axis, composite_modulus])?;
         }
         let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)? };
-        let plane = Plane { shape: &layered, ..ellipse.plane() };
-        self.init(&plane, &layered.layer, [normal_force, friction_coefficient], directions, input)?;
+        let plane = Plane { layer: &layered.layer, ..ellipse.plane() };
+        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
         self.springs = springs_of(parameters.springs, directions);
@@ -222,16 +223,16 @@ impl Element {
     fn init(
         &mut self,
         plane: &Plane,
-        layer: &Layer,
+        shape: &dyn Shape,
         [normal_force, friction_coefficient]: [f64; 2],
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
-        if directions == Directions::Two && !layer.is_none() {
-            return Err(Error::NotAvailable);
+        let layer = plane.layer;
+        let mut largest = shape.largest_size();
+        if directions == Directions::Two {
+            largest = largest.min(plane.largest);
         }
-        let shape = plane.shape;
-        let mut largest = if directions == Directions::Two { plane.largest } else { shape.largest_size() };
         let w = shape.at_load(normal_force);
         if !layer.is_none() {
             layer.check_share(normal_force, [shape.normal_compliance(w), shape.tangential_compliance(w)])?;
@@ -273,7 +274,9 @@ impl Element {
         (self.shift_per_approach, self.shift_per_load) = (plane.per_approach[0], per_load.unwrap_or(0.0));
         self.has_third = per_load.is_none().into();
         self.checksum = 0;
-        self.lateral = [plane.per_approach[1], plane.per_load[1]];
+        let ratio = plane.per_approach[1] / plane.per_approach[0];
+        let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
+        self.lateral = [ratio, if layer.is_linear() { own[0] + own[1] } else { own[0] }];
         if !self.has_third() {
             self.third = Table::EMPTY;
         }
@@ -319,17 +322,31 @@ impl Element {
     /// The family of sizes in both directions.
     pub(crate) fn plane(&self) -> Plane<'_> {
         if self.tag & ELLIPTIC == 0 {
-            Plane { shape: &self.flat, ..self.flat.shape.plane() }
+            Plane { layer: &self.flat.layer, ..self.flat.shape.plane() }
         } else {
-            Plane { shape: &self.ellipse, ..self.ellipse.shape.plane() }
+            Plane { layer: &self.ellipse.layer, ..self.ellipse.shape.plane() }
         }
     }
 
-    /// S along y, from a load and its shift along x, or their derivatives.
+    /// S along y, from a load and its shift along x.
     #[inline(always)]
     pub(crate) fn lateral_shift(&self, load: f64, shift: f64) -> f64 {
-        let approach = (shift - self.shift_per_load * load) / self.shift_per_approach;
-        self.lateral[0] * approach + self.lateral[1] * load
+        let ([ratio, per_load], layer) = (self.lateral, self.layer());
+        let linear = ratio * shift + per_load * load;
+        if layer.is_linear() { linear } else { linear + (1.0 - ratio) * layer.shift(load) }
+    }
+
+    /// The derivative of S along y.
+    #[inline(always)]
+    pub(crate) fn lateral_slope(&self, normal: &Normal) -> f64 {
+        let ([ratio, per_load], layer) = (self.lateral, self.layer());
+        let Normal { load, load_slope, shift_slope, .. } = *normal;
+        let linear = ratio * shift_slope + per_load * load_slope;
+        if layer.is_linear() { linear } else { linear + (1.0 - ratio) * (layer.compliance(load) * load_slope) }
+    }
+
+    fn layer(&self) -> &Layer {
+        if self.tag & ELLIPTIC == 0 { &self.flat.layer } else { &self.ellipse.layer }
     }
 
     /// The size w under a load > 0.
@@ -469,13 +486,12 @@ impl Element {
 
     /// S in a direction and its derivative by the normal force, from the shape.
     fn tangential_shift(&self, direction: usize, load: f64) -> NormalPoint {
+        let (shift, shift_slope) = self.shift_of_load(load);
         if direction == 0 {
-            let (value, slope) = self.shift_of_load(load);
-            return NormalPoint { value, slope };
+            return NormalPoint { value: shift, slope: shift_slope };
         }
-        let [per_approach, per_load] = self.lateral;
-        let NormalPoint { value, slope } = self.approach_outside(load);
-        NormalPoint { value: per_approach * value + per_load * load, slope: per_approach * slope + per_load }
+        let slope = self.lateral_slope(&Normal { load, shift, load_slope: 1.0, shift_slope });
+        NormalPoint { value: self.lateral_shift(load, shift), slope }
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.

@@ -93,7 +93,7 @@ status_codes! {
     BadCount, MSLIP_BAD_COUNT = 38: "the number of sliders must be between 1 and 65536";
     BadRule, MSLIP_BAD_RULE = 39: "rule must be MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN";
     NotAvailable, MSLIP_NOT_AVAILABLE = 40:
-        "not available for this kind of contact; elements have uniform sampling only; for two directions no tractions and no layer";
+        "not available for this kind of contact; elements have uniform sampling only; for two directions no tractions";
     BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2, equal for all elements, states and workspaces of a call";
     BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE";

@@ -78,16 +78,32 @@ pub trait Shape {
     fn series(&self, w: f64, relation: Relation) -> Series;
 }
 
-/// A shape under forces in both directions of the plane of contact, x and y.
+/// A contact under forces in both directions of the plane of contact, x and y.
 pub(crate) struct Plane<'a> {
+    /// The contact without its layer.
     pub shape: &'a dyn Shape,
-    /// S = `per_approach` U + `per_load` N in each direction.
+    pub layer: &'a Layer,
+    /// S = `per_approach` U + `per_load` N in each direction, without the layer.
     pub per_approach: [f64; 2],
     pub per_load: [f64; 2],
     /// Half-width of the flat \[m\].
     pub flat: f64,
     /// The largest size for which the laws hold.
     pub largest: f64,
+}
+
+impl Plane<'_> {
+    /// S in a direction.
+    pub fn shift(&self, k: usize, w: f64) -> f64 {
+        let load = self.shape.load(w);
+        self.per_approach[k] * self.shape.approach(w) + self.per_load[k] * load + self.layer.shift(load)
+    }
+
+    /// K_t in a direction of a flat punch of the half-width s below that of the flat: a load of 0.
+    pub fn compliance_under_flat(&self, k: usize, half_width: f64) -> f64 {
+        let contact = self.shape.compliance_under_flat(half_width);
+        self.per_approach[k] * contact + self.per_load[k] + self.layer.compliance(0.0)
+    }
 }
 
 /// Number of Taylor coefficients in a [`Series`].

@@ -15,6 +15,18 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
+/// Compliances over those of the contact without it, and N_c over the normal force of the parameters.
+type Share = (f64, f64);
+
+/// A layer in units of an element without one.
+fn layer_of(element: &Element, (share, ratio): Share) -> Layer {
+    Layer {
+        normal_compliance: share / element.normal_stiffness,
+        tangential_compliance: share / element.tangential_stiffness,
+        stiffening_load: ratio * element.normal_force,
+    }
+}
+
 fn parameters(flat_half_width: f64) -> Parameters {
     Parameters {
         flat_half_width,
@@ -30,7 +42,12 @@ fn parameters(flat_half_width: f64) -> Parameters {
 }
 
 fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Element {
-    Element::rounded_flat(&parameters(flat_half_width), directions, input).unwrap()
+    flat_with(flat_half_width, Layer::none(), input, directions)
+}
+
+fn flat_with(flat_half_width: f64, layer: Layer, input: NormalInput, directions: Directions) -> Element {
+    let parameters = Parameters { layer, ..parameters(flat_half_width) };
+    Element::rounded_flat(&parameters, directions, input).unwrap()
 }
 
 fn ellipse(ratio: f64) -> Element {
@@ -38,22 +55,46 @@ fn ellipse(ratio: f64) -> Element {
 }
 
 fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input: NormalInput) -> Element {
+    ellipse_with([semi_axis_x, semi_axis_y], Layer::none(), directions, input)
+}
+
+fn ellipse_with(
+    [semi_axis_x, semi_axis_y]: [f64; 2],
+    layer: Layer,
+    directions: Directions,
+    input: NormalInput,
+) -> Element {
     let parameters = EllipticParameters {
         semi_axis_x,
         semi_axis_y,
         normal_force: 1000.0,
         friction_coefficient: 0.4,
         material: [STEEL; 2],
+        layer,
         ..EllipticParameters::default()
     };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
 
-/// Cylinder, flats with a/b of 0.5 and 0.9, sphere, ellipse.
+/// Cylinder, flats with a/b of 0.5 and 0.9, sphere, ellipse; then three of them with a layer.
 fn shapes(directions: Directions, input: NormalInput) -> Vec<Element> {
+    without_layer(directions, input).into_iter().chain(layered(directions, input)).collect()
+}
+
+fn without_layer(directions: Directions, input: NormalInput) -> Vec<Element> {
     let flats = HALF_WIDTHS.map(|flat_half_width| flat(flat_half_width, input, directions));
     let ellipses = [1.0, 3.0].map(|ratio| ellipse_of(1e-3, ratio * 1e-3, directions, input));
     flats.into_iter().chain(ellipses).collect()
+}
+
+/// A cylinder and an ellipse with a rough layer, a flat with a linear one.
+fn layered(directions: Directions, input: NormalInput) -> Vec<Element> {
+    let flats = [(HALF_WIDTHS[0], (1.0, 0.03)), (HALF_WIDTHS[1], (3.0, 0.0))].map(|(half_width, share)| {
+        flat_with(half_width, layer_of(&flat(half_width, input, directions), share), input, directions)
+    });
+    let ellipse = ellipse_of(1e-3, 3e-3, directions, input);
+    let [cylinder, flat] = flats;
+    vec![cylinder, flat, ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input)]
 }
 
 const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
@@ -223,6 +264,65 @@ fn motion_along_x_is_that_of_one_direction() {
     }
 }
 
+/// A linear layer is a spring that carries the force of the contact: the displacements add up. Within a step both move on straight paths,
+/// which differ; and the springs of the fine correction have limits of their own, with and without a layer.
+#[test]
+fn a_linear_layer_is_a_spring_in_series() {
+    const PARTS: usize = 64;
+    let mut random = Random(7);
+    for (k, contact) in without_layer(Directions::Two, NormalInput::Force).iter().enumerate() {
+        for share in [0.3, 3.0] {
+            let layer = layer_of(contact, (share, 0.0));
+            let both = match HALF_WIDTHS.get(k) {
+                Some(half_width) => flat_with(*half_width, layer, NormalInput::Force, Directions::Two),
+                None => ellipse_with([1e-3, [1e-3, 3e-3][k - 3]], layer, Directions::Two, NormalInput::Force),
+            };
+            let (mut both, mut contact) = (Contact::new(&both), Contact::new(contact));
+            let (unit, slip_force) = (unit(both.element), slip_force(both.element));
+            let (mut at, mut from, mut energies) = ([0.0; 2], [0.0; 3], [0.0; 2]);
+            for to in history(both.element, 60, &mut random) {
+                for part in 1..=PARTS {
+                    let [u, v, load] = [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * part as f64 / PARTS as f64);
+                    let step = both.to([u, v, load]);
+                    at = in_series(&contact, layer.tangential_compliance, [u, v, load], at, 1e-12 * unit);
+                    let alone = contact.to([at[0], at[1], load]);
+                    // Falls with the length of the parts: 2e-2 with 4 of them, 4e-3 with 16.
+                    let error = apart(&step, &alone) / slip_force;
+                    assert!(error < 1.5e-3, "{k} {share}: {error:e}");
+                    energies = [energies[0] + step.dissipated, energies[1] + alone.dissipated];
+                }
+                from = to;
+            }
+            let error = energies[0] / energies[1] - 1.0;
+            assert!(error.abs() < 2e-4, "{k} {share}: {energies:?}, {error:e}");
+        }
+    }
+}
+
+/// The displacement of a contact with a spring in series: Newton's method, with shorter steps as long as the residual rises.
+fn in_series(contact: &Contact, compliance: f64, to: [f64; 3], mut at: [f64; 2], tolerance: f64) -> [f64; 2] {
+    let (mut last, mut by) = (f64::INFINITY, [0.0; 2]);
+    for _ in 0..200 {
+        let trial = contact.trial([at[0], at[1], to[2]]);
+        let [x, y] = [0, 1].map(|i| to[i] - at[i] - compliance * trial.force[i]);
+        let residual = x.hypot(y);
+        if residual < tolerance {
+            return at;
+        }
+        if residual > last {
+            by = by.map(|by| 0.5 * by);
+            at = [0, 1].map(|i| at[i] - by[i]);
+            continue;
+        }
+        last = residual;
+        let [xx, yx, xy, yy] = [0, 1, 3, 4].map(|i| compliance * trial.tangent[i]);
+        let determinant = (1.0 + xx) * (1.0 + yy) - xy * yx;
+        by = [((1.0 + yy) * x - xy * y) / determinant, ((1.0 + xx) * y - yx * x) / determinant];
+        at = [0, 1].map(|i| at[i] + by[i]);
+    }
+    panic!("no solution: {to:?}, {last:e}");
+}
+
 /// A line contact has another compliance along y, an ellipse that of its swapped axes along x.
 #[test]
 fn motion_along_y_is_that_along_x_of_the_swapped_ellipse() {
@@ -371,7 +471,7 @@ fn a_closed_orbit_dissipates_its_work() {
     // after 20 periods the orbit is closed to 0.3 %.
     for (n, bound) in [(24, 0.012), (96, 0.005)] {
         for swing in [0.0, 0.6, 0.97] {
-            for element in &shapes(Directions::Two, NormalInput::Force) {
+            for element in &without_layer(Directions::Two, NormalInput::Force) {
                 for axes in [[0.3, 0.3], [0.9, 0.9], [0.6, 0.3]] {
                     let [work, dissipated] = orbit(element, n, axes, swing);
                     assert!((dissipated / work - 1.0).abs() < bound, "{n} {swing} {axes:?}: {work} {dissipated}");

@@ -6,13 +6,13 @@
 
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 use microslip::ffi::*;
-use microslip::{Material, Parameters};
+use microslip::{Layer, Material, Parameters};
 use std::f64::consts::TAU;
 use std::mem::MaybeUninit;
 use std::ptr::{self, null_mut};
 
 /// The first count is below this ratio times the second, and why.
-const RELATIONS: [(&str, f64, &str, &str); 36] = [
+const RELATIONS: [(&str, f64, &str, &str); 42] = [
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
@@ -54,7 +54,18 @@ const RELATIONS: [(&str, f64, &str, &str); 36] = [
     ("batch_element_shared", 1.05, "batch_element", "items may share an element at no cost"),
     ("element_harmonics_force", 0.9, "element_harmonics", "the force does not need the Jacobian"),
     ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
+    ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/10 changes the polynomials only"),
+    ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/10 changes the polynomials only"),
+    ("stiffness_layer", 3.0, "stiffness", "a layer with N_c < N/4 takes more nodes"),
+    ("curve_rough_layer", 40.0, "curve_force", "the documented cost of a small N_c"),
+    ("harmonics_rough_layer", 40.0, "harmonics", "the documented cost of a small N_c"),
+    ("stiffness_rough_layer", 80.0, "stiffness", "the documented cost of a small N_c"),
 ];
+
+/// N_c over N of layers as compliant as the contact; without a layer.
+const NONE: f64 = f64::NAN;
+const LAYER: f64 = 0.1;
+const ROUGH: f64 = 0.01;
 
 const POINTS: usize = 128; // of the curve, of a path, samples and items
 const HARMONICS: usize = 5;
@@ -80,7 +91,17 @@ fn outputs<const K: usize>(requested: usize) -> [*mut f64; K] {
 }
 
 fn contact(normal_force: f64) -> mslip_contact {
+    contact_with(normal_force, NONE)
+}
+
+fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
+    let layer = |compliance| Layer {
+        normal_compliance: compliance,
+        tangential_compliance: compliance,
+        stiffening_load: stiffening * normal_force,
+    };
     let parameters = Parameters {
+        layer: if stiffening > 0.0 { layer(1.0 / contact(normal_force).initial_stiffness) } else { Layer::none() },
         flat_half_width: 3e-4,
         edge_radius: 2e-3,
         length: 2e-2,
@@ -99,15 +120,15 @@ fn contact(normal_force: f64) -> mslip_contact {
 
 // All pointers below are NULL or point to arrays of `array` and `outputs` that are long enough.
 
-fn curve(first: f64, last: f64, requested: usize) -> Call {
-    let c = contact(200.0);
+fn curve(layer: f64, first: f64, last: f64, requested: usize) -> Call {
+    let c = contact_with(200.0, layer);
     let u = array(|i| c.slip_displacement * (first + (last - first) * (i + 1) as f64 / POINTS as f64));
     let [force, stiffness, stick] = outputs(requested);
     prepared(move || unsafe { mslip_monotonic_force(&c, POINTS, u, force, stiffness, stick) })
 }
 
-fn stiffness(imaginary_alone: bool) -> Call {
-    let c = contact(200.0);
+fn stiffness(layer: f64, imaginary_alone: bool) -> Call {
+    let c = contact_with(200.0, layer);
     let amplitude = array(|i| c.slip_displacement * (i as f64 + 0.5) / POINTS as f64);
     let [imaginary, real, d_real, d_imaginary] = outputs(if imaginary_alone { 1 } else { 4 });
     prepared(move || unsafe { mslip_complex_stiffness(&c, POINTS, amplitude, real, imaginary, d_real, d_imaginary) })
@@ -164,10 +185,19 @@ fn path(displacement: fn(f64) -> f64) -> Call {
 }
 
 fn harmonics(rule: i32, normal_force: f64, displacement: [f64; N], requested: usize) -> Call {
-    let (c, slip_displacement) = (contact(normal_force), contact(200.0).slip_displacement);
+    let slip_displacement = contact(200.0).slip_displacement;
+    harmonics_of(contact(normal_force), rule, displacement.map(|u| u * slip_displacement), requested)
+}
+
+fn harmonics_layer(layer: f64) -> Call {
+    let c = contact_with(200.0, layer);
+    let slip_displacement = c.slip_displacement;
+    harmonics_of(c, UNIFORM, EVEN.map(|u| u * slip_displacement), 2)
+}
+
+fn harmonics_of(c: mslip_contact, rule: i32, u: [f64; N], requested: usize) -> Call {
     let length = mslip_harmonic_workspace_length(HARMONICS, POINTS, rule);
     let workspace = vec![0.0; length].leak().as_mut_ptr();
-    let u = displacement.map(|u| u * slip_displacement);
     let [force, jacobian, dissipated] = outputs(requested);
     unsafe { assert_eq!(mslip_harmonic_workspace_init(HARMONICS, POINTS, rule, length, workspace), MSLIP_OK) };
     prepared(move || unsafe { mslip_harmonic_force(&c, workspace, u.as_ptr(), force, jacobian, dissipated) })
@@ -351,12 +381,16 @@ const ODD: [f64; N] = [0.0, 0.7, 0.2, 0.0, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.0];
 const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.0];
 
 #[library_benchmark]
-#[bench::curve(curve(0.0, 0.99, 3))]
-#[bench::curve_force(curve(0.0, 0.99, 1))]
-#[bench::curve_no_output(curve(0.0, 0.99, 0))]
-#[bench::curve_gross_slip(curve(2.0, 9.0, 3))]
-#[bench::stiffness(stiffness(false))]
-#[bench::stiffness_imaginary(stiffness(true))]
+#[bench::curve(curve(NONE, 0.0, 0.99, 3))]
+#[bench::curve_force(curve(NONE, 0.0, 0.99, 1))]
+#[bench::curve_no_output(curve(NONE, 0.0, 0.99, 0))]
+#[bench::curve_gross_slip(curve(NONE, 2.0, 9.0, 3))]
+#[bench::curve_layer(curve(LAYER, 0.0, 0.99, 1))]
+#[bench::curve_rough_layer(curve(ROUGH, 0.0, 0.99, 1))]
+#[bench::stiffness(stiffness(NONE, false))]
+#[bench::stiffness_imaginary(stiffness(NONE, true))]
+#[bench::stiffness_layer(stiffness(LAYER, false))]
+#[bench::stiffness_rough_layer(stiffness(ROUGH, false))]
 #[bench::plain_near_slip(plain(0.999))]
 #[bench::tabulated_small(tabulated(0.2))]
 #[bench::tabulated_microslip(tabulated(0.7))]
@@ -373,6 +407,8 @@ const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.
 #[bench::harmonics_odd(harmonics(UNIFORM, 200.0, ODD, 2))]
 #[bench::harmonics_gross_slip(harmonics(UNIFORM, 200.0, EVEN.map(|u| 1e3 * u), 2))]
 #[bench::harmonics_open(harmonics(UNIFORM, 0.0, EVEN, 2))]
+#[bench::harmonics_layer(harmonics_layer(LAYER))]
+#[bench::harmonics_rough_layer(harmonics_layer(ROUGH))]
 #[bench::event_driven(harmonics(EVENTS, 200.0, EVEN, 2))]
 #[bench::event_driven_force(harmonics(EVENTS, 200.0, EVEN, 1))]
 #[bench::batch_stiffness(batch_stiffness(batch(200.0, false, 1)))]

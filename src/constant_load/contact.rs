@@ -203,10 +203,11 @@ impl Contact {
     fn with_interpolant(mut self) -> Contact {
         let flat = &self.zones.flat;
         let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
-        if self.is_layered() && !self.has_knee() {
+        if self.is_layered() {
             let (slip_shift, compliance) = of(&self.zones);
             self.interpolant = ForceInterpolant::of_layered(slip_shift, compliance, self.zones.sequence());
-        } else if !self.is_ellipse() {
+        }
+        if !self.is_ellipse() && !self.interpolant.is_converged() {
             let (slip_shift, compliance) = of(flat);
             let alone = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
             self.interpolant = if self.is_layered() { alone.without_layer() } else { alone };

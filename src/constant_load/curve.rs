@@ -87,6 +87,14 @@ impl Contact {
         })
     }
 
+    /// The same; with a layer that of the load which the interpolant gives, if there is one.
+    fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
+        match self.load_at(displacement) {
+            Some((load, _)) if self.is_layered() => self.stick_zones().at_load(load),
+            _ => self.stick_zone_at_displacement(displacement),
+        }
+    }
+
     /// Force \[N\] of a stick zone.
     pub(crate) fn force_of(&self, zone: &StickZone) -> f64 {
         if zone.load.consumed > 0.5 {
@@ -111,7 +119,7 @@ impl CurvePoint<'_> {
     pub(crate) fn stick_zone(&self) -> Option<StickZone> {
         match self.known_by {
             KnownBy::StickZone(zone) => Some(zone),
-            KnownBy::Displacement(displacement) => Some(self.contact.stick_zone_at_displacement(displacement)),
+            KnownBy::Displacement(displacement) => Some(self.contact.stick_zone_of_curve(displacement)),
             KnownBy::GrossSlip => None,
         }
     }

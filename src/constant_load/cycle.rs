@@ -67,7 +67,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
         match self.evaluator().load_at(displacement) {
-            None if self.has_knee() => self.load_with_knee(displacement),
+            None if self.is_layered() => self.load_with_knee(displacement),
             load => load,
         }
     }

@@ -124,8 +124,13 @@ impl Contact {
     pub(crate) fn load_with_knee(&self, displacement: f64) -> Option<(Complement, f64)> {
         let (zones, alone) = (self.layered_zones(), self.layered_zones().contact());
         let remaining = (self.slip_displacement - displacement) * self.per_displacement_scale;
-        let has_curve = self.has_knee() && (self.is_ellipse() || self.interpolant().is_without_layer());
-        if !has_curve || remaining <= 0.0 || remaining > zones.slip_shift() - zones.small_load().half_shift {
+        let has_curve = self.is_ellipse() || self.interpolant().is_without_layer();
+        if !self.is_layered()
+            || self.interpolant().is_converged()
+            || !has_curve
+            || remaining <= 0.0
+            || remaining > zones.slip_shift() - zones.small_load().half_shift
+        {
             return None;
         }
         let layer = zones.layer();

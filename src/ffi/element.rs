@@ -61,7 +61,7 @@ unsafe fn initialise<P>(
 /// length.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-/// MSLIP_LENGTH_TOO_SHORT, MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element is unchanged then.
+/// MSLIP_LENGTH_TOO_SHORT, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init(
     p: *const Parameters,
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn mslip_element_init(
 /// and with two directions less accurate. directions and normal_input are those of mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
-/// MSLIP_OUT_OF_RANGE, or MSLIP_NOT_AVAILABLE for two directions with a layer; the element is unchanged then.
+/// or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_init_elliptic(
     p: *const EllipticParameters,

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::limits::in_range;
 use crate::parameters::{EllipticParameters, Pair};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::{ORDER, Plane, Relation, Series, Shape};
+use crate::shape::{Layer, ORDER, Plane, Relation, Series, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// An elliptical Hertz contact.
@@ -56,7 +56,8 @@ impl HertzEllipse {
     /// Both directions in the plane of contact.
     pub(crate) fn plane(&self) -> Plane<'_> {
         let per_approach = [self.tangential_ratio(), self.lateral / self.normal];
-        Plane { shape: self, per_approach, per_load: [0.0; 2], flat: 0.0, largest: self.largest_size() }
+        let largest = self.largest_size();
+        Plane { shape: self, layer: &Layer::NONE, per_approach, per_load: [0.0; 2], flat: 0.0, largest }
     }
 
     /// The shape of parameters that were checked, N > 0.

@@ -96,6 +96,23 @@ impl Layer {
         1.0 / (1.0 + self.stiffening * load)
     }
 
+    /// S2 \[m\].
+    pub fn shift(&self, load: f64) -> f64 {
+        if self.tangential > 0.0 { self.tangential * self.extent(load) } else { 0.0 }
+    }
+
+    /// dS2/dN \[m/N\].
+    #[inline(always)]
+    pub fn compliance(&self, load: f64) -> f64 {
+        self.tangential * self.softness(load)
+    }
+
+    /// Whether the stiffness is constant.
+    #[inline(always)]
+    pub fn is_linear(&self) -> bool {
+        self.stiffening == 0.0
+    }
+
     /// M2 \[J\].
     fn potential(&self, load: f64) -> f64 {
         // (N S2) without overflow of N².
@@ -575,7 +592,7 @@ impl<S: Shape> Shape for Layered<S> {
     }
 
     fn shift(&self, w: f64) -> f64 {
-        self.shape.shift(w) + self.added(w, |layer, load| layer.tangential * layer.extent(load))
+        self.shape.shift(w) + self.added(w, Layer::shift)
     }
 
     fn potential(&self, w: f64) -> f64 {
@@ -587,7 +604,7 @@ impl<S: Shape> Shape for Layered<S> {
     }
 
     fn tangential_compliance(&self, w: f64) -> f64 {
-        self.shape.tangential_compliance(w) + self.added(w, |layer, load| layer.tangential * layer.softness(load))
+        self.shape.tangential_compliance(w) + self.added(w, Layer::compliance)
     }
 
     fn compliance_under_flat(&self, half_width: f64) -> f64 {

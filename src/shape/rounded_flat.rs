@@ -18,7 +18,7 @@ use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
-use crate::shape::{ORDER, Plane, Relation, Reversed, Series, Shape, tractions};
+use crate::shape::{Layer, ORDER, Plane, Relation, Reversed, Series, Shape, tractions};
 use core::f64::consts::{LN_2, PI};
 
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
@@ -70,6 +70,7 @@ impl RoundedFlat {
         let (less, more) = (half_width - flat, half_width + flat);
         Plane {
             shape: self,
+            layer: &Layer::NONE,
             per_approach: [1.0, per_approach],
             per_load: [self.shift_less_approach(), per_load * self.compliance_scale],
             flat,

@@ -18,7 +18,7 @@
 //! point.
 
 use crate::element::{Element, Normal};
-use crate::shape::{Plane, RoundedPunch, TINY};
+use crate::shape::{RoundedPunch, TINY};
 use core::array::from_fn;
 use core::f64::consts::PI;
 
@@ -115,7 +115,7 @@ impl Units {
     pub fn of(element: &Element, load: f64) -> Units {
         let plane = element.plane();
         let size = plane.shape.at_load(load.max(LEAST_REFERENCE * element.normal_force));
-        Units { load: plane.shape.load(size), shift: shift_of(&plane, 0, size), size }
+        Units { load: plane.shape.load(size), shift: plane.shift(0, size), size }
     }
 
     /// w² under a load > 0.
@@ -135,7 +135,7 @@ impl Units {
     /// Derivatives of the normal state with respect to the input.
     pub fn slopes(&self, element: &Element, normal: &Normal, size: f64) -> PressedSlopes {
         let per_shift = 1.0 / self.shift;
-        let lateral = element.lateral_shift(normal.load_slope, normal.shift_slope);
+        let lateral = element.lateral_slope(normal);
         PressedSlopes {
             load: normal.load_slope / self.load,
             shift: [normal.shift_slope * per_shift, lateral * per_shift],
@@ -249,10 +249,6 @@ pub(crate) fn under_flat(element: &Element, units: &Units) -> usize {
     if element.plane().flat > SMALLEST_FLAT * units.size { UNDER_FLAT } else { 0 }
 }
 
-fn shift_of(plane: &Plane, k: usize, w: f64) -> f64 {
-    plane.per_approach[k] * plane.shape.approach(w) + plane.per_load[k] * plane.shape.load(w)
-}
-
 /// Fills the tables of the springs of an element that are aligned with the size of the units times a number near 1.
 #[expect(clippy::too_many_lines, reason = "the tables in their order")]
 pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units: &Units, reference: f64) {
@@ -293,9 +289,7 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         if w >= plane.largest * reference {
             return [NEVER; 3];
         }
-        let (load, approach) = (plane.shape.load(w), plane.shape.approach(w));
-        let shift = |k: usize| (plane.per_approach[k] * approach + plane.per_load[k] * load) / units.shift;
-        [load / units.load, shift(0), shift(1)]
+        [plane.shape.load(w) / units.load, plane.shift(0, w) / units.shift, plane.shift(1, w) / units.shift]
     };
     let mut width = [flat; N];
     let mut position = [0.0; N];
@@ -307,9 +301,8 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         size[j] = -(flat - from) * (flat + from);
         position[j] = from + POINT * (to - from);
         point[j] = -(flat - position[j]) * (flat + position[j]);
-        let compliance = plane.shape.compliance_under_flat(units.size * 0.5 * (from + to));
         for k in 0..2 {
-            let compliance = plane.per_approach[k] * compliance + plane.per_load[k];
+            let compliance = plane.compliance_under_flat(k, units.size * 0.5 * (from + to));
             secant[k][j] = units.shift / (units.load * compliance);
             step[k][j] = secant[k][j];
         }

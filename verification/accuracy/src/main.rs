@@ -11,6 +11,7 @@ mod curve;
 mod element;
 mod harmonic;
 mod history;
+mod layer;
 mod replay;
 mod report;
 mod sampler;
@@ -33,11 +34,12 @@ enum Measurement {
 use Measurement::{Contact, Element};
 
 /// Measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(Measurement, f64, usize); 14] = [
+const MEASUREMENTS: [(Measurement, f64, usize); 15] = [
     (Contact(curve::fields), 1.0, 4000),
     (Contact(curve::at_forces), 50.0, 200),
     (Contact(curve::at_displacements), 50.0, 200),
     (Contact(curve::sensitivities), 100.0, 20),
+    (Contact(layer::curve), 100.0, 20),
     (Contact(tractions::at_forces), 48.0, 80),
     (Contact(history::along_a_path), 48.0, 80),
     (Contact(history::closed_loop), 48.0, 120),

@@ -192,6 +192,10 @@ impl Sampler {
 }
 
 pub fn text(input: &Input) -> String {
+    let of_layer = |layer: &Layer| match layer.tangential_compliance {
+        0.0 => String::new(),
+        compliance => format!(" c_t {compliance:e} N_c {:e}", layer.stiffening_load),
+    };
     let bodies = |m: &[Material; 2]| {
         format!(
             "E {:e} {:e} nu {:e} {:e}",
@@ -200,22 +204,24 @@ pub fn text(input: &Input) -> String {
     };
     match input {
         Input::Flat(p) => format!(
-            "a {:e} R {:e} L {:e} N {:e} mu {:e} {} reference {}",
+            "a {:e} R {:e} L {:e} N {:e} mu {:e} {} reference {}{}",
             p.flat_half_width,
             p.edge_radius,
             p.length,
             p.normal_force,
             p.friction_coefficient,
             bodies(&p.material),
-            p.displacement_reference
+            p.displacement_reference,
+            of_layer(&p.layer)
         ),
         Input::Ellipse(p) => format!(
-            "b {:e} l {:e} N {:e} mu {:e} {}",
+            "b {:e} l {:e} N {:e} mu {:e} {}{}",
             p.semi_axis_x,
             p.semi_axis_y,
             p.normal_force,
             p.friction_coefficient,
-            bodies(&p.material)
+            bodies(&p.material),
+            of_layer(&p.layer)
         ),
     }
 }
