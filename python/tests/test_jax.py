@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import microslip
 import numpy as np
 import pytest
-from jax_microslip import NAMES, contact, harmonic_force
+from jax_microslip import NAMES, contact, harmonic_force, history
 from jax_two_masses import CONTACT, amplitudes, example, responses
 from numpy.testing import assert_allclose
 from tables import REPOSITORY
@@ -15,6 +15,9 @@ from tables import REPOSITORY
 SLIP = microslip.Contact(**CONTACT).slip_displacement
 LAYER = 0.3 / microslip.Contact(**CONTACT).initial_stiffness
 random = np.random.default_rng(5)
+# Of central differences with steps of 1e-6, over the largest change of the force with the whole argument: rounding errors of
+# forces, some 1e-15 of them, over the step. Errors of the second power of the step are smaller, corners within a step not met.
+DIFFERENCE = 1e-8
 
 
 def differences(function, x, step):
@@ -37,9 +40,8 @@ def test_harmonic_force_has_exact_derivatives(directions):
     forward, reverse = jax.vmap(jax.jacfwd(force))(x), jax.vmap(jax.jacrev(force))(x)
     for i in range(3):
         assert (many[i] == law.harmonic_force(workspace, x[i]).force).all()
-        # Steps of 1e-6 of the displacement, and corners of the force of so many samples that only few lie within a step.
         expected = differences(lambda at: law.harmonic_force(workspace, at).force, x[i], 1e-6 * SLIP)
-        assert_allclose(forward[i], expected, rtol=0, atol=1e-6 * abs(expected).max())
+        assert_allclose(forward[i], expected, rtol=0, atol=DIFFERENCE * abs(expected).max())
         # The same products in another order: rounding errors of the sums.
         assert_allclose(reverse[i], forward[i], rtol=0, atol=1e-14 * abs(forward).max())
 
@@ -57,13 +59,52 @@ def test_parameters_have_exact_derivatives():
             return contact(CONTACT, values | {name: float(changed)}).harmonic_force(workspace, u).force
 
         expected = differences(at, np.array(value), 1e-6 * value)
-        assert_allclose(forward[name], expected, rtol=0, atol=1e-7 * abs(expected).max(), err_msg=name)
+        assert_allclose(forward[name], expected, rtol=0, atol=DIFFERENCE * made.slip_force / value, err_msg=name)
         assert_allclose(reverse[name], forward[name], rtol=0, atol=1e-14 * abs(expected).max(), err_msg=name)
     # Contacts of two friction coefficients in one call.
     mu = jnp.array([0.3, 0.4, 0.3])
     found = jax.vmap(lambda m: force(u, {"friction_coefficient": m}))(mu)
     for one, m in zip(found, mu.tolist()):
         assert (one == contact(CONTACT, {"friction_coefficient": m}).harmonic_force(workspace, u).force).all()
+
+
+def test_history_of_a_contact_has_exact_derivatives():
+    """Random displacements, with loops in loops, gross slip and rests, and so small ones that the monotonic curve is met again."""
+    made = microslip.Contact(**CONTACT)
+    u = SLIP * np.array([[1], [0.1]]) * np.cumsum(random.standard_normal((2, 200)), axis=1)
+    u[:, 50:53] = u[:, 49:50]
+    force = jax.jit(history(CONTACT))
+    for x in u:
+        # Rounding errors of sums of some ten forces.
+        assert_allclose(force(x), made.update(microslip.State(100), x).force, rtol=0, atol=1e-14 * made.slip_force)
+    assert (jax.vmap(force)(u)[1] == force(u[1])).all()
+    x = u[0, :40]
+    expected = differences(lambda at: made.update(microslip.State(100), at).force, x, 1e-6 * SLIP)
+    assert_allclose(jax.jacfwd(force)(x), expected, rtol=0, atol=DIFFERENCE * made.initial_stiffness)
+    assert_allclose(jax.jacrev(force)(x), jax.jacfwd(force)(x), rtol=0, atol=1e-14 * made.initial_stiffness)
+    values = {"friction_coefficient": 0.4, "edge_radius": 5e-3, "layer_compliance": LAYER}
+    found = jax.jacfwd(force, 1)(x, values)
+    for name, value in values.items():
+
+        def at(changed, name=name):
+            return contact(CONTACT, values | {name: float(changed)}).update(microslip.State(100), x).force
+
+        expected = differences(at, np.array(value), 1e-6 * value)
+        assert_allclose(found[name], expected, rtol=0, atol=DIFFERENCE * made.slip_force / value, err_msg=name)
+
+
+@pytest.mark.parametrize("first", [0.5, -0.5])
+def test_history_of_an_element_has_exact_derivatives(first):
+    """It opens and closes, and is pressed or open at first."""
+    element = microslip.Element(**CONTACT)
+    x = random.standard_normal((2, 31, 2)) * [SLIP, 0.5 * element.approach] + [0, 0.6 * element.approach]
+    x[:, 0, 1] = first * element.approach
+    force = history(element)
+    many, found = jax.vmap(force)(x), jax.vmap(jax.jacfwd(force))(x)
+    for i in range(2):
+        assert (many[i] == element.update(microslip.ElementState(1, 64), x[i]).force).all()
+        expected = differences(lambda at: element.update(microslip.ElementState(1, 64), at).force, x[i], 1e-6 * SLIP)
+        assert_allclose(found[i], expected, rtol=0, atol=DIFFERENCE * abs(expected).max())
 
 
 def test_errors():
@@ -106,5 +147,5 @@ def test_response_has_exact_derivatives_by_parameters():
 
     at = np.log([0.35, LAYER])
     expected = differences(sum_of_squares, at, 1e-5)
-    # Second power of the step; rounding errors of 1e-13 over it.
+    # Second power of the step times third derivatives, some hundred at resonance; rounding errors of 1e-13 over it.
     assert_allclose(jax.grad(sum_of_squares)(at), expected, rtol=1e-7)
