@@ -146,18 +146,25 @@ def response(law, frequency):
 
 
 def test_three_measured_loops_to_a_forced_response(tmp_path):
-    """Measured loops, fit, parameter file, contact, harmonic balance: without an edit, to the response of the true contact."""
+    """Measured loops of three loads, fit, parameter file, contact, harmonic balance: without an edit, to the response of the true
+    contact, which has a layer with a stiffness that grows with the load.
+    """
     random = np.random.default_rng(7)
-    truth = microslip.Contact(**TRUTH, tangential_compliance=0.3 / contact.initial_stiffness)
+    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0}
+    truth = microslip.Contact(**TRUTH | layer)
     t = 2 * np.pi * np.arange(160) / 80
     measured = []
-    for amplitude in [0.5, 1.0, 2.0]:
-        displacement = amplitude * truth.slip_displacement * np.cos(t)
-        force = truth.update(microslip.State(), displacement).force
-        measured.append((displacement, force + 5e-4 * truth.slip_force * random.standard_normal(160)))
+    for amplitude, load in [(0.7, 200.0), (2.0, 400.0), (1.2, 800.0)]:
+        under_load = {"normal_force": load, "tangential_compliance": layer["tangential_compliance"] * 1000 / (load + 200)}
+        law = microslip.Contact(**TRUTH | layer | under_load)
+        displacement = amplitude * law.slip_displacement * np.cos(t)
+        force = law.update(microslip.State(), displacement).force + 5e-4 * law.slip_force * random.standard_normal(160)
+        measured.append({"displacement": displacement, "force": force, "normal_force": load})
     file = tmp_path / "fitted.toml"
-    file.write_text(microslip.fit(measured, TRUTH | {"friction_coefficient": 0.3, "flat_half_width": 0.05e-3}).contact_toml)
+    report = microslip.fit(measured, TRUTH | {"friction_coefficient": 0.3, "flat_half_width": 0.05e-3})
+    file.write_text(report.contact_toml)
     fitted = microslip.Contact(**microslip.read_parameters(file))
+    assert report.series_stiffening.status == "determined"
     frequency = np.linspace(0.7, 1.05, 36)
     expected = response(truth, frequency)
     # From partial to gross slip. Noise of 5e-4 in some hundred samples, times ten at resonance.
