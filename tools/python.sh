@@ -147,7 +147,7 @@ examples() {
 from importlib.metadata import requires
 kept = [r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))]
 print(*kept, sep="\n")' > "$work/required" &&
-            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib mypy==2.4.1 pytest ruff==0.17.6
+            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib jax mypy==2.4.1 pytest ruff==0.17.6
     }; } && "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install cffi numpy
 }
 check 'packages of the examples' examples
@@ -158,5 +158,6 @@ check 'types' types
 check 'format' "$adapters/bin/ruff" format --check python
 check 'lints' "$adapters/bin/ruff" check python
 tests 'adapters and examples' "$adapters" \
-    "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_documents.py
+    "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_jax.py \
+    "$package"/tests/test_documents.py
 counts

@@ -173,6 +173,7 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
     let estimates = [
         ("friction_coefficient", &found.friction_coefficient, "-"),
         ("series_compliance", &found.series_compliance, compliance.as_str()),
+        ("series_stiffening", &found.series_stiffening, "-"),
         ("contact_compliance", &found.contact_compliance, "-"),
         ("total_compliance", &found.total_compliance, compliance.as_str()),
     ];

@@ -6,7 +6,9 @@
 
 use crate::cycles::{Loop, Sample};
 use crate::error::Error;
-use crate::model::{CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARAMETERS, Prediction, SERIES, SHAPE};
+use crate::model::{
+    CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING,
+};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
@@ -27,7 +29,7 @@ pub(crate) struct Fit<'a> {
     pub free: Free,
     /// Whether the shape is a parameter.
     has_shape: bool,
-    /// Friction coefficient, series compliance, contact compliance, a/b.
+    /// Friction coefficient, series compliance, contact compliance, a/b, share of the series stiffness that grows with the load.
     pub parameters: [f64; PARAMETERS],
     nuisances: Vec<[f64; NUISANCES]>,
     /// Lower and upper limits of the parameters.
@@ -204,11 +206,18 @@ impl<'a> Fit<'a> {
         parameters
     }
 
-    /// Frees parameters, except those at a limit, and a shape without effect.
+    /// Frees parameters, except those at a limit, and a shape or a share without effect.
     pub fn release(&mut self, free: Free) {
         let at_limit = self.limits_at_which(|_| true);
         self.free = std::array::from_fn(|i| free[i] && !at_limit[i]);
         self.free[SHAPE] &= self.parameters[CONTACT] > 0.0;
+        self.free[STIFFENING] &= self.parameters[SERIES] > 0.0;
+    }
+
+    /// The largest normal force over the smallest one.
+    pub fn range_of_loads(&self) -> f64 {
+        let loads = self.loops.iter().map(|one| one.normal_force);
+        loads.clone().fold(0.0, f64::max) / loads.fold(f64::INFINITY, f64::min)
     }
 
     /// Largest displacement of each loop over that at the onset of gross slip.

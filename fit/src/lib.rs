@@ -27,7 +27,7 @@ pub use report::{
 use data::Record;
 use error::error;
 use least_squares::{Fit, start_values};
-use model::Family;
+use model::{Family, MOST_STIFFENING};
 use serde::Deserialize;
 
 /// Fits the law to measured loops.
@@ -56,21 +56,23 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
 
     let limit = [1e-3 * friction, 1e3 * friction];
     let least = 1e-6 * (series + contact_factor * mean(&compliances));
-    let limits = [limit, [least, f64::MAX], [0.0, f64::MAX], range.unwrap_or_default()];
+    let limits = [limit, [least, f64::MAX], [0.0, f64::MAX], range.unwrap_or_default(), [0.0, MOST_STIFFENING]];
     let in_range = |shape: f64| range.map_or(shape, |[low, high]| shape.clamp(low, high));
-    let start = [friction, series, contact_factor, shape.map_or(0.0, in_range)];
-    let solution = verdict::solve(Fit::new(&family, &loops, start, limits, range.is_some())?, options, range)?;
+    let start = [friction, series, contact_factor, shape.map_or(0.0, in_range), 0.0];
+    let start = Fit::new(&family, &loops, start, limits, range.is_some())?;
+    let solution = verdict::solve(&start, options, range)?;
 
     // A spring and a slider: the law without the contact's compliance.
-    let [friction, series, contact_factor, _] = solution.fit.parameters;
-    let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0];
+    let [friction, series, contact_factor, ..] = solution.fit.parameters;
+    let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0, 0.0];
     let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
-    slider.settle([options.friction_coefficient.is_none(), true, false, false]);
+    slider.settle([options.friction_coefficient.is_none(), true, false, false, false]);
     let ([friction_coefficient, compliance, ..], slider_forces) = (slider.parameters, slider.forces());
     let spring_slider =
         SpringSlider { friction_coefficient, stiffness: 1.0 / compliance, misfit: Misfit::new(&loops, &slider_forces) };
 
-    let (forces, [friction, series, contact_compliance, shape_estimate]) = (solution.fit.forces(), solution.estimates);
+    let forces = solution.fit.forces();
+    let [friction, series, contact_compliance, shape_estimate, series_stiffening] = solution.estimates;
     let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
     let shape = shape.map(|given| match range {
         Some(_) => shape_estimate,
@@ -81,13 +83,14 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     Ok(Report {
         friction_coefficient: friction,
         series_compliance: series,
+        series_stiffening,
         contact_compliance,
         total_compliance: solution.total_compliance,
         shape,
         explanation: solution.explanation.clone(),
         law: Misfit::new(&loops, &forces),
         spring_slider,
-        verdict: verdict::sentences(&solution, range),
+        verdict: verdict::sentences(&solution, range, contact.normal_force),
         profile: solution.profile,
         warnings,
         contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),

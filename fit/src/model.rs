@@ -3,14 +3,18 @@
 //! With the monotonic curve T(d) of the contact under a friction coefficient of 1, the total displacement under a force is
 //!
 //! ```text
-//! u = κ μ z + C T,   T = μ T₁(z),   up to gross slip, T = μN
+//! u = μ [κ z + C h(T₁)],   T = μ T₁(z),   up to gross slip, T = μN
+//! h = (N₀/s) ln[(1 - s + s N/N₀)/(1 - s + s (N - T₁)/N₀)],   h = T₁ for s = 0
 //! ```
 //!
-//! κ the factor on the displacements of the law, C the series compliance, z the displacement of the contact over μ: the law is
-//! `T = μ f(d/μ)`. Derivatives at constant u follow from the differential of both equations, with k = dT₁/dz:
+//! κ the factor on the displacements of the law, C the series compliance under the normal force N₀ of the contact, z the
+//! displacement of the contact over μ: the law is `T = μ f(d/μ)`. The series stiffness is constant (s = 0), or a share s of it
+//! grows in proportion to N: the law of the library's layer with N_c = N₀ (1/s - 1). Derivatives at constant u follow from the
+//! differential of both equations, with k = dT₁/dz and h' = dh/dT₁:
 //!
 //! ```text
-//! (κ + C k) dT = κ (T₁ - k z) dμ - k T dC - k μ z dκ + κ μ dT₁(z; shape),   dT/du = k/(κ + C k)
+//! (κ + C h' k) dT = [κ (T₁ - k z) + C k (h' T₁ - h)] dμ - k μ (h dC + z dκ + C dh(T₁; s)) + κ μ dT₁(z; shape)
+//! dT/du = k/(κ + C h' k)
 //! ```
 
 use crate::cycles::{Loop, Sample};
@@ -24,7 +28,10 @@ pub(crate) const FRICTION: usize = 0;
 pub(crate) const SERIES: usize = 1;
 pub(crate) const CONTACT: usize = 2;
 pub(crate) const SHAPE: usize = 3;
-pub(crate) const PARAMETERS: usize = 4;
+pub(crate) const STIFFENING: usize = 4;
+pub(crate) const PARAMETERS: usize = 5;
+/// The largest share s: the library's least N_c, 1e-3 of N₀.
+pub(crate) const MOST_STIFFENING: f64 = 0.999;
 
 /// The contact as a family of shapes: with the ratio a/b under its normal force as parameter.
 #[derive(Debug, Clone)]
@@ -139,15 +146,26 @@ impl Family {
     /// The curve under a normal force at a/b, or of the given geometry.
     pub fn curve(&self, shape: Option<f64>, normal_force: f64) -> Result<Curve, Error> {
         let (geometry, shape_slopes) = shape.map_or((self.contact.geometry, [0.0; 2]), |shape| self.shaped(shape));
-        Ok(Curve { contact: self.at(&geometry, normal_force)?, shape_slopes })
+        let relative_load = normal_force / self.contact.normal_force;
+        Ok(Curve { contact: self.at(&geometry, normal_force)?, relative_load, shape_slopes })
     }
 }
 
-/// The monotonic curve of a contact of friction coefficient 1, and the derivatives of a and R with respect to the shape.
+/// The monotonic curve of a contact of friction coefficient 1, its normal force over N₀, and the derivatives of a and R with
+/// respect to the shape.
 #[derive(Debug, Clone)]
 pub(crate) struct Curve {
     contact: Contact,
+    relative_load: f64,
     shape_slopes: [f64; 2],
+}
+
+/// The displacement h of what is in series, over C, and its derivatives with respect to T₁, s and N.
+struct Series {
+    displacement: f64,
+    by_force: f64,
+    by_share: f64,
+    by_load: f64,
 }
 
 /// A point of the total curve: force, and its derivatives with respect to the displacement and the parameters.
@@ -168,26 +186,55 @@ impl Curve {
         self.contact.initial_stiffness
     }
 
+    /// What is in series, at T₁ and a share s.
+    fn series(&self, force: f64, share: f64) -> Series {
+        // The stiffness over that under N₀: under N, and under N - T₁.
+        let (load, reference) = (self.relative_load, self.contact.slip_force / self.relative_load);
+        let relative_force = force / reference;
+        let stiffness = 1.0 - share + share * load;
+        let rest = (stiffness - share * relative_force).max(1.0 - share);
+        // Without the cancellation of small shares.
+        if share < 1e-7 {
+            let by_share = force * (1.0 - load + 0.5 * relative_force);
+            return Series { displacement: force + share * by_share, by_force: 1.0 / rest, by_share, by_load: 0.0 };
+        }
+        let displacement = -reference / share * (-share * relative_force / stiffness).ln_1p();
+        let slopes = [(load - 1.0) / stiffness, (load - relative_force - 1.0) / rest];
+        Series {
+            displacement,
+            by_force: 1.0 / rest,
+            by_share: (reference * (slopes[0] - slopes[1]) - displacement) / share,
+            by_load: 1.0 / stiffness - 1.0 / rest,
+        }
+    }
+
     /// Total displacement at the onset of gross slip.
-    pub fn slip_displacement(&self, [friction, series, contact, _]: &[f64; PARAMETERS]) -> f64 {
-        friction * (contact * self.contact.slip_displacement + series * self.contact.slip_force)
+    pub fn slip_displacement(&self, [friction, series, contact, _, share]: &[f64; PARAMETERS]) -> f64 {
+        let of_series = self.series(self.contact.slip_force, *share).displacement;
+        friction * (contact * self.contact.slip_displacement + series * of_series)
     }
 
     /// The point at a total displacement, odd in it.
     fn at(&self, displacement: f64, parameters: &[f64; PARAMETERS], with_shape: bool) -> Point {
-        let [friction, series, contact, _] = *parameters;
+        let [friction, series, contact, _, share] = *parameters;
         let (distance, sign) = (displacement.abs(), displacement.signum());
         if distance >= self.slip_displacement(parameters) {
             let force = self.contact.slip_force;
-            return Point { force: sign * friction * force, stiffness: 0.0, slopes: [sign * force, 0.0, 0.0, 0.0] };
+            return Point {
+                force: sign * friction * force,
+                stiffness: 0.0,
+                slopes: [sign * force, 0.0, 0.0, 0.0, 0.0],
+            };
         }
-        let (z, (force, stiffness)) = self.solve(distance / friction, series, contact);
-        let compliance = (contact + series * stiffness).max(f64::MIN_POSITIVE);
+        let (z, (force, stiffness)) = self.solve(distance / friction, parameters);
+        let Series { displacement, by_force, by_share, .. } = self.series(force, share);
+        let compliance = (contact + series * by_force * stiffness).max(f64::MIN_POSITIVE);
         let slopes = [
-            contact * (force - stiffness * z),
-            -stiffness * friction * force,
+            contact * (force - stiffness * z) + series * stiffness * (by_force * force - displacement),
+            -stiffness * friction * displacement,
             -stiffness * friction * z,
             if with_shape { contact * friction * self.shape_slope(z) } else { 0.0 },
+            -stiffness * friction * series * by_share,
         ];
         Point {
             force: sign * friction * force,
@@ -196,16 +243,21 @@ impl Curve {
         }
     }
 
-    /// Solves `κ z + C T₁(z) = u` by Newton's method: the left side is concave, so iterates from 0 increase.
-    fn solve(&self, displacement: f64, series: f64, contact: f64) -> (f64, (f64, f64)) {
+    /// Solves `κ z + C h(T₁(z)) = u` by Newton's method, from 0; the left side grows, and is concave for s = 0.
+    fn solve(&self, displacement: f64, [_, series, contact, _, share]: &[f64; PARAMETERS]) -> (f64, (f64, f64)) {
         let (mut z, mut response) = (0.0, (0.0, self.contact.initial_stiffness));
+        let [mut low, mut high] = [0.0, self.contact.slip_displacement];
         for _ in 0..60 {
+            let of_series = self.series(response.0, *share);
             // Without a contact compliance the slope may vanish at gross slip.
-            let slope = (contact + series * response.1).max(f64::MIN_POSITIVE);
-            let step = (displacement - contact * z - series * response.0) / slope;
-            z = (z + step).clamp(0.0, self.contact.slip_displacement);
+            let slope = (contact + series * of_series.by_force * response.1).max(f64::MIN_POSITIVE);
+            let rest = displacement - contact * z - series * of_series.displacement;
+            *(if rest > 0.0 { &mut low } else { &mut high }) = z;
+            let step = rest / slope;
+            let is_inside = (low..=high).contains(&(z + step));
+            z = if is_inside { z + step } else { 0.5 * (low + high) };
             response = contact_force(&self.contact, z);
-            if step.abs() <= 1e-13 * z {
+            if is_inside && step.abs() <= 1e-13 * z {
                 break;
             }
         }
@@ -214,13 +266,15 @@ impl Curve {
 
     /// dT/dN at a total displacement >= 0.
     fn load_slope(&self, displacement: f64, parameters: &[f64; PARAMETERS]) -> f64 {
-        let [friction, series, contact, _] = *parameters;
+        let [friction, series, contact, _, share] = *parameters;
         if displacement >= self.slip_displacement(parameters) {
             return friction;
         }
-        let (z, (_, stiffness)) = self.solve(displacement / friction, series, contact);
+        let (z, (force, stiffness)) = self.solve(displacement / friction, parameters);
         let [by_load, ..] = self.contact.monotonic_sensitivity(z).unwrap_or([f64::NAN; microslip::PARAMETERS]);
-        contact * friction * by_load / (contact + series * stiffness).max(f64::MIN_POSITIVE)
+        let of_series = self.series(force, share);
+        let compliance = (contact + series * of_series.by_force * stiffness).max(f64::MIN_POSITIVE);
+        friction * (contact * by_load - series * stiffness * of_series.by_load) / compliance
     }
 
     /// dT₁/d(a/b) at constant z.
@@ -324,10 +378,10 @@ mod tests {
     /// Central differences of relative step 1e-5 have an error of about 1e-10 of third derivatives, which grow towards gross slip.
     #[test]
     fn derivatives_are_those_of_the_force() {
-        for parameter in [ShapeParameter::FlatHalfWidth, ShapeParameter::EdgeRadius] {
+        for (parameter, share) in [(ShapeParameter::FlatHalfWidth, 0.9), (ShapeParameter::EdgeRadius, 0.3)] {
             let family = Family::new(&contact(1e-4), parameter).unwrap();
             let stiffness = family.reference_curve(None).unwrap().initial_stiffness();
-            let parameters = [0.5, 0.3 / stiffness, 1.2, 0.4];
+            let parameters = [0.5, 0.3 / stiffness, 1.2, 0.4, share];
             // Another load than that of the ratio a/b.
             let curve = |parameters: &[f64; PARAMETERS]| family.curve(Some(parameters[SHAPE]), 500.0).unwrap();
             let end = curve(&parameters).slip_displacement(&parameters);

@@ -2,6 +2,7 @@
 
 use crate::cycles::Loop;
 use crate::input::{Contact, DisplacementReference, Geometry};
+use crate::model::PARAMETERS;
 use serde::{Deserialize, Serialize};
 
 /// Result of a fit. All numbers are in the units of the input.
@@ -9,8 +10,11 @@ use serde::{Deserialize, Serialize};
 pub struct Report {
     /// Friction coefficient \[-\].
     pub friction_coefficient: Estimate,
-    /// Compliance of rig and bodies in series with the contact \[m/N\].
+    /// Compliance of rig and bodies in series with the contact, under its normal force \[m/N\].
     pub series_compliance: Estimate,
+    /// Share of the series stiffness, under the normal force of the contact, that grows in proportion to the load \[-\]; fixed at
+    /// 0 unless there are several loads.
+    pub series_stiffening: Estimate,
     /// Factor on the displacements of the law \[-\].
     pub contact_compliance: Estimate,
     /// Initial compliance of contact, rig and bodies, under the normal force of the contact \[m/N\].
@@ -215,10 +219,15 @@ impl FittedLoop {
     }
 }
 
+/// N_c: the stiffness, of which this share grows with the load under a normal force, is proportional to N + N_c.
+pub(crate) fn stiffening_load(share: f64, normal_force: f64) -> f64 {
+    normal_force * (1.0 / share - 1.0)
+}
+
 /// The fitted contact as a parameter file. A factor κ on the displacements of the law is a modulus E/κ, and a radius R/κ so that
 /// the contact has the same width.
-pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; 4]) -> String {
-    let [friction, series, factor, _] = parameters;
+pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; PARAMETERS]) -> String {
+    let [friction, series, factor, _, share] = parameters;
     let mut text =
         "# Fitted to measured loops. tangential_compliance is that of all in series with the contact: rig, bodies, roughness.\n"
             .to_owned();
@@ -250,6 +259,9 @@ pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &
     text += &format!("normal_force = {:e}\nfriction_coefficient = {friction:e}\n", contact.normal_force);
     if *series > 0.0 {
         text += &format!("tangential_compliance = {series:e}\n");
+        if *share > 0.0 {
+            text += &format!("stiffening_load = {:e}\n", stiffening_load(*share, contact.normal_force));
+        }
     }
     for body in &contact.material {
         let (modulus, ratio) = (body.young_modulus / factor, body.poisson_ratio);

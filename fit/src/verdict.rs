@@ -14,8 +14,8 @@ use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
 use crate::misfit::{FACTOR, LoopMisfit};
-use crate::model::{CONTACT, FRICTION, PARAMETERS, Prediction, SERIES, SHAPE};
-use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status};
+use crate::model::{CONTACT, FRICTION, MOST_STIFFENING, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING};
+use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status, stiffening_load};
 
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
 const QUANTILE: f64 = 1.96;
@@ -24,6 +24,8 @@ const SHAPES: usize = 10;
 /// Widest interval of a/b, and half-widths of the others as fractions (the last of the total compliance), of what is determined.
 const WIDEST_SHAPE: f64 = 0.3;
 const WIDEST: [f64; 4] = [0.1, 0.1, 0.5, 0.1];
+/// Half-width of what is determined of the share of the series stiffness that grows with the load.
+const WIDEST_STIFFENING: f64 = 0.1;
 
 /// A best fit, and what it determines.
 #[derive(Debug)]
@@ -71,10 +73,39 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// Fits all free parameters, from start values of the others than the shape.
-pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f64; 2]>) -> Result<Solution<'a>, Error> {
+/// Loads that differ by less, as a factor, show nothing of a stiffness that grows with the load.
+const DIFFERENT_LOADS: f64 = 1.2;
+
+/// Fits all free parameters, from start values of the others than the shape. With several loads the stiffness in series may grow
+/// with the load; it is constant if the data admit that.
+pub(crate) fn solve<'a>(start: &Fit<'a>, options: &Options, range: Option<[f64; 2]>) -> Result<Solution<'a>, Error> {
+    let constant = || solve_with(start.clone(), options, range, false);
+    if options.series_compliance.is_some() || start.range_of_loads() < DIFFERENT_LOADS {
+        return constant();
+    }
+    let mut growing = start.clone();
+    growing.parameters[STIFFENING] = 0.5;
+    let growing = solve_with(growing, options, range, true)?;
+    let share = growing.estimates[STIFFENING];
+    if share.lower > 0.0 {
+        return Ok(growing);
+    }
+    let mut solution = constant()?;
+    let status = if solution.explanation.explained { share.status } else { Status::NotDetermined };
+    solution.estimates[STIFFENING] = Estimate { value: 0.0, status, ..share };
+    Ok(solution)
+}
+
+/// Fits all free parameters, the share of the stiffness that grows with the load or without.
+fn solve_with<'a>(
+    mut start: Fit<'a>,
+    options: &Options,
+    range: Option<[f64; 2]>,
+    is_growing: bool,
+) -> Result<Solution<'a>, Error> {
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
-    let others: Free = std::array::from_fn(|i| i != SHAPE && given[i].is_none());
+    let [friction, series, contact] = given.map(|value| value.is_none());
+    let others: Free = [friction, series, contact, false, is_growing];
     let all: Free = std::array::from_fn(|i| i == SHAPE || others[i]);
     start.settle(others);
     let candidates = match range {
@@ -103,7 +134,7 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     if let Some(range) = range {
         let mut refined = fit.clone();
         refined.free = all;
-        let error = QUANTILE * (unit * refined.variances(&[[0.0, 0.0, 0.0, 1.0]])[0]).sqrt();
+        let error = QUANTILE * (unit * refined.variances(&[unit_of(SHAPE)])[0]).sqrt();
         estimates[SHAPE] = shape_estimate(&profile, &excesses, best, error, range);
         let Estimate { value, status, .. } = estimates[SHAPE];
         of_shapes = if status == Status::Determined && value > range[0] && value < range[1] {
@@ -148,6 +179,9 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     let is_fixed = !others[SERIES] && !others[CONTACT] && range.is_none();
     let mut total_compliance = if is_fixed { fixed(values[TOTAL]) } else { estimate(TOTAL) };
     let profile = if range.is_some() { profile } else { Vec::new() };
+    if is_growing {
+        estimates[STIFFENING] = stiffening(&fit, free, unit);
+    }
 
     if !explanation.explained {
         let fitted = estimates.iter_mut().chain([&mut total_compliance]).filter(|one| one.status != Status::Fixed);
@@ -162,6 +196,35 @@ pub(crate) fn solve<'a>(mut start: Fit<'a>, options: &Options, range: Option<[f6
     }
     let is_spring_slider = is_spring_slider(&fit, others);
     Ok(Solution { fit, estimates, total_compliance, profile, explanation, is_spring_slider })
+}
+
+/// The share of the stiffness that grows with the load: by the covariance, and 0 or the largest one as far as they are admitted.
+fn stiffening(best: &Fit, free: Free, unit: f64) -> Estimate {
+    let value = best.parameters[STIFFENING];
+    let mut released = best.clone();
+    released.release(free);
+    let error = QUANTILE * (unit * released.variances(&[unit_of(STIFFENING)])[0]).sqrt();
+    let others = std::array::from_fn(|i| free[i] && i != STIFFENING);
+    let is_admitted = |share: f64| {
+        let mut fit = best.clone();
+        fit.parameters[STIFFENING] = share;
+        let excess = Candidate::new(fit, others).chi_squared - best.chi_squared();
+        excess <= QUANTILE.powi(2) * unit
+    };
+    let least = value * 1e-3;
+    let lower = if is_admitted(0.0) { 0.0 } else { (value - error).max(least) };
+    let upper = if is_admitted(MOST_STIFFENING) { 1.0 } else { (value + error).min(MOST_STIFFENING) };
+    let status = match 0.5 * (upper - lower) {
+        half_width if half_width <= WIDEST_STIFFENING => Status::Determined,
+        _ if lower > 0.0 || upper < 1.0 => Status::Bounded,
+        _ => Status::NotDetermined,
+    };
+    Estimate { value, lower, upper: Some(upper), status }
+}
+
+/// The combination that is one parameter.
+fn unit_of(parameter: usize) -> [f64; PARAMETERS] {
+    std::array::from_fn(|i| if i == parameter { 1.0 } else { 0.0 })
 }
 
 /// Compares the misfit of each loop with its noise.
@@ -213,11 +276,11 @@ fn carried(fit: &Fit, error: f64) -> f64 {
 
 /// Whether a spring and a slider fit as well as the law.
 fn is_spring_slider(best: &Fit, others: Free) -> bool {
-    let [_, series, contact, _] = best.parameters;
+    let [_, series, contact, ..] = best.parameters;
     let mut fit = best.clone();
     fit.parameters[SERIES] = series + contact * best.law_compliance()[0];
-    fit.parameters[CONTACT] = 0.0;
-    let slider = Candidate::new(fit, [others[FRICTION], true, false, false]);
+    (fit.parameters[CONTACT], fit.parameters[STIFFENING]) = (0.0, 0.0);
+    let slider = Candidate::new(fit, [others[FRICTION], true, false, false, false]);
     slider.chi_squared <= (1.0 + EQUAL).powi(2) * best.chi_squared()
 }
 
@@ -306,9 +369,9 @@ const TOTAL: usize = 3;
 /// Values of the best fit, and intervals that enclose those of fits at several shapes.
 fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> ([f64; 4], [f64; 4], [f64; 4]) {
     let values = |fit: &Fit| {
-        let ([friction, series, contact, _], [law, slope]) = (fit.parameters, fit.law_compliance());
-        let combinations =
-            [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 1.0, law, contact * slope]];
+        let ([friction, series, contact, ..], [law, slope]) = (fit.parameters, fit.law_compliance());
+        let total = [0.0, 1.0, law, contact * slope, 0.0];
+        let combinations = [unit_of(FRICTION), unit_of(SERIES), unit_of(CONTACT), total];
         ([friction, series, contact, series + contact * law], combinations)
     };
     let best = values(best).0;
@@ -341,8 +404,8 @@ fn correlation(residuals: &[Vec<f64>]) -> f64 {
 }
 
 /// The verdict in sentences.
-pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>) -> Vec<String> {
-    let ([friction, series, contact, shape], explanation) = (&solution.estimates, &solution.explanation);
+pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_force: f64) -> Vec<String> {
+    let ([friction, series, contact, shape, share], explanation) = (&solution.estimates, &solution.explanation);
     let interval =
         |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
     let mut sentences = Vec::new();
@@ -399,6 +462,7 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>) -> Vec<Str
             _ => sentences.push(format!("The {name} is not determined.")),
         }
     }
+    sentences.extend(of_stiffening(share, normal_force));
     let hides = solution.fit.law_compliance()[0] < SMALL_PART * total.value;
     let is_seen = [contact, shape].iter().any(|estimate| estimate.status == Status::Determined);
     if solution.is_spring_slider && !hides && !is_seen {
@@ -417,6 +481,27 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>) -> Vec<Str
         });
     }
     sentences
+}
+
+/// Whether the stiffness in series grows with the load; none if there is one load only.
+fn of_stiffening(share: &Estimate, normal_force: f64) -> Option<String> {
+    let [low, high] = [share.upper.unwrap_or(1.0), share.lower].map(|share| stiffening_load(share, normal_force));
+    Some(match (share.lower > 0.0, share.upper.is_none_or(|upper| upper < 1.0)) {
+        _ if share.status == Status::Fixed => return None,
+        (true, true) => {
+            format!("The series stiffness grows in proportion to N + N_c, N_c = {low:.3e} to {high:.3e} N.")
+        }
+        (true, false) => format!("The series stiffness grows in proportion to N + N_c, N_c at most {high:.3e} N."),
+        (false, true) => {
+            format!(
+                "A constant series stiffness explains all loads; if it is proportional to N + N_c, N_c exceeds {low:.3e} N."
+            )
+        }
+        (false, false) => {
+            "The loads do not show whether the series stiffness grows with the load: it is taken as constant."
+                .to_owned()
+        }
+    })
 }
 
 /// A cause of the residuals in a sentence.

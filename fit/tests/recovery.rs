@@ -118,6 +118,56 @@ fn loops_at_several_loads_and_another_radius() {
     assert!((radius / (50e-3 / report.contact_compliance.value) - 1.0).abs() < 1e-3, "{line}");
 }
 
+/// Report of three loops under loads up to 800 N in the ratio of 1 to `range`: of a contact with a layer of this N_c, or with a
+/// spring; and the compliance of either, half that of the contact.
+fn layered(stiffening_load: Option<f64>, range: f64, seed: u64) -> (Report, f64) {
+    let (contact, mut random) = (flat(), Random::new(seed));
+    let compliance = 0.5 / library_contact(&contact, 800.0).initial_stiffness;
+    let rig = Rig { noise: [1e-3, 1e-4], samples: 100, ..RIG };
+    let rig = match stiffening_load {
+        Some(load) => Rig { layer: [compliance, load], ..rig },
+        None => Rig { series_compliance: compliance, ..rig },
+    };
+    let rigs = [(0.6, 800.0 / range), (2.0, 800.0 / range.sqrt()), (1.2, 800.0)];
+    let loops =
+        rigs.map(|(amplitude, load)| measured(&contact, &Rig { amplitude, normal_force: load, ..rig }, &mut random));
+    let options = Options { shape: ShapeParameter::Fixed, ..Options::default() };
+    (fit(&contact, &loops, &options).unwrap(), compliance)
+}
+
+#[test]
+fn a_series_stiffness_that_grows_with_the_load_is_seen_from_several_loads() {
+    let says = |report: &Report, part: &str| report.verdict.iter().any(|sentence| sentence.contains(part));
+    let covers = |at: Estimate, truth: f64| (at.lower..=at.upper.unwrap()).contains(&truth);
+    let (mut hits, mut constant) = ([0; 2], 0);
+    for seed in 0..40 {
+        let (report, compliance) = layered(Some(400.0), 8.0, seed);
+        // N_c = 400 N under 800 N: 2/3 of the stiffness grow with the load.
+        let (share, series) = (report.series_stiffening, report.series_compliance);
+        assert!(share.status == Status::Determined && series.status == Status::Determined, "{:?}", report.verdict);
+        hits[0] += usize::from(covers(share, 2.0 / 3.0));
+        hits[1] += usize::from(covers(series, compliance));
+        assert!(says(&report, "grows in proportion to N + N_c"));
+        constant += usize::from(layered(None, 8.0, seed).0.series_stiffening.lower == 0.0);
+    }
+    println!("{hits:?} of 40 intervals contain share and compliance; {constant} of 40 springs are constant");
+    // Of 40 with probability 0.95, 33 or more succeed with probability 0.999.
+    assert!(hits.iter().all(|hits| *hits >= 33) && constant >= 33);
+
+    // The file has the layer; a constant stiffness has no N_c.
+    let number = |report: &Report, name: &str| -> Option<f64> {
+        report.contact_toml.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(" = ")?.parse().ok())
+    };
+    let (report, compliance) = layered(Some(400.0), 8.0, 1);
+    assert!((number(&report, "stiffening_load").unwrap() / 400.0 - 1.0).abs() < 0.02, "{}", report.contact_toml);
+    assert!((number(&report, "tangential_compliance").unwrap() / compliance - 1.0).abs() < 0.02);
+    let (report, _) = layered(None, 8.0, 1);
+    assert!(number(&report, "stiffening_load").is_none() && says(&report, "A constant series stiffness explains all"));
+    // One load shows nothing of it.
+    let (report, _) = layered(None, 1.0, 1);
+    assert_eq!((report.series_stiffening.status, report.series_stiffening.value), (Status::Fixed, 0.0));
+}
+
 /// A sphere: the law against Mindlin's closed form `T = μN (1 - (1 - d/d0)^(3/2))`, loops by Masing's rule.
 #[test]
 fn a_sphere_has_no_shape() {

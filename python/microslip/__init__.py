@@ -30,6 +30,7 @@ from ._core import Error, Parameter, Status, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce, StaticDisplacement
 from ._fit import FitError, fit
 from ._memory import ElementState, ElementWorkspace, State, Workspace
+from ._parameters import read_parameters
 
 __version__: str = ffi.string(lib.mslip_version()).decode()
 ABI_VERSION: int = lib.mslip_abi_version()
@@ -79,5 +80,6 @@ __all__ = [
     "Workspace",
     "__version__",
     "fit",
+    "read_parameters",
     "status_text",
 ]

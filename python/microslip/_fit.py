@@ -39,10 +39,11 @@ def fit(
     of the law), which are fitted otherwise. `shape` is the fitted parameter of the shape: "flat_half_width", "edge_radius" or
     "fixed".
 
-    Returns a report: `friction_coefficient`, `series_compliance`, `contact_compliance`, `total_compliance` and `shape` with
-    `value`, `lower`, `upper` (95 % confidence) and `status`; `explanation`, with `explained`, whether the law explains the loops,
-    and the `causes` if it does not; `law` and `spring_slider.misfit` with the misfits; the sentences `verdict` and `warnings`;
-    `profile`, `contact_toml`, and the fitted `loops`. Raises `FitError`.
+    Returns a report: `friction_coefficient`, `series_compliance`, `series_stiffening` (of several loads: the share of the series
+    stiffness that grows in proportion to the load), `contact_compliance`, `total_compliance` and `shape` with `value`, `lower`,
+    `upper` (95 % confidence) and `status`; `explanation`, with `explained`, whether the law explains the loops, and the `causes` if
+    it does not; `law` and `spring_slider.misfit` with the misfits; the sentences `verdict` and `warnings`; `profile`,
+    `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """
     options = _numbers({} if fixed is None else _mapping(fixed, "fixed"), "fixed")
     if "shape" in options:

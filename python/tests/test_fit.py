@@ -5,6 +5,7 @@ from __future__ import annotations
 import microslip
 import numpy as np
 import pytest
+from tables import FLAT, REPOSITORY
 
 TRUTH = {
     "flat_half_width": 0.1e-3,
@@ -117,3 +118,73 @@ def test_constants_are_given_by_number_or_word():
     assert "rigid_strip" in one.contact_toml
     with_surrogate = {"displacement": LOOP[0], "force": LOOP[1], "name": "a\0\ud800b"}
     assert microslip.fit([with_surrogate], TRUTH).loops[0].name.startswith("a")
+
+
+def response(law, frequency):
+    """Amplitude [m] of a mass on a spring and the contact, at frequencies over that of the stuck contact, by harmonic balance."""
+    spring = contact.initial_stiffness
+    workspace, order = microslip.Workspace(5, 128), np.array([0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5])
+    coefficients, amplitudes = np.zeros(11), []
+    for part in frequency:
+        omega = np.sqrt(2) * part
+        matrix = np.diag(spring * (1 - (order * omega) ** 2))
+        for i in range(1, 11, 2):
+            matrix[i, i + 1] = 0.01 * spring * order[i] * omega
+            matrix[i + 1, i] = -matrix[i, i + 1]
+        for _ in range(50):
+            found = law.harmonic_force(workspace, coefficients)
+            residual = matrix @ coefficients + found.force
+            residual[1] -= 0.4 * contact.slip_force
+            step = np.linalg.solve(matrix + found.jacobian, residual)
+            coefficients = coefficients - step
+            if abs(step).max() < 1e-12 * abs(coefficients).max():
+                break
+        else:
+            raise AssertionError(f"no convergence at {part}")
+        amplitudes.append(np.hypot(*coefficients[1:3]))
+    return np.array(amplitudes)
+
+
+def test_three_measured_loops_to_a_forced_response(tmp_path):
+    """Measured loops of three loads, fit, parameter file, contact, harmonic balance: without an edit, to the response of the true
+    contact, which has a layer with a stiffness that grows with the load.
+    """
+    random = np.random.default_rng(7)
+    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0}
+    truth = microslip.Contact(**TRUTH | layer)
+    t = 2 * np.pi * np.arange(160) / 80
+    measured = []
+    for amplitude, load in [(0.7, 200.0), (2.0, 400.0), (1.2, 800.0)]:
+        under_load = {"normal_force": load, "tangential_compliance": layer["tangential_compliance"] * 1000 / (load + 200)}
+        law = microslip.Contact(**TRUTH | layer | under_load)
+        displacement = amplitude * law.slip_displacement * np.cos(t)
+        force = law.update(microslip.State(), displacement).force + 5e-4 * law.slip_force * random.standard_normal(160)
+        measured.append({"displacement": displacement, "force": force, "normal_force": load})
+    file = tmp_path / "fitted.toml"
+    report = microslip.fit(measured, TRUTH | {"friction_coefficient": 0.3, "flat_half_width": 0.05e-3})
+    file.write_text(report.contact_toml)
+    fitted = microslip.Contact(**microslip.read_parameters(file))
+    assert report.series_stiffening.status == "determined"
+    frequency = np.linspace(0.7, 1.05, 36)
+    expected = response(truth, frequency)
+    # From partial to gross slip. Noise of 5e-4 in some hundred samples, times ten at resonance.
+    assert expected.min() < 0.5 * truth.slip_displacement < 1.2 * truth.slip_displacement < expected.max()
+    np.testing.assert_allclose(response(fitted, frequency), expected, rtol=1e-3)
+    # Without the layer the response is another one: the file carries it.
+    assert abs(response(contact, frequency) / expected - 1).max() > 0.1
+
+
+def test_parameter_files_of_the_command_line(tmp_path):
+    file = REPOSITORY / "cli" / "example.toml"
+    steel = {"young_modulus": 2e11, "poisson_ratio": 0.3, "displacement_reference": "rigid_strip"}
+    assert microslip.Contact(**microslip.read_parameters(file)) == microslip.Contact(**FLAT | steel)
+    text = (
+        "units = 'mm'\nspring = 1\nsprings = 8\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
+    )
+    (tmp_path / "mm.toml").write_text(text)
+    # Products by powers of ten.
+    expected = {"edge_radius": 3e-3, "tangential_compliance": 2e-9, "young_modulus": 2e11, "spring": 1}
+    assert microslip.read_parameters(tmp_path / "mm.toml") == pytest.approx(expected, rel=1e-15)
+    (tmp_path / "inch.toml").write_text("units = 'inch'\n")
+    with pytest.raises(ValueError, match="units must be 'si' or 'mm', not 'inch'"):
+        microslip.read_parameters(tmp_path / "inch.toml")

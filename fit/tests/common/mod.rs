@@ -1,8 +1,8 @@
 //! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
 
-use microslip::Parameters;
 use microslip::constant_load::masing::step;
 use microslip::constant_load::state::{state_init, state_length};
+use microslip::{Layer, Parameters};
 use microslip_fit::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce};
 use std::f64::consts::TAU;
 
@@ -69,6 +69,8 @@ impl Random {
 #[derive(Clone, Copy)]
 pub struct Rig {
     pub series_compliance: f64,
+    /// A layer with this compliance under the normal force of the contact and N_c; none if the compliance is 0.
+    pub layer: [f64; 2],
     pub contact_compliance: f64,
     pub normal_force: f64,
     /// Amplitude of the contact's displacement over that of gross slip.
@@ -85,6 +87,7 @@ pub struct Rig {
 
 pub const RIG: Rig = Rig {
     series_compliance: 0.0,
+    layer: [0.0, 0.0],
     contact_compliance: 1.0,
     normal_force: 800.0,
     amplitude: 1.5,
@@ -97,7 +100,14 @@ pub const RIG: Rig = Rig {
 };
 
 pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measurement {
-    let law = &library_contact(contact, rig.normal_force);
+    let mut parameters = library_parameters(contact, rig.normal_force);
+    let [compliance, load] = rig.layer;
+    parameters.layer = Layer {
+        tangential_compliance: compliance * (contact.normal_force + load) / (rig.normal_force + load),
+        stiffening_load: load,
+        ..Layer::default()
+    };
+    let law = &microslip::Contact::rounded_flat(&parameters).unwrap();
     let mut state = vec![0.0; state_length(16)];
     state_init(&mut state).unwrap();
     let amplitude = rig.amplitude * law.slip_displacement;

@@ -1,0 +1,151 @@
+"""Functions of JAX: their derivatives against differences of the library's forces, a harmonic balance, and a fit by gradient."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import microslip
+import numpy as np
+import pytest
+from jax_microslip import NAMES, contact, harmonic_force, history
+from jax_two_masses import CONTACT, amplitudes, example, responses
+from numpy.testing import assert_allclose
+from tables import REPOSITORY
+
+SLIP = microslip.Contact(**CONTACT).slip_displacement
+LAYER = 0.3 / microslip.Contact(**CONTACT).initial_stiffness
+random = np.random.default_rng(5)
+# Of central differences with steps of 1e-6, over the largest change of the force with the whole argument: rounding errors of
+# forces, some 1e-15 of them, over the step. Errors of the second power of the step are smaller, corners within a step not met.
+DIFFERENCE = 1e-8
+
+
+def differences(function, x, step):
+    """Central differences: their error is of the second power of the step, and of the rounding error over the step."""
+    change = [(function(x + d) - function(x - d)) / (2 * step) for d in step * np.eye(x.size).reshape(x.size, *x.shape)]
+    return np.moveaxis(change, 0, -1).reshape(*np.shape(change[0]), *x.shape)
+
+
+@pytest.mark.parametrize("directions", [0, 1, 2])
+def test_harmonic_force_has_exact_derivatives(directions):
+    if directions:
+        law, workspace = microslip.Element(**CONTACT, directions=directions), microslip.ElementWorkspace(directions, 2, 32)
+        x = 0.5 * SLIP * random.standard_normal((3, directions + 1, 5))
+        x[:, -1, 0] += law.approach
+    else:
+        law, workspace = microslip.Contact(**CONTACT), microslip.Workspace(2, 32)
+        x = SLIP * random.standard_normal((3, 5))
+    force = harmonic_force(law, workspace)
+    many = jax.jit(jax.vmap(force))(x)
+    forward, reverse = jax.vmap(jax.jacfwd(force))(x), jax.vmap(jax.jacrev(force))(x)
+    for i in range(3):
+        assert (many[i] == law.harmonic_force(workspace, x[i]).force).all()
+        expected = differences(lambda at: law.harmonic_force(workspace, at).force, x[i], 1e-6 * SLIP)
+        assert_allclose(forward[i], expected, rtol=0, atol=DIFFERENCE * abs(expected).max())
+        # The same products in another order: rounding errors of the sums.
+        assert_allclose(reverse[i], forward[i], rtol=0, atol=1e-14 * abs(forward).max())
+
+
+def test_parameters_have_exact_derivatives():
+    workspace = microslip.Workspace(3, 64)
+    force = harmonic_force(CONTACT, workspace)
+    made = microslip.Contact(**CONTACT)
+    values = {name: CONTACT.get(name, made.composite_modulus) for name in NAMES} | {"layer_compliance": LAYER}
+    u = SLIP * np.array([0.3, 1.2, -0.4, 0, 0.2, 0.1, 0.3])
+    forward, reverse = jax.jacfwd(force, 1)(u, values), jax.jacrev(force, 1)(u, values)
+    for name, value in values.items():
+
+        def at(changed, name=name):
+            return contact(CONTACT, values | {name: float(changed)}).harmonic_force(workspace, u).force
+
+        expected = differences(at, np.array(value), 1e-6 * value)
+        assert_allclose(forward[name], expected, rtol=0, atol=DIFFERENCE * made.slip_force / value, err_msg=name)
+        assert_allclose(reverse[name], forward[name], rtol=0, atol=1e-14 * abs(expected).max(), err_msg=name)
+    # Contacts of two friction coefficients in one call.
+    mu = jnp.array([0.3, 0.4, 0.3])
+    found = jax.vmap(lambda m: force(u, {"friction_coefficient": m}))(mu)
+    for one, m in zip(found, mu.tolist()):
+        assert (one == contact(CONTACT, {"friction_coefficient": m}).harmonic_force(workspace, u).force).all()
+
+
+def test_history_of_a_contact_has_exact_derivatives():
+    """Random displacements, with loops in loops, gross slip and rests, and so small ones that the monotonic curve is met again."""
+    made = microslip.Contact(**CONTACT)
+    u = SLIP * np.array([[1], [0.1]]) * np.cumsum(random.standard_normal((2, 200)), axis=1)
+    u[:, 50:53] = u[:, 49:50]
+    force = jax.jit(history(CONTACT))
+    for x in u:
+        # Rounding errors of sums of some ten forces.
+        assert_allclose(force(x), made.update(microslip.State(100), x).force, rtol=0, atol=1e-14 * made.slip_force)
+    assert (jax.vmap(force)(u)[1] == force(u[1])).all()
+    x = u[0, :40]
+    expected = differences(lambda at: made.update(microslip.State(100), at).force, x, 1e-6 * SLIP)
+    assert_allclose(jax.jacfwd(force)(x), expected, rtol=0, atol=DIFFERENCE * made.initial_stiffness)
+    assert_allclose(jax.jacrev(force)(x), jax.jacfwd(force)(x), rtol=0, atol=1e-14 * made.initial_stiffness)
+    values = {"friction_coefficient": 0.4, "edge_radius": 5e-3, "layer_compliance": LAYER}
+    found = jax.jacfwd(force, 1)(x, values)
+    for name, value in values.items():
+
+        def at(changed, name=name):
+            return contact(CONTACT, values | {name: float(changed)}).update(microslip.State(100), x).force
+
+        expected = differences(at, np.array(value), 1e-6 * value)
+        assert_allclose(found[name], expected, rtol=0, atol=DIFFERENCE * made.slip_force / value, err_msg=name)
+
+
+@pytest.mark.parametrize("first", [0.5, -0.5])
+def test_history_of_an_element_has_exact_derivatives(first):
+    """It opens and closes, and is pressed or open at first."""
+    element = microslip.Element(**CONTACT)
+    x = random.standard_normal((2, 31, 2)) * [SLIP, 0.5 * element.approach] + [0, 0.6 * element.approach]
+    x[:, 0, 1] = first * element.approach
+    force = history(element)
+    many, found = jax.vmap(force)(x), jax.vmap(jax.jacfwd(force))(x)
+    for i in range(2):
+        assert (many[i] == element.update(microslip.ElementState(1, 64), x[i]).force).all()
+        expected = differences(lambda at: element.update(microslip.ElementState(1, 64), at).force, x[i], 1e-6 * SLIP)
+        assert_allclose(found[i], expected, rtol=0, atol=DIFFERENCE * abs(expected).max())
+
+
+def test_errors():
+    force = harmonic_force(CONTACT, microslip.Workspace(1, 8))
+    with pytest.raises(ValueError, match="names of parameters are"):
+        force(np.zeros(3), {"mu": 0.3})
+    with pytest.raises(ValueError, match="cannot be changed"):
+        harmonic_force(microslip.Contact(**CONTACT), microslip.Workspace(1, 8))(np.zeros(3), {"friction_coefficient": 0.3})
+    with pytest.raises(ValueError, match="Pure callbacks do not support JVP"):
+        jax.hessian(lambda u: force(u)[1])(np.ones(3))
+    with pytest.raises(jax.errors.JaxRuntimeError, match="BAD_DISPLACEMENT"):
+        force(np.full(3, np.nan)).block_until_ready()
+    jax.config.update("jax_enable_x64", False)
+    try:
+        with pytest.raises(ValueError, match="float64 is needed"):
+            force(np.zeros(3))
+    finally:
+        jax.config.update("jax_enable_x64", True)
+
+
+def test_response_of_two_masses_is_that_of_the_fortran_example():
+    rows = np.loadtxt(REPOSITORY / "fortran_examples" / "expected" / "two_dof.csv", delimiter=",", skiprows=1).reshape(-1, 2, 13)
+    found, expected = responses(2 * np.pi * rows[:, 0, 0], {}), rows[:, :, 2:]
+    # The Fortran example stops at a residual of 1e-12 of the displacement.
+    assert (abs(found - expected).max(axis=2) <= 1e-11 * abs(expected).max(axis=2)).all()
+
+
+def test_fit_finds_the_parameters_of_a_response():
+    truth, found = example()
+    # Responses are exact to 1e-13 and change by about as much as the parameters, relatively.
+    assert_allclose(list(found.values()), list(truth.values()), rtol=1e-10)
+
+
+def test_response_has_exact_derivatives_by_parameters():
+    frequencies = np.linspace(600, 900, 16)
+
+    def sum_of_squares(logarithms):
+        changed = {"friction_coefficient": jnp.exp(logarithms[0]), "layer_compliance": jnp.exp(logarithms[1])}
+        return (1e6 * amplitudes(frequencies, changed) ** 2).sum()
+
+    at = np.log([0.35, LAYER])
+    expected = differences(sum_of_squares, at, 1e-5)
+    # Second power of the step times third derivatives, some hundred at resonance; rounding errors of 1e-13 over it.
+    assert_allclose(jax.grad(sum_of_squares)(at), expected, rtol=1e-7)
