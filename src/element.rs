@@ -11,6 +11,7 @@ use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
+pub(crate) use table::Curvature;
 use table::{PIECES, Table};
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
@@ -740,15 +741,16 @@ impl Element {
         if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
     }
 
-    /// N'' at a shift S > 0.
+    /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
     #[inline(always)]
-    pub(crate) fn curvature_at_shift(&self, shift: f64) -> f64 {
-        match self.load_of_shift.position(shift) {
-            Some(at) => self.load_of_shift.curvature(shift, at),
-            None => self.curvature_outside(shift),
+    pub(crate) fn four_curvatures(&self, shift: &[f64; 4], quarter: &mut Curvature) -> [f64; 4] {
+        match self.load_of_shift.four_curvatures(shift, quarter) {
+            Some(values) => values,
+            None => shift.map(|shift| self.curvature_outside(shift)),
         }
     }
 
+    /// From the shape.
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
         let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
@@ -767,17 +769,23 @@ impl Element {
         if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
     }
 
-    /// M at a shift S >= 0.
+    /// M, the integral of N, at a shift S >= 0.
+    #[inline(always)]
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
                 let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(shift, at)
             }
-            None => match self.size_at_shift(shift) {
-                Ok(w) => self.shape().potential(w),
-                Err(slope) => 0.5 * slope * shift * shift,
-            },
+            None => self.potential_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn potential_outside(&self, shift: f64) -> f64 {
+        match self.size_at_shift(shift) {
+            Ok(w) => self.shape().potential(w),
+            Err(slope) => 0.5 * slope * shift * shift,
         }
     }
 }
