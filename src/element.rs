@@ -11,6 +11,7 @@ use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
+pub(crate) use table::Curvature;
 use table::{PIECES, Table};
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
@@ -293,28 +294,27 @@ impl Element {
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
-        let load_of_shift = |x| shape.series(shape.at_shift(x), Relation::LoadOfShift);
-        self.load_of_shift.fill(regular(shift, self.largest_shift), &load_of_shift);
+        let mut potentials = self.potential.iter_mut();
+        self.load_of_shift.fill(regular(shift, self.largest_shift), &mut |x| {
+            let w = shape.at_shift(x);
+            potentials.next().into_iter().for_each(|value| *value = shape.potential(w));
+            shape.series(w, Relation::LoadOfShift)
+        });
         match input {
             NormalInput::Approach => {
-                let load_of_approach = |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach);
                 let largest = regular(approach, self.largest_approach);
-                self.of_input.fill(largest, &load_of_approach);
+                self.of_input.fill(largest, &mut |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach));
                 if self.has_third() {
-                    self.third.fill(largest, &|x| shape.series(shape.at_approach(x), Relation::ShiftOfApproach));
+                    self.third.fill(largest, &mut |x| shape.series(shape.at_approach(x), Relation::ShiftOfApproach));
                 }
             }
             NormalInput::Force => {
-                let shift_of_load = |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad);
                 // The load of the parameters without the rounding error of its size.
-                self.of_input.fill(normal_force, &shift_of_load);
+                self.of_input.fill(normal_force, &mut |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad));
                 if self.has_third() {
-                    self.third.fill(normal_force, &|x| shape.series(shape.at_load(x), Relation::ApproachOfLoad));
+                    self.third.fill(normal_force, &mut |x| shape.series(shape.at_load(x), Relation::ApproachOfLoad));
                 }
             }
-        }
-        for (value, middle) in self.potential.iter_mut().zip(self.load_of_shift.middles()) {
-            *value = shape.potential(shape.at_shift(middle));
         }
         Ok(())
     }
@@ -756,15 +756,16 @@ impl Element {
         if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
     }
 
-    /// N'' at a shift S > 0.
+    /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
     #[inline(always)]
-    pub(crate) fn curvature_at_shift(&self, shift: f64) -> f64 {
-        match self.load_of_shift.position(shift) {
-            Some(at) => self.load_of_shift.curvature(shift, at),
-            None => self.curvature_outside(shift),
+    pub(crate) fn four_curvatures(&self, shift: &[f64; 4], quarter: &mut Curvature) -> [f64; 4] {
+        match self.load_of_shift.four_curvatures(shift, quarter) {
+            Some(values) => values,
+            None => shift.map(|shift| self.curvature_outside(shift)),
         }
     }
 
+    /// From the shape.
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
         let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
@@ -783,17 +784,23 @@ impl Element {
         if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
     }
 
-    /// M at a shift S >= 0.
+    /// M, the integral of N, at a shift S >= 0.
+    #[inline(always)]
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
                 let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(shift, at)
             }
-            None => match self.size_at_shift(shift) {
-                Ok(w) => self.shape().potential(w),
-                Err(slope) => 0.5 * slope * shift * shift,
-            },
+            None => self.potential_outside(shift),
+        }
+    }
+
+    #[inline(never)]
+    fn potential_outside(&self, shift: f64) -> f64 {
+        match self.size_at_shift(shift) {
+            Ok(w) => self.shape().potential(w),
+            Err(slope) => 0.5 * slope * shift * shift,
         }
     }
 }
@@ -853,4 +860,4 @@ fn key_of(values: &[f64]) -> f64 {
     f64::from_bits((values.iter().fold(1, mix) >> 12) | (1023 << 52))
 }
 
-const _: () = assert!(size_of::<Element>() <= 26_000);
+const _: () = assert!(size_of::<Element>() <= 15_000);

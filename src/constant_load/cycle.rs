@@ -37,6 +37,16 @@ impl Contact {
         }
     }
 
+    /// Energy \[J\] dissipated per cycle from the interpolant, in the range of its first polynomial.
+    #[inline(always)]
+    pub(crate) fn inner_cycle_energy(&self, amplitude: f64) -> Option<f64> {
+        let y = amplitude * self.inner_scale;
+        if y > 1.0 || self.is_elementary() {
+            return None;
+        }
+        Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)
+    }
+
     #[inline(never)]
     fn cycle_energy_with_layer(&self, amplitude: f64) -> (f64, f64) {
         match self.load_at(amplitude) {

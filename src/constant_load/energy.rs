@@ -38,7 +38,8 @@ impl<'a> Dissipation<'a> {
         } else if amplitude >= self.contact.slip_displacement {
             self.contact.slip_energy
         } else {
-            self.contact.cycle_energy(amplitude).0
+            let interpolated = self.contact.inner_cycle_energy(amplitude);
+            interpolated.unwrap_or_else(|| self.contact.cycle_energy(amplitude).0)
         }
     }
 

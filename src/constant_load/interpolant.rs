@@ -13,7 +13,7 @@
 //! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent};
-use crate::numerics::polynomial::{four_values_and_slopes, rows, value_and_slope};
+use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::CurvePoint;
 
@@ -38,6 +38,28 @@ pub(crate) static CYCLE_WEIGHTS: Polynomial = {
     }
     rows(&weights)
 };
+
+/// `-4n/(n+2)`: the energy of a cycle, eight times the work of the initial loading less four times force times displacement, of the power
+/// n of the secant stiffness.
+static ENERGY_WEIGHTS: Polynomial = {
+    let mut weights = [0.0; TERMS];
+    let mut n = 0;
+    while n < TERMS {
+        weights[n] = -4.0 * n as f64 / (n as f64 + 2.0);
+        n += 1;
+    }
+    rows(&weights)
+};
+
+/// A polynomial with weights on its powers.
+#[inline(always)]
+fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
+    let mut powers = *polynomial;
+    for (row, weights) in powers.iter_mut().zip(weights) {
+        row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
+    }
+    powers
+}
 
 /// The interpolant of one curve.
 #[repr(C)]
@@ -147,11 +169,13 @@ impl ForceInterpolant {
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
     /// power of the tangent stiffness.
     pub fn cycle(&self, y: f64) -> Option<(f64, f64)> {
-        let mut powers = self.inner;
-        for (row, weights) in powers.iter_mut().zip(&CYCLE_WEIGHTS) {
-            row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
-        }
-        self.is_converged().then_some(value_and_slope(&powers, y))
+        self.is_converged().then_some(value_and_slope(&weighted(&self.inner, &CYCLE_WEIGHTS), y))
+    }
+
+    /// Energy of a cycle up to y = 1 over the initial stiffness and the square of the amplitude; `None` if not converged.
+    #[inline(always)]
+    pub fn cycle_energy(&self, y: f64) -> Option<f64> {
+        self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
     /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval, or if not converged.
@@ -266,7 +290,7 @@ fn interpolate<const N: usize, const M: usize>(
 
 #[cfg(test)]
 mod tests {
-    use crate::constant_load::contact::tests::{FLATS, contact};
+    use crate::constant_load::contact::tests::{FLATS, contact, layered};
 
     /// The boundaries of the pieces: of the first polynomial, and of every dyadic interval of v.
     fn boundaries() -> impl Iterator<Item = f64> {
@@ -286,6 +310,22 @@ mod tests {
                 let bound = 2e-15 / (1.0 - fraction).min(1.0);
                 assert!((response.stiffness / contact.stiffness_of(&zone) - 1.0).abs() < bound, "{fraction}");
             }
+        }
+    }
+
+    #[test]
+    fn energies_agree_with_the_stick_zone() {
+        for contact in
+            FLATS.map(contact).into_iter().chain(layered(0.3, 1.0)).filter(|contact| !contact.is_elementary())
+        {
+            for fraction in (1..=100).map(|k| f64::from(k) / 250.0).chain([1e-12, 1e-6, 1e-3]) {
+                let amplitude = fraction * contact.slip_displacement;
+                let energy = contact.inner_cycle_energy(amplitude).unwrap();
+                let expected = contact.energy_of(&contact.stick_zone_at_displacement(amplitude));
+                // The coefficients of powers of y are sums of both signs.
+                assert!((energy / expected - 1.0).abs() < 6e-14, "{fraction} {energy:e} {expected:e}");
+            }
+            assert!(contact.inner_cycle_energy(0.401 * contact.slip_displacement).is_none());
         }
     }
 

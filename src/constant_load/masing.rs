@@ -153,20 +153,15 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
     Some(evaluator.on_branch(response))
 }
 
-/// Finds a step by the variant that the state and the requested energy need, and evaluates an expression of the step and its energy.
-/// The variants, and the expression for each, are kept apart: a step that may have to be changed would live in memory.
+/// Finds a step by the variant that the state needs, and evaluates an expression of it. The variants, and the expression for each, are
+/// kept apart: a step that may have to be changed would live in memory.
 macro_rules! with_step {
-    ($contact:expr, $state:expr, $displacement:expr, $with_energy:expr, |$step:ident, $energy:ident| $result:expr) => {
-        if $with_energy {
-            let ($step, $energy) = $crate::constant_load::masing::step_with_energy($contact, $state, $displacement);
-            $result
-        } else if $crate::constant_load::state::is_full($state) {
-            let ($step, $energy) =
-                ($crate::constant_load::masing::step_in_full_state($contact, $state, $displacement), 0.0);
+    ($contact:expr, $state:expr, $displacement:expr, |$step:ident| $result:expr) => {
+        if $crate::constant_load::state::is_full($state) {
+            let $step = $crate::constant_load::masing::step_in_full_state($contact, $state, $displacement);
             $result
         } else {
-            let ($step, $energy) =
-                ($crate::constant_load::masing::step_with_room($contact, $state, $displacement), 0.0);
+            let $step = $crate::constant_load::masing::step_with_room($contact, $state, $displacement);
             $result
         }
     };
@@ -178,7 +173,7 @@ pub(crate) use with_step;
 #[must_use]
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
-    with_step!(contact, state, displacement, false, |step, _energy| step)
+    with_step!(contact, state, displacement, |step| step)
 }
 
 /// The same for a state that is not full.
@@ -200,17 +195,24 @@ pub(crate) fn step_in_full_state(contact: &Contact, state: &[f64], displacement:
     if transition.reversed { step.merged(contact, &memory) } else { step }
 }
 
-/// The step, and the energy \[J\] that it dissipates, not negative.
+/// The step, and the energy \[J\] that it dissipates.
+#[must_use]
+#[inline(always)]
+pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
+    (step(contact, state, displacement), dissipated(contact, state, displacement))
+}
+
+/// The energy \[J\] that a step dissipates, not negative.
 #[must_use]
 #[inline(never)]
-pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
+pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     let memory = state::memory(state);
+    if displacement == memory.now.displacement {
+        return 0.0;
+    }
     let mut energy = Dissipation::new(contact);
-    let transition = memory.locate(contact, displacement, |segment| energy.add(segment));
-    let dissipated = if displacement == memory.now.displacement { 0.0 } else { energy.total() };
-    let step = Step::new(contact, &memory, &transition, displacement);
-    let stores_in_full = transition.reversed && state::is_full(state);
-    (if stores_in_full { step.merged(contact, &memory) } else { step }, dissipated)
+    memory.locate(contact, displacement, |segment| energy.add(segment));
+    energy.total()
 }
 
 impl Step {
@@ -306,14 +308,15 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         }
     };
     for (i, &displacement) in path.iter().enumerate() {
-        let [step_force, step_stiffness, energy] =
-            with_step!(contact, state, displacement, dissipated.is_some(), |step, energy| {
-                step.write(state);
-                [step.force(), step.stiffness(), energy]
-            });
+        if dissipated.is_some() {
+            set(&mut dissipated, i, self::dissipated(contact, state, displacement));
+        }
+        let [step_force, step_stiffness] = with_step!(contact, state, displacement, |step| {
+            step.write(state);
+            [step.force(), step.stiffness()]
+        });
         set(&mut force, i, step_force);
         set(&mut stiffness, i, step_stiffness);
-        set(&mut dissipated, i, energy);
     }
 }
 

@@ -12,7 +12,7 @@ use wide::f64x2;
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
 /// Octaves below the largest argument.
-const OCTAVES: usize = 21;
+const OCTAVES: usize = 12;
 /// Bits of the mantissa that choose the quarter.
 const BITS: u32 = 2;
 const QUARTERS: usize = 1 << BITS;
@@ -45,8 +45,8 @@ impl Table {
     pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
 
     /// Fills the table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of
-    /// each quarter in powers of ρ, for the argument x (1 + ρ).
-    pub fn fill(&mut self, largest: f64, series_about: &dyn Fn(f64) -> Series) {
+    /// each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
+    pub fn fill(&mut self, largest: f64, series_about: &mut dyn FnMut(f64) -> Series) {
         self.base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
         for (number, quarter) in (self.base..).zip(&mut self.quarters) {
             let [middle, half_length] = middle_and_half_length(number);
@@ -59,8 +59,7 @@ impl Table {
     pub fn position(&self, x: f64) -> Option<Position> {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
-        let t = POSITION * mantissa(x, SHIFT) - (POSITION + 1.0);
-        (index < PIECES).then_some(Position { index, t, scaled: POSITION * mantissa(x, 52) })
+        (index < PIECES).then_some(Position { index, t: position_in(x), scaled: POSITION * mantissa(x, 52) })
     }
 
     #[inline(always)]
@@ -98,30 +97,40 @@ impl Table {
         Some(([a, b, c, d], [slope_a, slope_b, slope_c, slope_d]))
     }
 
-    /// y''.
+    /// y'' at four monotone arguments; `None` if one is outside. The quarter of an earlier call is kept.
     #[inline(always)]
-    pub fn curvature(&self, x: f64, at: Position) -> f64 {
-        let c = self.coefficients(at);
-        let per_half_length = at.scaled / x;
-        per_half_length * (2.0 * derivative(c, at.t) + at.scaled * second_derivative(c, at.t))
+    pub fn four_curvatures(&self, x: &[f64; 4], quarter: &mut Curvature) -> Option<[f64; 4]> {
+        let &[first, .., last] = x;
+        quarter.enter(self, first)?;
+        if quarter.number == last.to_bits() >> SHIFT {
+            return Some(quarter.at(x));
+        }
+        let mut values = [0.0; 4];
+        for (value, &x) in values.iter_mut().zip(x) {
+            quarter.enter(self, x)?;
+            [*value] = quarter.at(&[x]);
+        }
+        Some(values)
     }
 
     /// The integral of y from the middle of the quarter to x.
+    #[inline(always)]
     pub fn integral_from_middle(&self, x: f64, at: Position) -> f64 {
-        let c = self.coefficients(at);
         let (half_length, t) = (x / at.scaled, at.t);
         let middle = half_length * (at.scaled - t);
-        let (mut zeroth, mut first) = (0.0, 0.0);
-        for (k, coefficient) in c.iter().enumerate().rev() {
-            zeroth = zeroth * t + coefficient / (k + 1) as f64;
-            first = first * t + coefficient / (k + 2) as f64;
+        // Sums of c_k t^k/(k+1) and c_k t^k/(k+2), as two lanes.
+        let powers = f64x2::splat(t);
+        let t2 = powers * powers;
+        let t4 = t2 * t2;
+        let mut sums = f64x2::ZERO;
+        for (c, weights) in
+            self.coefficients(at).as_chunks::<4>().0.iter().zip(INTEGRAL_WEIGHTS.as_chunks::<4>().0).rev()
+        {
+            let term = |k: usize| f64x2::splat(c[k]) * f64x2::new(weights[k]);
+            sums = sums * t4 + ((term(0) + term(1) * powers) + t2 * (term(2) + term(3) * powers));
         }
+        let [zeroth, first] = sums.to_array();
         half_length * t * (middle * zeroth + half_length * t * first)
-    }
-
-    /// The middles of all quarters.
-    pub fn middles(&self) -> impl Iterator<Item = f64> {
-        (self.base..).take(PIECES).map(middle_and_half_length).map(|[middle, _]| middle)
     }
 }
 
@@ -136,6 +145,12 @@ impl Position {
 #[inline(always)]
 fn mantissa(x: f64, bits: u32) -> f64 {
     f64::from_bits((x.to_bits() & ((1 << bits) - 1)) | EXPONENT_OF_1)
+}
+
+/// t.
+#[inline(always)]
+fn position_in(x: f64) -> f64 {
+    POSITION * mantissa(x, SHIFT) - (POSITION + 1.0)
 }
 
 /// Values and, if requested, slopes at two arguments from their rows.
@@ -189,24 +204,60 @@ fn middle_and_half_length(number: u64) -> [f64; 2] {
     [lower + half_length, half_length]
 }
 
-/// dQ/dt.
-#[inline(always)]
-fn derivative(c: &[f64; TERMS], t: f64) -> f64 {
-    let &[_, c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
-    let (t2, t4) = (t * t, t * t * (t * t));
-    let low = (c1 + 2.0 * c2 * t) + t2 * (3.0 * c3 + 4.0 * c4 * t);
-    let middle = (5.0 * c5 + 6.0 * c6 * t) + t2 * (7.0 * c7 + 8.0 * c8 * t);
-    let high = (9.0 * c9 + 10.0 * c10 * t) + t2 * (11.0 * c11);
-    low + t4 * (middle + t4 * high)
+/// `1/(k+1)` and `1/(k+2)`.
+static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = {
+    let mut weights = [[0.0; 2]; TERMS];
+    let mut k = 0;
+    while k < TERMS {
+        weights[k] = [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64];
+        k += 1;
+    }
+    weights
+};
+
+/// y'' on a quarter: `Σ (k+1)(k+2)(c_(k+1) + s c_(k+2)) t^k` over the half-length, with the middle s in half-lengths.
+pub(crate) struct Curvature {
+    /// Exponent and leading bits of the mantissa.
+    number: u64,
+    powers: [f64; TERMS],
+    per_half_length: f64,
 }
 
-#[inline(always)]
-fn second_derivative(c: &[f64; TERMS], t: f64) -> f64 {
-    let &[_, _, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = c;
-    let (t2, t4) = (t * t, t * t * (t * t));
-    let low = (2.0 * c2 + 6.0 * c3 * t) + t2 * (12.0 * c4 + 20.0 * c5 * t);
-    let middle = (30.0 * c6 + 42.0 * c7 * t) + t2 * (56.0 * c8 + 72.0 * c9 * t);
-    low + t4 * (middle + t4 * (90.0 * c10 + 110.0 * c11 * t))
+impl Curvature {
+    /// Of no quarter yet.
+    pub const fn new() -> Curvature {
+        Curvature { number: 0, powers: [0.0; TERMS], per_half_length: 0.0 }
+    }
+
+    /// Changes to the quarter in which x lies.
+    #[inline(always)]
+    fn enter(&mut self, table: &Table, x: f64) -> Option<()> {
+        let number = x.to_bits() >> SHIFT;
+        if number != self.number {
+            let c = table.quarters.get(number.wrapping_sub(table.base) as usize)?;
+            let scaled = POSITION * mantissa(x, 52);
+            let middle = scaled - position_in(x);
+            for k in 0..TERMS - 2 {
+                self.powers[k] = ((k + 1) * (k + 2)) as f64 * (c[k + 1] + middle * c[k + 2]);
+            }
+            self.powers[TERMS - 2] = ((TERMS - 1) * TERMS) as f64 * c[TERMS - 1];
+            (self.number, self.per_half_length) = (number, scaled / x);
+        }
+        Some(())
+    }
+
+    #[inline(always)]
+    fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+        let t = x.map(position_in);
+        let mut sum = [0.0; N];
+        for &[c0, c1, c2, c3] in self.powers.as_chunks::<4>().0.iter().rev() {
+            for k in 0..N {
+                let (t, t2) = (t[k], t[k] * t[k]);
+                sum[k] = sum[k] * (t2 * t2) + ((c0 + c1 * t) + t2 * (c2 + c3 * t));
+            }
+        }
+        sum.map(|value| self.per_half_length * value)
+    }
 }
 
 /// Coefficients of Q in powers of t.
@@ -247,7 +298,7 @@ mod tests {
             let shape = RoundedFlat::new(&parameters(flat)).unwrap();
             let largest = shape.shift(shape.at_load(150.0));
             let mut table = Table::EMPTY;
-            table.fill(largest, &|x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
+            table.fill(largest, &mut |x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
             assert!(table.position(largest).is_some() && table.position(2.0 * largest).is_none());
             assert!(table.position(largest * 0.25_f64.powi(11)).is_none() && table.position(0.0).is_none());
             let mut x = largest;
@@ -259,7 +310,7 @@ mod tests {
                 assert!((load / exact - 1.0).abs() < 1e-14, "{flat} {x}");
                 // Derivatives of polynomials with errors of a few units in each coefficient, 9 and 81 half-lengths per x.
                 assert!((slope * x / first - 1.0).abs() < 1e-13, "{flat} {x}");
-                let curvature = table.curvature(x, at);
+                let [curvature, ..] = table.four_curvatures(&[x; 4], &mut Curvature::new()).unwrap();
                 assert!((curvature * x * x / (2.0 * second) - 1.0).abs() < 1e-10, "{flat} {x}");
                 x *= 0.97;
             }
@@ -269,14 +320,14 @@ mod tests {
     #[test]
     fn the_integral_starts_at_the_middle() {
         // y = x³/8, a polynomial of low degree.
-        let cube = |x: f64| {
+        let mut cube = |x: f64| {
             let y = x * x * x / 8.0;
             let mut series = [0.0; ORDER];
             series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
             series
         };
         let mut table = Table::EMPTY;
-        table.fill(1.9, &cube);
+        table.fill(1.9, &mut cube);
         for x in [1.75, 1.8, 1.875, 1.99] {
             let integral = table.integral_from_middle(x, table.position(x).unwrap());
             let exact = (x.powi(4) - 1.875_f64.powi(4)) / 32.0;

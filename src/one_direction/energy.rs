@@ -5,16 +5,15 @@
 //! moves from S_c0 to S_c1,
 //!
 //! ```text
-//! E = mu |mu - σD| ∫ H |dN_c| = mu |mu - σD| ∫∫ (S_b - S) N''(S) dS |dS_c|,      S from S_c to S_b,
+//! E = mu |mu - σD| ∫ H |dN_c| = mu |mu - σD| ∫ R |dS_c|,      R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c),
 //! ```
 //!
-//! because H, the integral of K_t(c) - K_t(s), is K_t(c) times the remainder of N about S_c after its linear term. Exchanging the
-//! order leaves one integral of N'' > 0 with a weight that is quadratic in S between the ends of both boundaries: free of
-//! cancellation, never negative.
+//! because H, the integral of K_t(c) - K_t(s) from S_c to S_b, is K_t(c) times the remainder R.
 
-use crate::element::Element;
-use crate::numerics::quadrature::gauss_nodes;
+use crate::element::{Curvature, Element};
+use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::one_direction::diagram::Knot;
+use crate::simd::dispatch;
 
 /// The path of a step, straight in (S, u).
 #[derive(Debug, Clone, Copy)]
@@ -32,8 +31,13 @@ struct Slip {
 }
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
+    dispatch!(dissipated_kernel, element: &Element, knots: &[[f64; 4]], path: &Path => f64)
+}
+
+#[inline(always)]
+fn dissipated_kernel(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
     let contact_rate = end - start;
@@ -121,104 +125,174 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
     let contact_rate = path.shift[1] - path.shift[0];
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * contact_rate) * sign.signum();
-    // Mean of N along the remaining path.
-    let (low, high) = (outer.min(path.shift[1]), outer.max(path.shift[1]));
-    let mean = if low == high {
-        element.load_at_shift(outer).0
-    } else if is_wide(low, high) {
-        (element.potential_at_shift(high) - element.potential_at_shift(low.max(0.0))) / (high - low)
-    } else {
-        quadrature(element, low, high, |s| element.load_at_shift(s).0) / (high - low)
-    };
-    mu * slip.max(0.0) * (1.0 - fraction) * mean.max(0.0)
+    mu * slip.max(0.0) * (1.0 - fraction) * mean_load(element, [outer, path.shift[1]]).max(0.0)
+}
+
+/// The mean of N between two shifts S >= 0.
+#[inline(always)]
+fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
+    let width = to - from;
+    if width == 0.0 {
+        return element.load_at_shift(from).0;
+    }
+    if 16.0 * width.abs() < room(element, from.min(to), from.max(to)) {
+        let [[nodes, weights]] = PATH_RULE;
+        let (loads, _) = element.four_loads::<false>(&nodes.map(|node| from + node * width));
+        return dot(&weights, &loads);
+    }
+    (element.potential_at_shift(to.max(0.0)) - element.potential_at_shift(from.max(0.0))) / width
 }
 
 impl Slip {
     /// `∫∫ (S_b - S) N''(S) dS |dS_c|`.
+    ///
+    /// The inner integral is `R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this difference, the mean of
+    /// R along the path follows from N and N', or by parts from N and M.
+    #[inline(always)]
     fn integral(&self, element: &Element) -> f64 {
-        let [inner_start, inner_end] = self.inner;
-        let [outer_start, outer_end] = self.outer;
-        let swept = inner_start - inner_end;
+        let [c0, c1] = self.inner;
+        let [b0, b1] = self.outer;
+        let (growth, swept) = (b1 - b0, c0 - c1);
         if swept <= 0.0 {
             return 0.0;
         }
-        let growth = outer_end - outer_start;
-        let weight = |s: f64| {
-            let mut from = (inner_start - s).max(0.0) / swept;
-            let mut to: f64 = 1.0;
-            if growth < 0.0 && s > outer_end {
-                to = (s - outer_start) / growth;
-            } else if growth > 0.0 && s > outer_start {
-                from = from.max((s - outer_start) / growth);
-            }
-            let middle = outer_start + growth * 0.5 * (from + to);
-            swept * (to - from).max(0.0) * (middle - s).max(0.0)
-        };
-        // inner_end is the smallest and inner_start <= outer_start; outer_end may lie anywhere above inner_end.
-        let (low, high) = (outer_start.min(outer_end), outer_start.max(outer_end));
-        let (first, second) = (inner_start.min(low), inner_start.max(low));
-        // Between the boundaries of the slip zone and of the contact the weight is linear.
-        integral_between(element, [inner_end, first], false, weight)
-            + integral_between(element, [first, second], inner_start <= low, weight)
-            + integral_between(element, [second, high], false, weight)
-    }
-}
-
-/// `∫ W N'' dS` for a quadratic or linear W: exactly by parts if the interval is wide, otherwise by Gauss-Legendre quadrature of the
-/// positive integrand.
-#[inline(never)]
-fn integral_between(element: &Element, [low, high]: [f64; 2], linear: bool, weight: impl Fn(f64) -> f64) -> f64 {
-    let width = high - low;
-    if width <= 0.0 {
-        return 0.0;
-    }
-    if !is_wide(low, high) {
-        // Rounding may make N'' of a nearly flat contact negative.
-        return quadrature(element, low, high, |s| weight(s) * element.curvature_at_shift(s).max(0.0));
-    }
-    let (first, last) = (weight(low), weight(high));
-    // width² may underflow.
-    let second = if linear { 0.0 } else { 4.0 * (first - 2.0 * weight(low + 0.5 * width) + last) / width / width };
-    let slope = (last - first) / width;
-    let at = |s: f64, value: f64, slope: f64| {
-        let (load, load_slope) = element.load_at_shift(s);
-        let potential = if linear { 0.0 } else { element.potential_at_shift(s) };
-        load_slope * value - load * slope + potential * second
-    };
-    (at(high, last, slope + 0.5 * second * width) - at(low, first, slope - 0.5 * second * width)).max(0.0)
-}
-
-/// Whether differences over an interval lose at most two binary digits.
-fn is_wide(low: f64, high: f64) -> bool {
-    high - low > 0.25 * high
-}
-
-/// Gauss-Legendre quadrature over an interval that is not wide, of an integrand that is singular at S = 0 and, where the compliance of a
-/// short contact vanishes, at least 0.7 % beyond the largest shift. With n nodes the error is of the order ρ^(-2n), where ρ is 14 if
-/// the interval is a quarter of the distance to a singularity, and 62 if it is a sixteenth: below the rounding of the sum.
-fn quadrature(element: &Element, low: f64, high: f64, integrand: impl Fn(f64) -> f64) -> f64 {
-    // Parts that grow towards 0.007 of the largest shift: fewer than 20.
-    const PARTS: usize = 32;
-    let (mut sum, mut from) = (0.0, low);
-    for _ in 0..PARTS {
-        let distance_to_end = high.min(1.007 * element.largest_shift - from);
-        let width = (high - from).min(0.25 * distance_to_end);
-        let nodes = gauss_nodes(if width < 0.0625 * distance_to_end { 1 } else { 2 });
-        sum += width * nodes.map(|(node, part)| part * integrand(from + node * width)).sum::<f64>();
-        if width >= high - from {
-            break;
+        let widest = b0.max(b1);
+        let width = widest - c1;
+        if 2.5 * width < widest {
+            let room = room(element, c1, widest);
+            let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+            return if 8.0 * width < room {
+                self.integral_of_curvature(element, path_rule, &ZONE_RULE)
+            } else if 1.5 * width < room {
+                self.integral_of_curvature(element, path_rule, &WIDE_ZONE_RULE)
+            } else {
+                self.integral_near_the_largest_size(element)
+            };
         }
-        from += width;
+        let inner = if 16.0 * swept < room(element, c1, c0) {
+            let [[nodes, weights]] = PATH_RULE;
+            let (loads, slopes) = element.four_loads::<true>(&nodes.map(|node| c0 - node * swept));
+            let mut tangents = [0.0; 4];
+            for k in 0..4 {
+                tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
+            }
+            dot(&weights, &tangents)
+        } else {
+            let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
+            let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
+            ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
+        };
+        swept * (mean_load(element, self.outer) - inner).max(0.0)
     }
-    sum
+
+    /// Width of the slip zone after a fraction of the segment.
+    #[inline(always)]
+    fn width(&self, fraction: f64) -> f64 {
+        let ([c0, c1], [b0, b1]) = (self.inner, self.outer);
+        (b0 - c0) + fraction * ((b1 - b0) + (c0 - c1))
+    }
+
+    /// The same with R as an integral of N'' > 0, free of cancellation: `R = w² ∫ y N''(S_b - w y) dy`, y from 0 to 1, for the width w of
+    /// the slip zone.
+    #[inline(always)]
+    fn integral_of_curvature(&self, element: &Element, path_rule: &[Block], zone_rule: &[Block]) -> f64 {
+        let [b0, b1] = self.outer;
+        let (mut sum, mut quarter) = (0.0, Curvature::new());
+        for [fractions, parts] in path_rule {
+            let (mut edges, mut widths, mut weights) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+            for k in 0..4 {
+                edges[k] = b0 + fractions[k] * (b1 - b0);
+                widths[k] = self.width(fractions[k]);
+                weights[k] = parts[k] * (widths[k] * widths[k]);
+            }
+            let mut remainders = [0.0; 4];
+            for [places, parts] in zone_rule {
+                for (y, part) in places.iter().zip(parts) {
+                    let mut shifts = [0.0; 4];
+                    for k in 0..4 {
+                        shifts[k] = edges[k] - y * widths[k];
+                    }
+                    let curvatures = element.four_curvatures(&shifts, &mut quarter);
+                    for k in 0..4 {
+                        // Rounding may make N'' of a nearly flat contact negative.
+                        remainders[k] += part * curvatures[k].max(0.0);
+                    }
+                }
+            }
+            sum += dot(&weights, &remainders);
+        }
+        (self.inner[0] - self.inner[1]) * sum
+    }
+
+    /// Where the compliance of a short contact is about to vanish: with the nodes squared, as that is a square root's distance away.
+    #[cold]
+    #[inline(never)]
+    fn integral_near_the_largest_size(&self, element: &Element) -> f64 {
+        const RULE: &[Block; MAX_GAUSS_BLOCKS] = gauss_rule(MAX_GAUSS_BLOCKS).first_chunk().unwrap();
+        // From the end of the path with the larger size.
+        let grows = self.outer[1] > self.outer[0];
+        let path_rule = RULE.map(|block| {
+            let [nodes, weights] = squared(block);
+            [if grows { nodes.map(|node| 1.0 - node) } else { nodes }, weights]
+        });
+        let zone_rule = RULE.map(squared).map(with_y);
+        self.integral_of_curvature(element, &path_rule, &zone_rule)
+    }
+}
+
+/// Four nodes and their weights.
+type Block = [[f64; 4]; 2];
+
+/// Gauss's rule with four nodes.
+const PATH_RULE: [Block; 1] = *gauss_rule(1).first_chunk().unwrap();
+
+/// The same for `∫ y f(y) dy`.
+const ZONE_RULE: [Block; 1] = [[
+    [0.13975986434378055, 0.41640956763108317, 0.7231569863618762, 0.9428958038854823],
+    [0.03118097095000808, 0.12984754760823244, 0.20346456801027136, 0.13550691343148812],
+]];
+
+/// The rule of eight nodes for the same.
+const WIDE_ZONE_RULE: [Block; 2] = {
+    let [one, two] = *gauss_rule(2).first_chunk().unwrap();
+    [with_y(one), with_y(two)]
+};
+
+const fn with_y([nodes, weights]: Block) -> Block {
+    let [a, b, c, d] = nodes;
+    let [e, f, g, h] = weights;
+    [nodes, [a * e, b * f, c * g, d * h]]
+}
+
+/// The rule for `∫ f(y) dy` from one for z, where y = z².
+fn squared([nodes, weights]: Block) -> Block {
+    let mut squared = [[0.0; 4]; 2];
+    for k in 0..4 {
+        squared[0][k] = nodes[k] * nodes[k];
+        squared[1][k] = 2.0 * nodes[k] * weights[k];
+    }
+    squared
+}
+
+/// Distance of an interval to the singularities of N(S): S = 0 and, where the compliance of a short contact vanishes, at least 0.7 % beyond
+/// the largest shift.
+#[inline(always)]
+fn room(element: &Element, low: f64, high: f64) -> f64 {
+    low.min(1.007 * element.largest_shift - high)
+}
+
+#[inline(always)]
+fn dot(weights: &[f64; 4], values: &[f64; 4]) -> f64 {
+    (weights[0] * values[0] + weights[1] * values[1]) + (weights[2] * values[2] + weights[3] * values[3])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::parameters;
+    use crate::constant_load::contact::tests::{FLATS, parameters};
     use crate::element::{Directions, NormalInput};
-    use crate::parameters::{Parameters, RIGID_STRIP};
+    use crate::parameters::{Layer, Parameters, RIGID_STRIP};
+    use crate::shape::Relation;
 
     #[test]
     fn near_the_largest_size_the_energy_of_a_small_slip_zone_has_no_cancellation() {
@@ -229,7 +303,8 @@ mod tests {
             // Two sizes whose curvature differs little: N'' may be taken out of the integral up to the square of their distance.
             let swept = 1e-4 * (element.largest_shift * 1.007 - outer);
             let slip = Slip { inner: [outer, outer - swept], outer: [outer, outer] };
-            let expected = element.curvature_at_shift(outer - 0.5 * swept) * swept.powi(3) / 6.0;
+            let [curvature, ..] = element.four_curvatures(&[outer - 0.5 * swept; 4], &mut Curvature::new());
+            let expected = curvature * swept.powi(3) / 6.0;
             let found = slip.integral(&element);
             assert!((found / expected - 1.0).abs() < 1e-8, "{share}: {found:e}, not {expected:e}");
             // A wider one at once and in two parts.
@@ -237,6 +312,49 @@ mod tests {
             let integral = |from, to| Slip { inner: [from, to], outer: [outer, outer] }.integral(&element);
             let (whole, parts) = (integral(start, end), integral(start, middle) + integral(middle, end));
             assert!((parts / whole - 1.0).abs() < 1e-12, "{share}: {parts:e}, not {whole:e}");
+        }
+    }
+
+    /// R as an integral of N'' of the shape, with 32 nodes in each direction.
+    fn by_nodes(slip: &Slip, element: &Element) -> f64 {
+        let shape = element.shape();
+        let nodes = || gauss_rule(MAX_GAUSS_BLOCKS).iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights));
+        let mut sum = 0.0;
+        for (fraction, part) in nodes() {
+            let outer = slip.outer[0] + fraction * (slip.outer[1] - slip.outer[0]);
+            let width = slip.width(*fraction);
+            for (y, share) in nodes() {
+                let s = outer - width * y;
+                let [_, _, second, ..] = shape.series(shape.at_shift(s), Relation::LoadOfShift);
+                sum += part * share * y * (width / s).powi(2) * 2.0 * second;
+            }
+        }
+        sum * (slip.inner[0] - slip.inner[1])
+    }
+
+    #[test]
+    fn the_energy_of_any_slip_zone_is_accurate_relative_to_itself() {
+        let layer = Layer { normal_compliance: 1e-9, tangential_compliance: 2e-9, stiffening_load: 30.0 };
+        let flats = FLATS.map(parameters).into_iter().chain([Parameters { layer, ..parameters(50e-6) }]);
+        for parameters in flats {
+            let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force).unwrap();
+            for start in [0.9, 0.1].map(|part| part * element.shift_under(parameters.normal_force)) {
+                for width in [1e-4, 0.01, 0.05, 0.1, 0.2, 0.35, 0.45, 0.7, 0.9].map(|part| part * start) {
+                    for swept in [1e-3, 0.1, 0.5, 1.0].map(|part| part * width) {
+                        for growth in [0.0, 0.01, 0.5, -0.01, -0.5].map(|part| part * width) {
+                            let inner = [start - width + swept, start - width];
+                            let slip = Slip { inner, outer: [start, start + growth] };
+                            let (found, expected) = (slip.integral(&element), by_nodes(&slip, &element));
+                            // The tables of N'' are within 1e-11; a wide slip zone has the rounding of N.
+                            let widest = start + growth.max(0.0);
+                            let is_wide = widest - slip.inner[1] >= 0.4 * widest;
+                            let rounding = 64.0 * f64::EPSILON * element.load_under(widest) * swept;
+                            let allowed = 1e-11 * expected + if is_wide { rounding } else { 0.0 };
+                            assert!((found - expected).abs() < allowed, "{slip:?}: {found:e}, not {expected:e}");
+                        }
+                    }
+                }
+            }
         }
     }
 }

@@ -83,8 +83,7 @@ pub unsafe extern "C" fn mslip_masing_update(
     }
 }
 
-/// One update with checked inputs: evaluates the step, then writes. A step that continues its branch is inlined, and calls no other
-/// function before its results are written; all others are left to [`general_update`]. Returns `MSLIP_OK`.
+/// One update with checked inputs: evaluates the step, then writes. Returns `MSLIP_OK`.
 ///
 /// # Safety
 /// `state_old` is valid; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the outputs are NULL, or aligned
@@ -99,9 +98,31 @@ pub(in crate::ffi) unsafe fn update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let continued = if dissipated.is_null() { masing::continued(contact, &*state_old, displacement) } else { None };
-    let Some(response) = continued else {
-        return general_update(contact, state_old, displacement, state_new, force, stiffness, dissipated);
+    if dissipated.is_null() {
+        return update_without_energy(contact, state_old, displacement, state_new, force, stiffness);
+    }
+    let energy = masing::dissipated(contact, &*state_old, displacement);
+    let status = update_without_energy(contact, state_old, displacement, state_new, force, stiffness);
+    write(dissipated, energy);
+    status
+}
+
+/// A step that continues its branch is inlined, and calls no other function before its results are written; all others are left to
+/// [`general_update`].
+///
+/// # Safety
+/// As for [`update`].
+#[inline(always)]
+unsafe fn update_without_energy(
+    contact: &Contact,
+    state_old: *const [f64],
+    displacement: f64,
+    state_new: *mut f64,
+    force: *mut f64,
+    stiffness: *mut f64,
+) -> i32 {
+    let Some(response) = masing::continued(contact, &*state_old, displacement) else {
+        return general_update(contact, state_old, displacement, state_new, [force, stiffness]);
     };
     write(force, response.force);
     write(stiffness, response.stiffness);
@@ -121,16 +142,10 @@ unsafe fn general_update(
     state_old: *const [f64],
     displacement: f64,
     state_new: *mut f64,
-    force: *mut f64,
-    stiffness: *mut f64,
-    dissipated: *mut f64,
+    results: [*mut f64; 2],
 ) -> i32 {
     let state = &*state_old;
-    let results = [force, stiffness];
-    with_step!(contact, state, displacement, !dissipated.is_null(), |step, energy| {
-        write_step(&step, state_old, state_new, results);
-        write(dissipated, energy);
-    });
+    with_step!(contact, state, displacement, |step| write_step(&step, state_old, state_new, results));
     MSLIP_OK
 }
 
