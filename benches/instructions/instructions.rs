@@ -57,8 +57,8 @@ const RELATIONS: [(&str, f64, &str, &str); 42] = [
     ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/10 changes the polynomials only"),
     ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/10 changes the polynomials only"),
     ("stiffness_layer", 3.0, "stiffness", "a layer with N_c < N/4 takes more nodes"),
-    ("curve_rough_layer", 40.0, "curve_force", "the documented cost of a small N_c"),
-    ("harmonics_rough_layer", 40.0, "harmonics", "the documented cost of a small N_c"),
+    ("curve_rough_layer", 20.0, "curve_force", "the documented cost of a small N_c"),
+    ("harmonics_rough_layer", 15.0, "harmonics", "the documented cost of a small N_c"),
     ("stiffness_rough_layer", 80.0, "stiffness", "the documented cost of a small N_c"),
 ];
 
