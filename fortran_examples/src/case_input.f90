@@ -5,7 +5,7 @@ module case_input
     without_force
   use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
-  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP
+  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP, mslip_parameters
   implicit none
   private
   public :: read_case, prepare_problem
@@ -181,9 +181,12 @@ contains
       integer :: m
       real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
+      real(wp) :: normal_compliance, tangential_compliance, stiffening_load
+      character(len=path_length) :: parameter_file
       type(contact_input) :: c
-      namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, flat_half_width, &
-        edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, displacement_reference, springs
+      namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, parameter_file, &
+        flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, &
+        displacement_reference, springs, normal_compliance, tangential_compliance, stiffening_load
 
       law = ' '
       second_direction = with_friction
@@ -200,6 +203,10 @@ contains
       friction_coefficient = unset
       young_modulus = unset
       poisson_ratio = unset
+      normal_compliance = 0.0_wp
+      tangential_compliance = 0.0_wp
+      stiffening_load = 0.0_wp
+      parameter_file = ' '
       call start('contact')
       allocate (data%contacts(0))
       do
@@ -244,6 +251,10 @@ contains
         c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
                                                     displacement_reference == 'rigid strip')
         c%parameters%springs = springs
+        c%parameters%layer%normal_compliance = normal_compliance
+        c%parameters%layer%tangential_compliance = tangential_compliance
+        c%parameters%layer%stiffening_load = stiffening_load
+        if (len_trim(parameter_file) > 0) call read_parameter_file(parameter_file, c%parameters)
         data%contacts = [data%contacts, c]
       end do
     end subroutine read_contacts
@@ -405,4 +416,72 @@ contains
       end associate
     end do
   end subroutine prepare_problem
+  !> The parameters of a parameter file of the command line, such as `microslip fit --fitted` writes: lines `key = value` and tables
+  !> [[material]], one of both bodies or one of each. Other forms of TOML are errors.
+  subroutine read_parameter_file(path, parameters)
+    character(len=*), intent(in) :: path
+    type(mslip_parameters), intent(out) :: parameters
+    character(len=512) :: line
+    integer :: unit, status, equals, bodies
+
+    open (newunit=unit, file=path, status='old', action='read', iostat=status)
+    if (status /= 0) call fail(trim(path)//': cannot be opened')
+    bodies = 0
+    do
+      read (unit, '(a)', iostat=status) line
+      if (status /= 0) exit
+      line = adjustl(line(:index(line//'#', '#') - 1))
+      equals = index(line, '=')
+      if (line == '[[material]]') then
+        bodies = bodies + 1
+        if (bodies > 2) call fail(trim(path)//': more than two tables [[material]]')
+      else if (len_trim(line) > 0) then
+        if (equals == 0) call fail(trim(path)//': not a line "key = value": '//trim(line))
+        call set(trim(line(:equals - 1)), trim(adjustl(line(equals + 1:))))
+      end if
+    end do
+    close (unit)
+    if (bodies == 1) parameters%material(2) = parameters%material(1)
+
+  contains
+
+    subroutine set(key, value)
+      character(len=*), intent(in) :: key, value
+
+      status = 0
+      select case (key)
+      case ('flat_half_width')
+        read (value, *, iostat=status) parameters%flat_half_width
+      case ('edge_radius')
+        read (value, *, iostat=status) parameters%edge_radius
+      case ('length')
+        read (value, *, iostat=status) parameters%length
+      case ('normal_force')
+        read (value, *, iostat=status) parameters%normal_force
+      case ('friction_coefficient')
+        read (value, *, iostat=status) parameters%friction_coefficient
+      case ('normal_compliance')
+        read (value, *, iostat=status) parameters%layer%normal_compliance
+      case ('tangential_compliance')
+        read (value, *, iostat=status) parameters%layer%tangential_compliance
+      case ('stiffening_load')
+        read (value, *, iostat=status) parameters%layer%stiffening_load
+      case ('springs')
+        read (value, *, iostat=status) parameters%springs
+      case ('young_modulus')
+        read (value, *, iostat=status) parameters%material(max(bodies, 1))%young_modulus
+      case ('poisson_ratio')
+        read (value, *, iostat=status) parameters%material(max(bodies, 1))%poisson_ratio
+      case ('displacement_reference')
+        parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, value == '"rigid_strip"')
+        if (all(value /= [character(len=14) :: '"rigid_strip"', '"centre_point"'])) status = 1
+      case ('units')
+        if (value /= '"si"') status = 1
+      case default
+        status = 1
+      end select
+      if (status /= 0) call fail(trim(path)//': '//key//' = '//value//' is not possible here')
+    end subroutine set
+  end subroutine read_parameter_file
+
 end module case_input

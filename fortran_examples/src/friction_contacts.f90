@@ -171,7 +171,7 @@ contains
     allocate (self%is_linear(self%last(items)), source=.false.)
     do i = 1, items
       parameters = inputs(i)%parameters
-      if (inputs(i)%load_varied) parameters%normal_force = load_factor * parameters%normal_force
+      if (inputs(i)%load_varied) parameters = under(parameters, load_factor * parameters%normal_force)
       call mslip_contact_init(parameters, self%prepared(i), status)
       call require(status, self%name(i))
       associate (first => self%first(i), last => self%last(i))
@@ -185,7 +185,7 @@ contains
           end if
         end if
         normal_force = parameters%normal_force
-        parameters%normal_force = load_range * normal_force
+        parameters = under(parameters, load_range * normal_force)
         call mslip_element_init(parameters, directions, MSLIP_INPUT_APPROACH, element, status)
         call require(status, self%name(i))
         call mslip_normal_approach(element, normal_force, status, compliance=compliance)
@@ -224,6 +224,22 @@ contains
     call make_slider_tables(harmonics, samples, self%tables)
     self%fine_basis = series_basis(harmonics, 256)
   end subroutine prepare
+
+  !> The same contact under another normal force: the compliances of a layer are those under it.
+  pure type(mslip_parameters) function under(parameters, normal_force) result(p)
+    type(mslip_parameters), intent(in) :: parameters
+    real(wp), intent(in) :: normal_force
+    real(wp) :: softer
+
+    p = parameters
+    p%normal_force = normal_force
+    associate (n_c => parameters%layer%stiffening_load)
+      if (n_c <= 0.0_wp) return
+      softer = (parameters%normal_force + n_c) / (normal_force + n_c)
+    end associate
+    p%layer%normal_compliance = softer * parameters%layer%normal_compliance
+    p%layer%tangential_compliance = softer * parameters%layer%tangential_compliance
+  end function under
 
   !> Stiffness of a stuck contact in the second tangential direction: that of the first small step after it is pressed.
   real(wp) function second_stiffness(parameters, normal_force, name) result(stiffness)
