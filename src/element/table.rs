@@ -224,9 +224,9 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    /// Of no quarter yet.
+    /// Of no quarter yet. The sign of the zeros keeps compilers from an instruction that valgrind does not know.
     pub const fn new() -> Curvature {
-        Curvature { number: 0, powers: [0.0; TERMS], per_half_length: 0.0 }
+        Curvature { number: 0, powers: [-0.0; TERMS], per_half_length: 0.0 }
     }
 
     /// Changes to the quarter in which x lies.

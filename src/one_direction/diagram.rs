@@ -187,7 +187,11 @@ const BEYOND: f64 = 2.0;
 #[cold]
 #[inline(never)]
 fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
-    let share = |distance: f64, length: f64| if length >= distance { distance / length } else { BEYOND };
+    // Compilers may divide before they compare, so what is divided is chosen: a distance over a subnormal length overflows.
+    let share = |distance: f64, length: f64| {
+        let (numerator, denominator) = if length >= distance { (distance, length) } else { (BEYOND, 1.0) };
+        numerator / denominator
+    };
     [share(distances[0], lengths[0]), share(distances[1], lengths[1])]
 }
 
