@@ -181,3 +181,15 @@ void entries_write(FILE *file)
         fputc('\n', file);
     }
 }
+
+double first_harmonic_error(const double *force, const double *exact, int components, int coefficients)
+{
+    double difference = 0.0, size = 0.0;
+    for (int k = 0; k < components; ++k) {
+        for (int i = k * coefficients + 1; i <= k * coefficients + 2; ++i) {
+            difference = hypot(difference, force[i] - exact[i]);
+            size = hypot(size, exact[i]);
+        }
+    }
+    return difference / size;
+}

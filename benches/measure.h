@@ -30,6 +30,9 @@ entry *entry_add(const char *task, const char *method, work *run, void *context,
 entry *entry_add_logarithm(const char *task); /* one logarithm, the unit of other times */
 void entries_write(FILE *file);
 
+/* Error of the first harmonic of some components of a force, relative to it; each has so many coefficients. */
+double first_harmonic_error(const double *force, const double *exact, int components, int coefficients);
+
 /* Times all entries from `first` on, interleaved, sets their shape and amplitude, and frees memory down to the mark. */
 void measure(size_t first, double shape, double amplitude, size_t mark);
 extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */

@@ -366,10 +366,54 @@ static void write_two_directions_tables(FILE *file)
     }
 }
 
+/* Harmonic force and Jacobian: medians of the times, and the largest errors. */
+static void newton_row(FILE *file, const char *contact, const char *task, double parameter, int harmonics, int samples)
+{
+    sample own = { .n = 0 }, one = { .n = 0 };
+    double error = 0.0, error_of_one = 0.0;
+    for (const entry *e = entries; e < entries + entry_count; ++e) {
+        if (strcmp(e->task, task) || e->parameter != parameter || e->harmonics != harmonics || e->samples != samples || !e->jacobian) {
+            continue;
+        }
+        if (!strcmp(e->method, "microslip")) {
+            put(&own, e->median);
+            error = fmax(error, e->error);
+        } else if (!strcmp(e->method, "spring-slider")) {
+            const double other = time_at(e, "spring-slider by reversals", INFINITY, &one.extrapolated);
+            put(&one, other >= 0.0 ? fmin(e->median, other) : e->median);
+            error_of_one = fmax(error_of_one, e->error);
+        }
+    }
+    if (own.n) {
+        const double ratio = median_of(own.value, own.n) / median_of(one.value, one.n);
+        fprintf(file, "| %s, H = %d, %d samples | %s | %.0e | %s | %.0e | %.2g |\n", contact, harmonics, samples, cell(&own), error,
+                cell(&one), error_of_one, ratio);
+    }
+}
+
+static void write_newton_table(FILE *file)
+{
+    fputs("What a contact costs in an iteration of Newton's method (harmonic force and Jacobian), and the spring-slider that it "
+          "replaces; largest errors of the\nfirst harmonic, from sampling and, of two directions, from 12 springs instead of 16:\n\n"
+          "| contact | microslip | error | one spring-slider | error | ratio of times |\n|---|---:|---:|---:|---:|---:|\n", file);
+    static const struct { const char *name, *task; double parameter; int most; } contacts[] = {
+        { "constant load", "harmonic", -1.0, 9 }, { "varying load", "element", 0.0, 9 },
+        { "two directions, varying load", "two directions harmonic", 5.0, 5 },
+    };
+    for (size_t k = 0; k < sizeof contacts / sizeof *contacts; ++k) {
+        for (int h = 1; h <= contacts[k].most; h += 4) {
+            const int samples = h == 1 || k == 2 ? 64 : h == 5 ? 128 : 256;
+            newton_row(file, contacts[k].name, contacts[k].task, contacts[k].parameter, h, samples);
+        }
+    }
+    fputs("\n", file);
+}
+
 void write_tables(FILE *file, const char *machine)
 {
     char title[96];
     fprintf(file, "Measured on: %s.\n\n", machine);
+    write_newton_table(file);
     fputs("| task | microslip | error | Eq. 10 by quadrature, 1e-8 | parallel sliders, 1e-4 | parallel sliders, 1e-8 "
           "| one spring-slider |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
     row(file, "force and stiffness at a displacement", "microslip", "force", 0, 0, 0);

@@ -211,14 +211,21 @@ static double jacobian_error(job *b)
     return error;
 }
 
-/* One spring-slider: with the K' and K'' of the contact at this amplitude and the mean load. 64: with its stiffness and friction. */
-static void add_harmonic(const mslip_element *element, const mslip_contact *contact, int harmonics, double slip, double approach)
+static double *workspace_of(int harmonics, int samples)
+{
+    const size_t h = (size_t)harmonics, s = (size_t)samples,
+                 length = mslip_element_workspace_length(2, h, s, MSLIP_UNIFORM_SAMPLING);
+    double *workspace = allocate(length * sizeof *workspace);
+    require(mslip_element_workspace_init(2, h, s, MSLIP_UNIFORM_SAMPLING, 0, length, workspace));
+    return workspace;
+}
+
+/* Errors are those against 16 springs and 16 times as many samples. One spring-slider: with the K' and K'' of the contact at this amplitude and the mean load. 64: with its stiffness and friction. */
+static void add_harmonic(const mslip_element *element, const mslip_element *fine, const mslip_contact *contact, int harmonics,
+                         double slip, double approach)
 {
     job j = { .element = element, .harmonics = harmonics, .tangent_requested = 1, .normal_stiffness = element->normal_force / element->approach };
     const int c = 2 * harmonics + 1;
-    const size_t h = (size_t)harmonics, length = mslip_element_workspace_length(2, h, STEPS, MSLIP_UNIFORM_SAMPLING);
-    j.workspace = allocate(length * sizeof *j.workspace);
-    require(mslip_element_workspace_init(2, h, STEPS, MSLIP_UNIFORM_SAMPLING, 0, length, j.workspace));
     j.rows = allocate(STEPS * sizeof *j.rows);
     j.bank = allocate(SPRINGS * sizeof *j.bank);
     j.jacobian = allocate(COLUMNS * COLUMNS * sizeof *j.jacobian);
@@ -238,6 +245,12 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
             j.rows[i][2 * k] = sin(2.0 * PI * (k * i % STEPS) / STEPS);
         }
     }
+    job exact = j;
+    exact.element = fine;
+    exact.workspace = workspace_of(harmonics, 16 * STEPS);
+    run_harmonic(&exact);
+    const size_t first = entry_count;
+    j.workspace = workspace_of(harmonics, STEPS);
     add("two directions harmonic", "microslip", run_harmonic, &j, VARYING_LOAD);
     require(mslip_jenkins_equivalent(contact, motions[VARYING_LOAD].u * slip, &j.stiffness, &j.friction));
     j.friction /= contact->slip_force / element->friction_coefficient;
@@ -248,15 +261,20 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
         j.stiffness = element->tangential_stiffness;
         j.friction = element->friction_coefficient;
     }
+    for (entry *e = entries + first; e < entries + entry_count; ++e) {
+        e->error = first_harmonic_error(((const job *)e->context)->force, exact.force, 2, c);
+    }
 }
 
 void task_two_directions(const test_case *c, const extent *x)
 {
     (void)x;
-    static mslip_element element;
+    static mslip_element element, fine;
     mslip_parameters p = c->parameters;
     p.normal_force *= 1.6; /* the largest load of the swing */
     require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &element));
+    p.springs = 16;
+    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &fine));
     const double slip = c->contact.slip_displacement;
     double approach;
     require(mslip_normal_approach(&element, 1, &c->parameters.normal_force, &approach, NULL, NULL));
@@ -264,7 +282,7 @@ void task_two_directions(const test_case *c, const extent *x)
         const size_t first = entry_count, mark = memory_mark();
         add_steps(&element, motion, slip, approach);
         for (int h = 1; h <= 5 && motion == VARYING_LOAD; h += 4) {
-            add_harmonic(&element, &c->contact, h, slip, approach);
+            add_harmonic(&element, &fine, &c->contact, h, slip, approach);
         }
         measure(first, c->shape, motions[motion].u, mark);
     }
