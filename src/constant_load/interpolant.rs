@@ -118,8 +118,7 @@ impl ForceInterpolant {
         // From x = 0 on; the points are symmetric.
         tangents.reverse();
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
-        // With a layer the curve is singular closer to the intervals.
-        let accuracy = if N < TERMS { 1e-15 } else { 1e-14 };
+        let accuracy = 1e-15;
         let mut converged = decrease.is_converged(accuracy);
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
@@ -352,11 +351,11 @@ mod tests {
     #[test]
     fn interpolants_with_layers_converge() {
         use crate::constant_load::contact::tests::layered;
-        for ratio in [0.0, 10.0, 1.0, 0.3, 0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
+        for ratio in [0.0, 10.0, 1.0, 0.3, 0.2, 0.15, 0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
             for contact in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter().flat_map(|share| layered(share, ratio)) {
                 let otherwise = if contact.is_ellipse() { 0 } else { super::WITHOUT_LAYER };
                 let converged = contact.interpolant().converged;
-                assert!(converged == 1 || (ratio < 0.1 && converged == otherwise), "{ratio}");
+                assert!(converged == 1 || (ratio < 0.2 && converged == otherwise), "{ratio}");
                 let fractions = (1..200).map(|k| f64::from(k) / 200.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
                 for fraction in fractions.filter(|fraction| *fraction < 1.0) {
                     let displacement = fraction * contact.slip_displacement;
