@@ -16,9 +16,9 @@
 //! - Up to 2/5 of the displacement of gross slip T(δ) is one polynomial, and so is K': the integrals of the powers are known.
 //! - Up to 0.999 of it: a midpoint rule in a variable that removes the singularity of k at gross slip (`sn_midpoint`).
 //! - From 1.05 of it: a quadrature rule that is the same for all amplitudes and is stored in the contact.
-//! - Between these, and for Λ near 0, for which the curve is singular close to zero displacement: the tanh-sinh rule, in τ up to
-//!   τ = 1/2 and in the size parameter beyond. It converges despite the square roots at both ends and other singularities close to
-//!   them.
+//! - Between these: the tanh-sinh rule, which converges despite the square roots at both ends and other singularities close to them.
+//! - With a layer there, and for Λ near 0, for which the curve is singular close to zero displacement: the same over the closed forms,
+//!   in τ up to τ = 1/2 and in the size parameter beyond.
 //!
 //! For these amplitudes below gross slip
 //!
@@ -30,6 +30,7 @@
 //! sign.
 
 use crate::constant_load::contact::Contact;
+use crate::constant_load::evaluator::BEYOND;
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
@@ -51,8 +52,12 @@ pub struct ComplexStiffness<'a> {
 /// Fraction of the displacement of gross slip from which the rule stored in the contact is accurate.
 const GROSS_SLIP_RULE_FROM: f64 = 1.05;
 
-/// Nodes of rules in the time in which a table is made.
+/// Distance from gross slip, in displacements of gross slip, up to which there is an interpolant.
+const END_OF_INTERPOLANT: f64 = 1.0 / 1700.0;
+
+/// Nodes of rules in the time in which a table is made, and of K' next to gross slip.
 pub(crate) const NODES_OF_TABLE: usize = 1500;
+const NODES_NEAR_SLIP: usize = 1200;
 
 impl Contact {
     /// Tangent stiffness at the onset of gross slip over the initial one.
@@ -176,6 +181,10 @@ impl ComplexStiffness<'_> {
             if fraction >= GROSS_SLIP_RULE_FROM {
                 return self.real_in_gross_slip();
             }
+            // Closer to gross slip the square roots of both are singular at nearly the same place.
+            if !contact.is_layered() && (fraction == 1.0 || (fraction - 1.0).abs() > 1e-9) {
+                return self.real_by_interpolant();
+            }
         }
         self.real_by_tanh_sinh()
     }
@@ -194,7 +203,8 @@ impl ComplexStiffness<'_> {
         };
         match rules.iter().find(|rule| fraction <= rule.largest) {
             Some(rule) => rule.nodes.len(),
-            None if fraction < GROSS_SLIP_RULE_FROM => NODES_OF_TABLE,
+            None if fraction < GROSS_SLIP_RULE_FROM && contact.is_layered() => NODES_OF_TABLE,
+            None if fraction < GROSS_SLIP_RULE_FROM => NODES_NEAR_SLIP,
             None => GAUSS.len() / 8,
         }
     }
@@ -263,7 +273,58 @@ impl ComplexStiffness<'_> {
         }
     }
 
-    /// Both by the tanh-sinh rule.
+    /// Both next to gross slip: the tangent stiffness is that of the interpolant, and beyond its end that of the closed forms.
+    #[inline(never)]
+    fn real_by_interpolant(&self) -> (f64, f64) {
+        const NODES: usize = TANH_SINH.len();
+        const LENGTH: usize = (NODES + BEYOND).next_multiple_of(4);
+        let (contact, amplitude) = (self.contact, self.amplitude);
+        let top = amplitude.min(contact.slip_displacement);
+        // 1 - t at the end of the integral.
+        let excess = (amplitude - top) / amplitude;
+        let share = top / amplitude;
+        let (mut displacements, mut roots, mut forces, mut stiffnesses) =
+            ([top; LENGTH], [0.0; LENGTH], [0.0; LENGTH], [0.0; LENGTH]);
+        displacements.iter_mut().zip(&TANH_SINH).for_each(|(x, node)| *x = top * node.from_0);
+        let interpolated = if contact.is_elementary() {
+            NODES
+        } else {
+            let end = (1.0 - END_OF_INTERPOLANT) * contact.slip_displacement;
+            displacements.iter().take(NODES).take_while(|x| **x < end).count()
+        };
+        contact.evaluator().along::<true>(interpolated, &displacements, &mut roots, &mut forces, &mut stiffnesses);
+        if interpolated < NODES {
+            let (per_slip, slip_shift) = (contact.per_slip_displacement(), self.zones().slip_shift());
+            let (rest, part) = ((contact.slip_displacement - top) * per_slip, top * per_slip);
+            let compliance = self.zones().small_load().compliance;
+            let mut point_at = contact.layered_zones().flat.sequence();
+            for (stiffness, mirrored) in
+                stiffnesses.iter_mut().zip(TANH_SINH.iter().rev()).take(NODES).skip(interpolated)
+            {
+                let point = point_at(slip_shift * (rest + part * mirrored.from_0));
+                *stiffness = contact.initial_stiffness * (compliance / (compliance + point.compliance_increase));
+            }
+        }
+        let last = stiffnesses[NODES - 1];
+        // In gross slip the upper end is fixed; just beyond it the integrand of a constant stiffness is nearly singular there, and its
+        // integral is known. Otherwise by parts, for which the derivative of t^(3/2) (1-t)^(1/2) has the integral 0.
+        let (mut real, mut slope) = (0.0, 0.0);
+        if self.gross_slip {
+            slope = 0.5 * last * (share.sqrt().atan2(excess.sqrt()) - (share * excess).sqrt()) / share;
+        }
+        for ((node, mirrored), stiffness) in TANH_SINH.iter().zip(TANH_SINH.iter().rev()).zip(&stiffnesses) {
+            let (t, rest) = (share * node.from_0, excess + share * mirrored.from_0);
+            let weight = node.weight * (t * rest).sqrt();
+            real += weight * stiffness;
+            let change = stiffness - last;
+            slope += weight
+                * if self.gross_slip { 0.5 * change / rest - 2.0 * stiffness } else { (0.5 * t / rest - 1.5) * change };
+        }
+        let unit = 8.0 / PI * share;
+        (unit * real, (unit * slope / amplitude).min(0.0))
+    }
+
+    /// Both by the tanh-sinh rule over the closed forms.
     #[inline(never)]
     fn real_by_tanh_sinh(&self) -> (f64, f64) {
         let (contact, shift) = (self.contact, self.shift());
