@@ -5,7 +5,7 @@ use crate::curve::{moved, share_of_slip};
 use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
 use microslip::ffi::mslip_contact;
-use microslip::{Layer, Parameters};
+use microslip::{EllipticParameters, Layer, Parameters};
 use reference::law::bits_for;
 use reference::{Input, Law, Point, Real};
 use std::rc::Rc;
@@ -40,31 +40,36 @@ struct Both {
 }
 
 impl<'a> Layered<'a> {
+    /// With a layer, if the library accepts it.
+    fn new(case: &'a Case, layer: Layer) -> Option<Layered<'a>> {
+        let (input, normal_force, friction) = match case.reference.input {
+            Input::Flat(p) => (Input::Flat(Parameters { layer, ..p }), p.normal_force, p.friction_coefficient),
+            Input::Ellipse(p) => {
+                (Input::Ellipse(EllipticParameters { layer, ..p }), p.normal_force, p.friction_coefficient)
+            }
+        };
+        let contact = call::prepare(&input)?;
+        let law = case.reference.law(EXTRA);
+        let [friction, load, compliance] =
+            [friction, normal_force, layer.tangential_compliance].map(|value| law.real(value));
+        let stiffening = layer.stiffening_load.is_finite().then(|| law.real(layer.stiffening_load));
+        Some(Layered { case, contact, input, law, friction, load, compliance, stiffening })
+    }
+
     /// With a random layer that the library accepts.
-    fn new(case: &'a Case, sampler: &mut Sampler) -> Layered<'a> {
+    fn random(case: &'a Case, sampler: &mut Sampler) -> Layered<'a> {
         let normal_force = match &case.reference.input {
             Input::Flat(p) => p.normal_force,
             Input::Ellipse(p) => p.normal_force,
         };
-        let law = case.reference.law(EXTRA);
         loop {
             let tangential_compliance = sampler.power(-3.0, 3.0) / case.contact.initial_stiffness;
             let linear = sampler.chance(0.3);
             let stiffening_load = if linear { f64::INFINITY } else { normal_force * sampler.power(-3.0, 2.0) };
             let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load };
-            let input = match case.reference.input {
-                Input::Flat(p) => Input::Flat(Parameters { layer, ..p }),
-                Input::Ellipse(p) => Input::Ellipse(microslip::EllipticParameters { layer, ..p }),
-            };
-            let Some(contact) = call::prepare(&input) else { continue };
-            let friction = match &input {
-                Input::Flat(p) => p.friction_coefficient,
-                Input::Ellipse(p) => p.friction_coefficient,
-            };
-            let [friction, load, compliance] =
-                [friction, normal_force, tangential_compliance].map(|value| law.real(value));
-            let stiffening = (!linear).then(|| law.real(stiffening_load));
-            return Layered { case, contact, input, law, friction, load, compliance, stiffening };
+            if let Some(layered) = Layered::new(case, layer) {
+                return layered;
+            }
         }
     }
 
@@ -135,7 +140,8 @@ impl<'a> Layered<'a> {
         panic!("{}: no force at {displacement:e}", text(&self.input));
     }
 
-    fn at_force(&self, force: f64, tally: &mut Tally, range: &'static str) {
+    fn at_force(&mut self, force: f64, range: &'static str, tally: &mut Tally) {
+        self.set_bits_for(force / self.contact.slip_force);
         let kind = self.case.kind;
         let place = || format!("{} T {force:e}", text(&self.input));
         let exact = self.at(self.law.at_force(force));
@@ -167,7 +173,8 @@ impl<'a> Layered<'a> {
         1.0 - (&exact.layer_compliance / &exact.compliance).f64()
     }
 
-    fn at_given_displacement(&self, displacement: f64, tally: &mut Tally, range: &'static str) {
+    fn at_given_displacement(&mut self, displacement: f64, range: &'static str, tally: &mut Tally) {
+        self.set_bits_for(displacement / self.contact.slip_displacement);
         let kind = self.case.kind;
         let place = || format!("{} u {displacement:e}", text(&self.input));
         let [force, stiffness, _] = call::force(&self.contact, displacement);
@@ -213,14 +220,21 @@ fn loss(y: &Real, logarithm: &Real) -> Real {
 
 /// Curve, inverse and energy of a contact with a layer.
 pub fn curve(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let mut layered = Layered::new(case, sampler);
+    let mut layered = Layered::random(case, sampler);
     let half = call::displacement(&layered.contact, 0.5 * layered.contact.slip_force)[0];
     for _ in 0..10 {
         let (share, range) = sampler.share_of_force();
-        layered.set_bits_for(share);
-        layered.at_force(share * layered.contact.slip_force, tally, range);
+        layered.at_force(share * layered.contact.slip_force, range, tally);
         let (share, range) = share_of_slip(sampler, half / layered.contact.slip_displacement);
-        layered.set_bits_for(share);
-        layered.at_given_displacement(share * layered.contact.slip_displacement, tally, range);
+        layered.at_given_displacement(share * layered.contact.slip_displacement, range, tally);
+    }
+}
+
+/// The same at one force "T" or displacement "u".
+pub fn at(case: &Case, layer: Layer, given: (&str, f64), range: &'static str, tally: &mut Tally) {
+    let mut layered = Layered::new(case, layer).expect("a layer that the library accepts");
+    match given {
+        ("T", force) => layered.at_force(force, range, tally),
+        (_, displacement) => layered.at_given_displacement(displacement, range, tally),
     }
 }
