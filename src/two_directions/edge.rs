@@ -2,6 +2,7 @@
 
 use super::springs::{Both, LEAST_STIFFNESS, PARTS, Pressed, Row, Springs};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
 /// The last shell.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +53,16 @@ impl<const N: usize> Edge<N> {
     }
 
     /// With the edge in a part of a shell.
-    #[inline(always)]
     pub fn of_shell(springs: &Springs<N>, now: &Pressed, last: usize, part: usize) -> Edge<N> {
+        dispatch!(
+            Edge::of_shell_kernel,
+            [const N: usize]
+            springs: &Springs<N>, now: &Pressed, last: usize, part: usize => Edge<N>
+        )
+    }
+
+    #[inline(always)]
+    fn of_shell_kernel(springs: &Springs<N>, now: &Pressed, last: usize, part: usize) -> Edge<N> {
         let (last, part) = (last.min(N - 1), part.min(PARTS - 1));
         let first = last <= springs.under_flat;
         let mut edge = Edge { last, part, ..Edge::NONE };

@@ -321,7 +321,7 @@ fn of_springs<const N: usize>(
 }
 
 /// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn separated<const N: usize>(
     springs: &Springs<N>,
     state: &SpringState<N>,

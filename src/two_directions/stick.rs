@@ -82,7 +82,7 @@ fn kernel<const N: usize>(
 }
 
 /// Adds the offset to the state.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn settle<const N: usize>(springs: &Springs<N>, state: &mut SpringState<N>, offset: &Both<f64>) {
     let edge = &state.edge;
     for k in 0..2 {
