@@ -5,10 +5,10 @@ use crate::one_direction::state;
 use crate::two_directions::from_diagram::{from_diagram, header_of, realigned};
 use crate::two_directions::load_path::advance_springs;
 use crate::two_directions::spring_state::{LONGEST, SpringState};
-use crate::two_directions::springs::{Both, Springs, Units, fill, tables_length, under_flat};
+use crate::two_directions::springs::{Both, Springs, TABLES, Units, fill, under_flat};
 use crate::two_directions::state::{
-    Header, LENGTH, copy_used, line_mut, line_of, move_springs, read_header, state_init, stored, tables, tables_mut,
-    write,
+    Header, LENGTH, copy_used, line_mut, line_of, move_springs, read_header, state_init, stored, tables, write,
+    write_tables,
 };
 use crate::two_directions::stick::{self, Stuck};
 use crate::two_directions::{Requested, Step};
@@ -58,9 +58,9 @@ fn trial_of<const N: usize>(element: &Element, old: &[f64], displacement: [f64; 
     if line_of(old).is_none() {
         let header = read_header(old);
         if is_aligned(element, &header, largest_load(element, &header, displacement[2]))
-            && let (Some(stored), Some(springs)) = (stored::<N>(old), tables::<N>(&header, old))
+            && let (Some(stored), Some(springs)) = (stored::<N>(old), tables(&header, old))
         {
-            if let Some((step, _)) = without_slip(element, &header, &springs, old, displacement, requested) {
+            if let Some((step, _)) = without_slip::<N>(element, &header, &springs, old, displacement, requested) {
                 return step;
             }
             let mut state = stored.copied();
@@ -88,7 +88,7 @@ fn advance_of<const N: usize>(
             return advance_on_line(element, state, displacement, requested, 0.0);
         }
         let from = header_of(&there, v);
-        let from = aligned_state::<N>(element, &from, largest_load(element, &from, displacement[2]));
+        let from = aligned_state(element, &from, largest_load(element, &from, displacement[2]));
         if on_line {
             let lateral = lateral_stiffness::<N>(element, &from, there.knots, displacement);
             return advance_on_line(element, state, displacement, requested, lateral);
@@ -109,26 +109,25 @@ fn advance_of<const N: usize>(
 /// The springs of a state on a line, whose tables take the place of the diagram.
 #[inline(never)]
 fn leave_line<const N: usize>(element: &Element, state: &mut [f64], from: &Header) -> SpringState<N> {
-    let mut memory = [0.0; tables_length(16)];
-    let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
-    fill::<N>(memory, element, &from.units, 1.0);
+    let mut memory = [0.0; TABLES];
+    fill(&mut memory, element, &from.units, 1.0);
     let mut springs = SpringState::RELAXED;
-    if let (Some(view), Some(line)) = (Springs::<N>::new(from.under_flat, memory), line_of(state))
+    if let (Some(view), Some(line)) = (Springs::new(from.under_flat, &memory), line_of(state))
         && from.load > 0.0
     {
         springs = from_diagram(element, &view, &from.units, from, state::view(line).knots);
     }
-    tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
+    write_tables(state, &memory);
     springs
 }
 
 /// The stiffness along y of a diagram, which has none: that of the springs.
 #[inline(never)]
 fn lateral_stiffness<const N: usize>(element: &Element, from: &Header, knots: &[[f64; 4]], to: [f64; 3]) -> f64 {
-    let mut memory = [0.0; tables_length(16)];
-    fill::<N>(&mut memory, element, &from.units, 1.0);
-    let Some(springs) = Springs::<N>::new(from.under_flat, &memory) else { return 0.0 };
-    let mut state = SpringState::RELAXED;
+    let mut memory = [0.0; TABLES];
+    fill(&mut memory, element, &from.units, 1.0);
+    let Some(springs) = Springs::new(from.under_flat, &memory) else { return 0.0 };
+    let mut state = SpringState::<N>::RELAXED;
     if from.load > 0.0 {
         state = from_diagram(element, &springs, &from.units, from, knots);
     }
@@ -145,8 +144,8 @@ fn advance_of_aligned<const N: usize>(
     displacement: [f64; 3],
     requested: Requested,
 ) -> Step {
-    let Some(springs) = tables::<N>(header, state) else { return Step::NONE };
-    if let Some((step, offset)) = without_slip(element, header, &springs, state, displacement, requested) {
+    let Some(springs) = tables(header, state) else { return Step::NONE };
+    if let Some((step, offset)) = without_slip::<N>(element, header, &springs, state, displacement, requested) {
         let [u, v, _] = displacement;
         move_springs(state, [u, v], offset);
         return step;
@@ -163,7 +162,7 @@ fn advance_in_place<const N: usize>(
     displacement: [f64; 3],
     requested: Requested,
 ) -> Step {
-    let Some(view) = tables::<N>(from, state) else { return Step::NONE };
+    let Some(view) = tables(from, state) else { return Step::NONE };
     let (step, to) = advance_springs(element, from, &view, springs, displacement, requested);
     if to.load > 0.0 {
         write(state, &to, springs);
@@ -176,34 +175,42 @@ fn advance_in_place<const N: usize>(
 }
 
 /// The same for a state.
-fn aligned_state<const N: usize>(element: &Element, header: &Header, load: f64) -> Header {
+fn aligned_state(element: &Element, header: &Header, load: f64) -> Header {
     // Above 0, whose logarithm is no number.
     let level = (load / (OUTGROWN * element.normal_force)).max(0.1).ln() / LEVEL.ln();
     let level = if level > LEAST_LEVEL { level.ceil() } else { LEAST_LEVEL };
     let load = element.normal_force * LEVEL.powi(level as i32);
-    aligned::<N>(element, header, load.min(element.largest_load))
+    aligned(element, header, load.min(element.largest_load))
 }
 
 /// A header with the units of springs that are aligned with a load.
-pub(super) fn aligned<const N: usize>(element: &Element, header: &Header, load: f64) -> Header {
+pub(super) fn aligned(element: &Element, header: &Header, load: f64) -> Header {
     let units = Units::of(element, load);
     let under_flat = under_flat(element, &units);
     let size = if header.load > 0.0 { units.size_under(element, header.load) } else { 0.0 };
-    Header { key: element.key, units, springs: N, under_flat, size, offset: [0.0; 2], sum: [0.0; 2], ..*header }
+    Header {
+        key: element.key,
+        units,
+        springs: element.springs,
+        under_flat,
+        size,
+        offset: [0.0; 2],
+        sum: [0.0; 2],
+        ..*header
+    }
 }
 
 /// Aligns the springs of a state with a load. Those of another element are relaxed.
 #[inline(never)]
 fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header, load: f64) -> (Header, SpringState<N>) {
-    let to = aligned_state::<N>(element, header, load);
-    let mut memory = [0.0; tables_length(16)];
-    let memory = memory.get_mut(..tables_length(N)).unwrap_or(&mut []);
-    fill::<N>(memory, element, &to.units, 1.0);
-    let Some(springs) = Springs::<N>::new(to.under_flat, memory) else { return (to, SpringState::RELAXED) };
+    let to = aligned_state(element, header, load);
+    let mut memory = [0.0; TABLES];
+    fill(&mut memory, element, &to.units, 1.0);
+    let Some(springs) = Springs::new(to.under_flat, &memory) else { return (to, SpringState::RELAXED) };
     let now = to.pressed(element);
     let mut new = SpringState::RELAXED;
     if header.belongs_to(element)
-        && let (Some(stored), Some(old_springs)) = (stored::<N>(state), tables::<N>(header, state))
+        && let (Some(stored), Some(old_springs)) = (stored::<N>(state), tables(header, state))
     {
         let mut old = stored.copied();
         stick::settle(&old_springs, &mut old, &header.offset);
@@ -213,7 +220,7 @@ fn align<const N: usize>(element: &Element, state: &mut [f64], header: &Header, 
     } else {
         new.edge = super::edge::Edge::new(&springs, &now);
     }
-    tables_mut::<N>(state).iter_mut().zip(memory).for_each(|(to, from)| *to = *from);
+    write_tables(state, &memory);
     (to, new)
 }
 
@@ -241,7 +248,7 @@ fn advance_on_line(
 fn without_slip<const N: usize>(
     element: &Element,
     header: &Header,
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &[f64],
     [u, v, input]: [f64; 3],
     requested: Requested,

@@ -1,7 +1,8 @@
 //! The shell at the edge of the contact, which ends at the present size: all of the springs that depends on the load.
 
-use super::springs::{Both, LEAST_STIFFNESS, PARTS, Pressed, Row, Springs};
+use super::springs::{Both, Fine, LEAST_STIFFNESS, MOST, PARTS, Pressed, Row, Springs, add, dot, used};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
 /// The last shell.
 #[derive(Debug, Clone, Copy)]
@@ -46,14 +47,22 @@ impl<const N: usize> Edge<N> {
     };
 
     #[inline(always)]
-    pub fn new(springs: &Springs<N>, now: &Pressed) -> Edge<N> {
-        let last = springs.last_shell(now.shift[0]);
+    pub fn new(springs: &Springs, now: &Pressed) -> Edge<N> {
+        let last = springs.last_shell::<N>(now.shift[0]);
         Edge::of_shell(springs, now, last, springs.last_part(last, now.shift[0]))
     }
 
     /// With the edge in a part of a shell.
+    pub fn of_shell(springs: &Springs, now: &Pressed, last: usize, part: usize) -> Edge<N> {
+        dispatch!(
+            Edge::of_shell_kernel,
+            [const N: usize]
+            springs: &Springs, now: &Pressed, last: usize, part: usize => Edge<N>
+        )
+    }
+
     #[inline(always)]
-    pub fn of_shell(springs: &Springs<N>, now: &Pressed, last: usize, part: usize) -> Edge<N> {
+    fn of_shell_kernel(springs: &Springs, now: &Pressed, last: usize, part: usize) -> Edge<N> {
         let (last, part) = (last.min(N - 1), part.min(PARTS - 1));
         let first = last <= springs.under_flat;
         let mut edge = Edge { last, part, ..Edge::NONE };
@@ -73,14 +82,14 @@ impl<const N: usize> Edge<N> {
             let before = if last > 0 { springs.secant[k][last - 1] } else { 0.0 };
             edge.stiffness[k] = (edge.secant[k] - before).max(LEAST_STIFFNESS * edge.secant[k]).max(TINY);
             for j in 0..=last {
-                edge.column[k][j] = edge.step[k] - super::springs::dot(&springs.displacement[k][j], &edge.reach);
+                edge.column[k][j] = edge.step[k] - dot(used(&springs.displacement[k][j]), &edge.reach);
             }
             // The fine correction.
             edge.fine_step[k] = distance(now.shift[k], springs.fine_shift[k][part][last]);
             edge.fine_secant[k] = (now.load - springs.fine_load[part][last]) / edge.fine_step[k];
             let law = edge.secant[k] - if first { 0.0 } else { before };
             let secant = |upper: [usize; 2], lower: [usize; 2]| {
-                let rise = |rows: &[Row<N>; PARTS]| rows[upper[0]][upper[1]] - rows[lower[0]][lower[1]];
+                let rise = |rows: &Fine<MOST>| rows[upper[0]][upper[1]] - rows[lower[0]][lower[1]];
                 rise(springs.fine_load) / rise(springs.fine_shift[k]).max(TINY)
             };
             let mut before = if first { 0.0 } else { secant([0, last], [PARTS - 1, last - 1]) };
@@ -97,7 +106,7 @@ impl<const N: usize> Edge<N> {
 
     /// Stiffnesses of the springs; 0 outside.
     #[inline(always)]
-    pub fn stiffnesses(&self, springs: &Springs<N>, k: usize) -> Row<N> {
+    pub fn stiffnesses(&self, springs: &Springs, k: usize) -> Row<N> {
         let mut row = [0.0; N];
         for j in 0..N {
             let inner = if j < self.last { springs.stiffness[k][j] } else { 0.0 };
@@ -108,7 +117,7 @@ impl<const N: usize> Edge<N> {
 
     /// Row j of U; 0 outside.
     #[inline(always)]
-    pub fn displacement(&self, springs: &Springs<N>, k: usize, j: usize) -> Row<N> {
+    pub fn displacement(&self, springs: &Springs, k: usize, j: usize) -> Row<N> {
         let (mut row, fixed, at_edge) = ([0.0; N], &springs.displacement[k][j], self.column[k][j]);
         for i in 0..N {
             let inner = if i < self.last { fixed[i] } else { 0.0 };
@@ -119,7 +128,7 @@ impl<const N: usize> Edge<N> {
 
     /// Tractions of springs; 0 outside.
     #[inline(always)]
-    pub fn tractions(&self, springs: &Springs<N>, k: usize, v: &Row<N>) -> Row<N> {
+    pub fn tractions(&self, springs: &Springs, k: usize, v: &Row<N>) -> Row<N> {
         let last = self.last.min(N - 1);
         let (mut q, at_edge) = ([0.0; N], v[last] / self.step[k]);
         for i in 0..N {
@@ -127,7 +136,7 @@ impl<const N: usize> Edge<N> {
         }
         for j in 0..last {
             let density = (v[j] - v[j + 1]) * springs.per_step[k][j];
-            super::springs::add(&mut q, density, &springs.traction[j]);
+            add(&mut q, density, used(&springs.traction[j]));
         }
         q
     }

@@ -7,12 +7,7 @@ use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, total};
 
 /// Limits of a part of the shells; 1 outside.
 #[inline(always)]
-pub(crate) fn limits<const N: usize>(
-    springs: &Springs<N>,
-    edge: &Edge<N>,
-    shift: &Both<f64>,
-    r: usize,
-) -> Both<Row<N>> {
+pub(crate) fn limits<const N: usize>(springs: &Springs, edge: &Edge<N>, shift: &Both<f64>, r: usize) -> Both<Row<N>> {
     let (first, stop) = (springs.under_flat, if r <= edge.part { edge.last + 1 } else { edge.last });
     let mut limits = [[1.0; N]; 2];
     for k in 0..2 {
@@ -26,7 +21,7 @@ pub(crate) fn limits<const N: usize>(
 
 /// Stiffnesses of a part of the shells under the present load, less those of the springs of the law; 0 outside.
 #[inline(always)]
-pub(crate) fn stiffnesses<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, k: usize, r: usize) -> Row<N> {
+pub(crate) fn stiffnesses<const N: usize>(springs: &Springs, edge: &Edge<N>, k: usize, r: usize) -> Row<N> {
     let mut row = [0.0; N];
     for j in 0..N {
         // Products, not choices: of a part of a vector these would be branches.
@@ -42,7 +37,7 @@ pub(crate) const SLIPS: f64 = 1.0 - 4.0 * f64::EPSILON;
 /// A step of the correction: force, and dissipated energy if requested.
 #[inline(always)]
 pub(crate) fn step<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     edge: &Edge<N>,
     v: &mut Both<Fine<N>>,
     motion: &Increment,

@@ -21,7 +21,7 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
 /// Springs from their displacements as functions of direction, node and S, those of the law and those of the fine correction: tractions
 /// and the edge follow.
 fn fill<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     now: &Pressed,
     law: impl Fn(usize, usize, f64) -> f64,
     fine: impl Fn(usize, f64) -> f64,
@@ -49,7 +49,7 @@ fn fill<const N: usize>(
 /// The springs of a diagram: their displacements are those of the sizes from theirs on.
 pub(super) fn from_diagram<const N: usize>(
     element: &Element,
-    springs: &Springs<N>,
+    springs: &Springs,
     units: &Units,
     header: &Header,
     knots: &[[f64; 4]],
@@ -86,7 +86,7 @@ pub(super) fn from_diagram<const N: usize>(
 /// The springs of a state in another alignment: the fine springs are the corners of a polygon over S, and so are the differences of those of
 /// the law from them.
 pub(super) fn realigned<const N: usize>(
-    [old_springs, springs]: [&Springs<N>; 2],
+    [old_springs, springs]: [&Springs; 2],
     old: &SpringState<N>,
     [old_now, now]: [&Pressed; 2],
     ratio: f64,

@@ -14,7 +14,7 @@ use super::Requested;
 use super::advance::aligned;
 use super::load_path::{LoadPath, Place};
 use super::spring_state::SpringState;
-use super::springs::{PressedSlopes, Springs, fill, tables_length};
+use super::springs::{MOST, PressedSlopes, Springs, TABLES, fill};
 use super::state::Header;
 use super::step::StepRecord;
 use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, inner_after, rows};
@@ -47,8 +47,6 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 
 /// Columns that are advanced at once.
 const BLOCK: usize = 12;
-/// The largest number of springs.
-const MOST: usize = 16;
 
 pub(crate) struct Layout(Size);
 
@@ -100,7 +98,7 @@ impl WorkspaceLayout for Layout {
         HEADER
             + self.tables_length()
             + SAMPLE * self.0.samples
-            + 3 * tables_length(MOST)
+            + 3 * TABLES
             + (rows(MOST) + 2) * BLOCK * self.blocks()
             + self.sums_length()
             + self.line_length()
@@ -153,7 +151,7 @@ impl<'a> Workspace<'a> {
             basis,
             one_direction,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
-            springs: parts.take(3 * tables_length(MOST))?,
+            springs: parts.take(3 * TABLES)?,
             derivatives: parts.take(rows(MOST) * BLOCK * blocks)?.as_chunks_mut().0,
             forces: parts.take(2 * BLOCK * blocks)?.as_chunks_mut().0,
             sums: parts.take(layout.sums_length())?,
@@ -292,7 +290,7 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
     let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
-    let mut from = aligned::<N>(element, &Header::NONE, top_load);
+    let mut from = aligned(element, &Header::NONE, top_load);
     workspace.press(element, &from);
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
@@ -302,19 +300,19 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
         let memory = core::mem::take(&mut workspace.springs);
         let (tables, neighbours) = memory.split_at_mut(memory.len() / 3);
         let (larger, smaller) = neighbours.split_at_mut(neighbours.len() / 2);
-        fill::<N>(tables, element, &from.units, 1.0);
+        fill(tables, element, &from.units, 1.0);
         if requested.tangent {
-            fill::<N>(larger, element, &from.units, 1.0 + NEIGHBOUR);
-            fill::<N>(smaller, element, &from.units, 1.0 - NEIGHBOUR);
+            fill(larger, element, &from.units, 1.0 + NEIGHBOUR);
+            fill(smaller, element, &from.units, 1.0 - NEIGHBOUR);
         }
-        let at = |tables| Springs::<N>::new(from.under_flat, tables);
+        let at = |tables| Springs::new(from.under_flat, tables);
         if let (Some(springs), Some(larger), Some(smaller)) = (at(tables), at(larger), at(smaller)) {
             let neighbours = [larger, smaller];
             // Of the logarithm of the reference size by the coefficients of the normal component.
             let top_normal = element.normal(top);
             let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
             let by_top = if top_load >= from.units.load * 0.99 { 0.5 * by_load } else { 0.0 };
-            let mut record = StepRecord::NONE;
+            let mut record = StepRecord::<N>::NONE;
             let mut state = SpringState::RELAXED;
             let mut slopes = PressedSlopes::default();
             let mut inner = N;

@@ -89,7 +89,7 @@ impl LoadPath {
     #[inline(always)]
     pub fn advance<const N: usize>(
         &self,
-        springs: &Springs<N>,
+        springs: &Springs,
         state: &mut SpringState<N>,
         requested: Requested,
         record: &mut StepRecord<N>,
@@ -129,7 +129,7 @@ impl LoadPath {
 pub(super) fn advance_springs<const N: usize>(
     element: &Element,
     from: &Header,
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &mut SpringState<N>,
     displacement: [f64; 3],
     requested: Requested,
@@ -175,7 +175,7 @@ const INCREASE: f64 = 1e-9;
 fn tangent<const N: usize>(
     element: &Element,
     path: &LoadPath,
-    springs: &Springs<N>,
+    springs: &Springs,
     new: &SpringState<N>,
     record: &StepRecord<N>,
     tangent: &mut [f64; 9],

@@ -48,7 +48,7 @@ pub(crate) type Set = u32;
 
 /// What the slip depends on besides the shells.
 pub(crate) struct Problem<'a, const N: usize> {
-    pub springs: &'a Springs<'a, N>,
+    pub springs: &'a Springs<'a>,
     pub edge: &'a Edge<N>,
     /// Stiffnesses, and v*.
     pub stiffness: &'a Both<Row<N>>,

@@ -22,6 +22,8 @@ use crate::shape::{RoundedPunch, TINY};
 use core::array::from_fn;
 use core::f64::consts::PI;
 
+/// The largest number of springs.
+pub(crate) const MOST: usize = 16;
 /// Nodes under the flat.
 const UNDER_FLAT: usize = 2;
 /// Parts of each shell in the fine correction.
@@ -147,48 +149,46 @@ impl Units {
 /// Single rows of the tables, all rows, and numbers in them.
 const SINGLE: usize = 13;
 
-/// Number of doubles in the tables of N springs.
-pub(crate) const fn tables_length(n: usize) -> usize {
-    n * (SINGLE + 5 * PARTS + 3 * n)
-}
+/// Number of doubles in the tables of springs.
+pub(crate) const TABLES: usize = MOST * (SINGLE + 5 * PARTS + 3 * MOST);
 
-/// The springs of a shape: a view of their tables.
+/// The springs of a shape: a view of their tables, whose rows have room for the largest number of springs.
 #[derive(Clone, Copy)]
-pub(crate) struct Springs<'a, const N: usize> {
+pub(crate) struct Springs<'a> {
     /// Springs under the flat.
     pub under_flat: usize,
     /// N_j and S_j.
-    pub load: &'a Row<N>,
-    pub shift: Both<&'a Row<N>>,
+    pub load: &'a Row<MOST>,
+    pub shift: Both<&'a Row<MOST>>,
     /// w_j², and x_i² - a².
-    size: &'a Row<N>,
-    pub point: &'a Row<N>,
+    size: &'a Row<MOST>,
+    pub point: &'a Row<MOST>,
     /// ψ of the shells, and the unit of the tractions at x_i.
-    pub weight: &'a Row<N>,
-    pub unit: &'a Row<N>,
+    pub weight: &'a Row<MOST>,
+    pub unit: &'a Row<MOST>,
     /// W_j, w_j and 1/(S_{j+1} - S_j).
-    pub secant: Both<&'a Row<N>>,
-    pub stiffness: Both<&'a Row<N>>,
-    pub per_step: Both<&'a Row<N>>,
+    pub secant: Both<&'a Row<MOST>>,
+    pub stiffness: Both<&'a Row<MOST>>,
+    pub per_step: Both<&'a Row<MOST>>,
     /// N and S of the fine correction, and the difference of its stiffnesses from those of the law.
-    pub fine_load: &'a Fine<N>,
-    pub fine_shift: Both<&'a Fine<N>>,
-    pub fine_stiffness: Both<&'a Fine<N>>,
+    pub fine_load: &'a Fine<MOST>,
+    pub fine_shift: Both<&'a Fine<MOST>>,
+    pub fine_stiffness: Both<&'a Fine<MOST>>,
     /// F_ij as `[j][i]`, and U_ji of whole shells as `[j][i]`.
-    pub traction: &'a Matrix<N>,
-    pub displacement: Both<&'a Matrix<N>>,
+    pub traction: &'a Matrix<MOST>,
+    pub displacement: Both<&'a Matrix<MOST>>,
 }
 
-impl<'a, const N: usize> Springs<'a, N> {
+impl<'a> Springs<'a> {
     /// Of tables that were filled.
     #[inline(always)]
-    pub fn new(under_flat: usize, tables: &'a [f64]) -> Option<Springs<'a, N>> {
-        let (single, rest) = tables.as_chunks::<N>().0.split_first_chunk::<SINGLE>()?;
+    pub fn new(under_flat: usize, tables: &'a [f64]) -> Option<Springs<'a>> {
+        let (single, rest) = tables.as_chunks::<MOST>().0.split_first_chunk::<SINGLE>()?;
         let [load, x, y, size, point, weight, unit, secant_x, secant_y, stiffness_x, stiffness_y, step_x, step_y] =
             single;
         let (fine, rest) = rest.split_at_checked(5 * PARTS)?;
         let ([fine_load, shift_x, shift_y, fine_x, fine_y], _) = fine.as_chunks::<PARTS>().0.split_first_chunk()?;
-        let ([traction, displacement_x, displacement_y], _) = rest.as_chunks::<N>().0.split_first_chunk()?;
+        let ([traction, displacement_x, displacement_y], _) = rest.as_chunks::<MOST>().0.split_first_chunk()?;
         Some(Springs {
             under_flat,
             load,
@@ -210,7 +210,7 @@ impl<'a, const N: usize> Springs<'a, N> {
 
     /// The shell at the edge of a contact with a shift.
     #[inline(always)]
-    pub fn last_shell(&self, shift: f64) -> usize {
+    pub fn last_shell<const N: usize>(&self, shift: f64) -> usize {
         let (inside, mut count) = (shift * (1.0 - THINNEST), 0);
         for j in 0..N {
             count += usize::from(self.shift[0][j] < inside);
@@ -222,12 +222,12 @@ impl<'a, const N: usize> Springs<'a, N> {
     #[inline(always)]
     pub fn last_part(&self, last: usize, shift: f64) -> usize {
         let inside = shift * (1.0 - THINNEST);
-        (1..PARTS).filter(|r| self.fine_shift[0][*r][last.min(N - 1)] < inside).count()
+        (1..PARTS).filter(|r| self.fine_shift[0][*r][last.min(MOST - 1)] < inside).count()
     }
 
     /// Pressure of the last shell at the points within, and its derivative by w².
     #[inline(always)]
-    pub fn reach(&self, last: usize, now: &Pressed) -> [Row<N>; 2] {
+    pub fn reach<const N: usize>(&self, last: usize, now: &Pressed) -> [Row<N>; 2] {
         let (mut reach, mut slope, last) = ([0.0; N], [0.0; N], last.min(N - 1));
         let (size, lower) = (now.size, self.size[last]);
         for i in 0..N {
@@ -251,16 +251,16 @@ pub(crate) fn under_flat(element: &Element, units: &Units) -> usize {
 
 /// Fills the tables of the springs of an element that are aligned with the size of the units times a number near 1.
 #[expect(clippy::too_many_lines, reason = "the tables in their order")]
-pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units: &Units, reference: f64) {
+pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, reference: f64) {
     let (plane, inner) = (element.plane(), under_flat(element, units));
-    // At most N, as the compiler cannot know: bounds are not checked below.
-    let inner = inner.min(UNDER_FLAT);
-    let graded = N - inner;
+    // As the compiler cannot know: bounds are not checked below.
+    let (n, inner) = (element.springs.clamp(UNDER_FLAT, MOST), inner.min(UNDER_FLAT));
+    let graded = n - inner;
     let flat = plane.flat / units.size;
-    let (rows, _) = tables.as_chunks_mut::<N>();
+    let (rows, _) = tables.as_chunks_mut::<MOST>();
     let Some((single, rest)) = rows.split_first_chunk_mut::<SINGLE>() else { return };
     let Some((fine, rest)) = rest.split_at_mut_checked(5 * PARTS) else { return };
-    let Some(([traction, displacement_x, displacement_y], _)) = rest.as_chunks_mut::<N>().0.split_first_chunk_mut()
+    let Some(([traction, displacement_x, displacement_y], _)) = rest.as_chunks_mut::<MOST>().0.split_first_chunk_mut()
     else {
         return;
     };
@@ -269,7 +269,7 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
     else {
         return;
     };
-    *single = [[0.0; N]; SINGLE];
+    *single = [[0.0; MOST]; SINGLE];
     let [load, x, y, size, point, weight, unit, secant_x, secant_y, stiffness_x, stiffness_y, step_x, step_y] = single;
     let (shift, secant, step) = ([x, y], [secant_x, secant_y], [step_x, step_y]);
     let (fine_shift, stiffness) = ([fine_x, fine_y], [stiffness_x, stiffness_y]);
@@ -291,8 +291,8 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         }
         [plane.shape.load(w) / units.load, plane.shift(0, w) / units.shift, plane.shift(1, w) / units.shift]
     };
-    let mut width = [flat; N];
-    let mut position = [0.0; N];
+    let mut width = [flat; MOST];
+    let mut position = [0.0; MOST];
     for j in 0..inner {
         let (from, to) = (flat * (PI * j as f64 / (2 * inner) as f64).sin(), {
             if j + 1 == inner { flat } else { flat * (PI * (j + 1) as f64 / (2 * inner) as f64).sin() }
@@ -310,7 +310,7 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
             (fine_load[r][j], fine_shift[0][r][j], fine_shift[1][r][j]) = (0.0, 0.0, 0.0);
         }
     }
-    for j in inner..N {
+    for j in inner..n {
         let (lower, upper) = (node(j - inner, 0), node(j - inner + 1, 0));
         let (from, to) = (half_width(lower), half_width(upper));
         width[j] = from;
@@ -333,11 +333,11 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
     let end_size = reference * reference;
     for k in 0..2 {
         let end = [end_x, end_y][k];
-        let next = |row: &Row<N>, j: usize, end: f64| row.get(j + 1).copied().unwrap_or(end);
+        let next = |row: &Row<MOST>, j: usize, end: f64| if j + 1 < n { row[j + 1] } else { end };
         let (mut before, mut fine_before) = (0.0, 0.0);
         let fine_stiffness = if k == 0 { &mut *fine_stiffness_x } else { &mut *fine_stiffness_y };
-        *fine_stiffness = [[0.0; N]; PARTS];
-        for j in 0..N {
+        *fine_stiffness = [[0.0; MOST]; PARTS];
+        for j in 0..n {
             if j >= inner {
                 let rise = (next(shift[k], j, end) - shift[k][j]).max(TINY);
                 step[k][j] = 1.0 / rise;
@@ -350,7 +350,8 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
                 let law = secant[k][j] - if j > inner { before } else { 0.0 };
                 for r in 0..PARTS {
                     let last = r + 1 == PARTS;
-                    let outer = |rows: &Fine<N>, end: f64| if last { next(&rows[0], j, end) } else { rows[r + 1][j] };
+                    let outer =
+                        |rows: &Fine<MOST>, end: f64| if last { next(&rows[0], j, end) } else { rows[r + 1][j] };
                     let (upper, upper_load) = (outer(fine_shift[k], end), outer(fine_load, end_load));
                     // Not in use, and decreasing, behind the last node.
                     let own = (upper_load - fine_load[r][j]).max(0.0) / (upper - fine_shift[k][r][j]).max(TINY);
@@ -362,12 +363,12 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         }
     }
     // The map, with the pressure of all shells as unit, and its inverse.
-    *traction = [[0.0; N]; N];
-    *displacement_x = [[0.0; N]; N];
-    *displacement_y = [[0.0; N]; N];
-    for i in 0..N {
-        for j in i.max(inner)..N {
-            let (upper, lower) = (size.get(j + 1).copied().unwrap_or(end_size), size[j]);
+    *traction = [[0.0; MOST]; MOST];
+    *displacement_x = [[0.0; MOST]; MOST];
+    *displacement_y = [[0.0; MOST]; MOST];
+    for i in 0..n {
+        for j in i.max(inner)..n {
+            let (upper, lower) = (if j + 1 < n { size[j + 1] } else { end_size }, size[j]);
             traction[j][i] = weight[j] * root_difference(upper, lower, point[i]);
             unit[i] += traction[j][i];
         }
@@ -378,21 +379,21 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
         let ratio = (s / x).max(1.0);
         (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()).ln()
     };
-    for j in 0..N {
+    for j in 0..n {
         if j < inner {
-            let to = if j + 1 < N { width[j + 1] } else { flat };
+            let to = if j + 1 < n { width[j + 1] } else { flat };
             for i in 0..=j {
                 let x = position[i];
                 traction[j][i] = quarter_load * (acosh(to, x) - acosh(width[j], x)) / (to - width[j]);
             }
         }
-        for i in 0..N {
+        for i in 0..n {
             traction[j][i] *= unit[i];
         }
     }
-    for column in 0..N {
+    for column in 0..n {
         // D by back substitution, and its sums from outside.
-        let mut density = [0.0; N];
+        let mut density = [0.0; MOST];
         density[column] = 1.0 / traction[column][column].max(TINY);
         for j in (0..column).rev() {
             // Column j + 1 of the map takes part in the rows before.
@@ -403,7 +404,7 @@ pub(crate) fn fill<const N: usize>(tables: &mut [f64], element: &Element, units:
             density[j] /= traction[j][j].max(TINY);
         }
         let [mut sum_x, mut sum_y] = [0.0; 2];
-        for j in (0..N).rev().skip(N - 1 - column) {
+        for j in (0..n).rev().skip(n - 1 - column) {
             sum_x += density[j] / step[0][j];
             sum_y += density[j] / step[1][j];
             (displacement_x[j][column], displacement_y[j][column]) = (sum_x, sum_y);
@@ -417,6 +418,12 @@ fn root_difference(upper: f64, lower: f64, point: f64) -> f64 {
     let (high, low) = ((upper - point).max(0.0), (lower - point).max(0.0));
     let difference = if low > 0.0 { upper - lower } else { high };
     difference / (high.sqrt() + low.sqrt()).max(TINY)
+}
+
+/// The first N values of a row of the tables.
+#[inline(always)]
+pub(crate) fn used<const N: usize>(row: &Row<MOST>) -> &Row<N> {
+    row.first_chunk().unwrap_or(&[0.0; N])
 }
 
 /// Σ a_j b_j.

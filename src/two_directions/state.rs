@@ -15,12 +15,10 @@ use crate::numerics::fp_class::is_finite;
 use crate::one_direction::state;
 use crate::tag::Kind;
 use crate::two_directions::spring_state::{LONGEST, SpringState, StoredSprings, springs_length};
-use crate::two_directions::springs::{Both, Pressed, Springs, Units, tables_length};
+use crate::two_directions::springs::{Both, MOST, Pressed, Springs, TABLES, Units};
 
 const HEADER: usize = 20;
-/// The largest number of springs.
-const MOST: usize = 16;
-pub(super) const LENGTH: usize = HEADER + springs_length(MOST) + tables_length(MOST);
+pub(super) const LENGTH: usize = HEADER + springs_length(MOST) + TABLES;
 /// Values before the state of one direction.
 const LINE: usize = 2;
 
@@ -165,13 +163,15 @@ pub(super) fn stored<const N: usize>(state: &[f64]) -> Option<StoredSprings<'_, 
 
 /// The tables in a state.
 #[inline(always)]
-pub(super) fn tables<'a, const N: usize>(header: &Header, state: &'a [f64]) -> Option<Springs<'a, N>> {
-    Springs::new(header.under_flat, state.get(HEADER + springs_length(N)..)?)
+pub(super) fn tables<'a>(header: &Header, state: &'a [f64]) -> Option<Springs<'a>> {
+    Springs::new(header.under_flat, state.get(HEADER + springs_length(MOST)..)?)
 }
 
-/// The place of the tables in a state.
-pub(super) fn tables_mut<const N: usize>(state: &mut [f64]) -> &mut [f64] {
-    state.get_mut(HEADER + springs_length(N)..).unwrap_or(&mut [])
+/// Writes the tables to a state.
+pub(super) fn write_tables(state: &mut [f64], tables: &[f64; TABLES]) {
+    if let Some(place) = state.get_mut(HEADER + springs_length(MOST)..).and_then(<[f64]>::first_chunk_mut) {
+        *place = *tables;
+    }
 }
 
 #[inline(always)]

@@ -8,7 +8,7 @@ use super::energy;
 use super::fine;
 use super::slip::{Guess, LARGEST_TURN, LOST, Problem, Set, Slip};
 use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total};
+use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total, used};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -81,7 +81,7 @@ pub(crate) struct Outcome {
 /// Advances the state. Requested are the energy, and what the derivatives of the step need.
 #[inline(always)]
 pub(crate) fn step<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &mut SpringState<N>,
     motion: &Increment,
     requested: [bool; 2],
@@ -90,7 +90,7 @@ pub(crate) fn step<const N: usize>(
     dispatch!(
         kernel,
         [const N: usize]
-        springs: &Springs<N>,
+        springs: &Springs,
         state: &mut SpringState<N>,
         motion: &Increment,
         requested: [bool; 2],
@@ -100,7 +100,7 @@ pub(crate) fn step<const N: usize>(
 
 #[inline(always)]
 fn kernel<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &mut SpringState<N>,
     motion: &Increment,
     [energy, derivatives]: [bool; 2],
@@ -193,7 +193,7 @@ fn kernel<const N: usize>(
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "parts of one step")]
 fn slide<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     edge: &Edge<N>,
     q: [&Row<N>; 2],
     by: &Both<f64>,
@@ -256,7 +256,7 @@ fn slide<const N: usize>(
 /// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at
 /// the end.
 #[inline(always)]
-fn pointwise<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, record: &StepRecord<N>) -> f64 {
+fn pointwise<const N: usize>(springs: &Springs, edge: &Edge<N>, record: &StepRecord<N>) -> f64 {
     let StepRecord { slip, start, stiffness, .. } = record;
     let last = edge.last.min(N - 1);
     // Σ C_ij²/w_j, the traction that a unit of slip at the point alone relaxes.
@@ -265,7 +265,7 @@ fn pointwise<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, record: &Step
         let (mut sum, mut before) = ([0.0; N], [0.0; N]);
         for j in slip.first..=last {
             let fixed = j < last;
-            let row = if fixed { &springs.traction[j] } else { &edge.reach };
+            let row = if fixed { used(&springs.traction[j]) } else { &edge.reach };
             let per_step = if fixed { springs.per_step[k][j] } else { 1.0 / edge.step[k] };
             let per_stiffness = 1.0 / stiffness[k][j];
             for i in 0..N {
@@ -296,7 +296,7 @@ fn pointwise<const N: usize>(springs: &Springs<N>, edge: &Edge<N>, record: &Step
 /// Energy dissipated by the springs under a load that changes.
 #[inline(always)]
 fn of_springs<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     last: usize,
     record: &StepRecord<N>,
     motion: &Increment,
@@ -321,9 +321,9 @@ fn of_springs<const N: usize>(
 }
 
 /// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn separated<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &SpringState<N>,
     motion: &Increment,
     opens: bool,
@@ -331,7 +331,7 @@ pub(crate) fn separated<const N: usize>(
     let Increment { before, now, by, .. } = motion;
     let edge = &state.edge;
     let outer = edge.last.min(N - 1);
-    let last = if opens { 0 } else { springs.last_shell(now.shift[0]).min(outer) };
+    let last = if opens { 0 } else { springs.last_shell::<N>(now.shift[0]).min(outer) };
     let part = if opens { 0 } else { springs.last_part(last, now.shift[0]) };
     let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
     let mut energy = 0.0;

@@ -20,7 +20,7 @@ pub(crate) struct Stuck {
 /// The contact if nothing slips with the offset, from the state without.
 #[inline(always)]
 pub(crate) fn stuck<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &StoredSprings<N>,
     now: &Pressed,
     offset: &Both<f64>,
@@ -28,7 +28,7 @@ pub(crate) fn stuck<const N: usize>(
     dispatch!(
         kernel,
         [const N: usize]
-        springs: &Springs<N>,
+        springs: &Springs,
         state: &StoredSprings<N>,
         now: &Pressed,
         offset: &Both<f64> => Option<Stuck>
@@ -37,7 +37,7 @@ pub(crate) fn stuck<const N: usize>(
 
 #[inline(always)]
 fn kernel<const N: usize>(
-    springs: &Springs<N>,
+    springs: &Springs,
     state: &StoredSprings<N>,
     now: &Pressed,
     offset: &Both<f64>,
@@ -82,8 +82,8 @@ fn kernel<const N: usize>(
 }
 
 /// Adds the offset to the state.
-#[inline(always)]
-pub(crate) fn settle<const N: usize>(springs: &Springs<N>, state: &mut SpringState<N>, offset: &Both<f64>) {
+#[inline(never)]
+pub(crate) fn settle<const N: usize>(springs: &Springs, state: &mut SpringState<N>, offset: &Both<f64>) {
     let edge = &state.edge;
     for k in 0..2 {
         for i in 0..=edge.last.min(N - 1) {

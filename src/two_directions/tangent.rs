@@ -15,7 +15,7 @@
 use super::edge::Edge;
 use super::fine::{self, SLIPS};
 use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot};
+use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot, used};
 use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -64,7 +64,7 @@ pub(crate) struct IncrementColumns<const C: usize> {
 
 /// A step that was taken.
 pub(crate) struct Taken<'a, const N: usize> {
-    pub springs: &'a Springs<'a, N>,
+    pub springs: &'a Springs<'a>,
     /// The state at its end.
     pub new: &'a SpringState<N>,
     pub motion: &'a Increment,
@@ -134,8 +134,8 @@ impl<const N: usize> Parameter<N> {
     }
 
     /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
-    pub fn alignment(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
-        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: &[Springs<N>; 2] => Parameter<N>)
+    pub fn alignment(taken: &Taken<N>, neighbours: &[Springs; 2]) -> Parameter<N> {
+        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: &[Springs; 2] => Parameter<N>)
     }
 
     #[inline(always)]
@@ -160,7 +160,7 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
     let (edge, slip) = (&new.edge, &record.slip);
     let last = edge.last.min(N - 1);
     let mut load = Parameter::NONE;
-    let [_, by_size] = springs.reach(last, &motion.now);
+    let [_, by_size] = springs.reach::<N>(last, &motion.now);
     for i in 0..N {
         load.pressure[i] = by_size[i] * slopes.size;
     }
@@ -180,7 +180,7 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
         }
         let mut corner = edge.step[k] * stiffness * (record.trial[k][last] - new.v[k][last]);
         for j in slip.first..=last {
-            let column = shift - dot(&springs.displacement[k][j], &load.pressure);
+            let column = shift - dot(used(&springs.displacement[k][j]), &load.pressure);
             corner += column * record.stiffness[k][j] * (record.trial[k][j] - new.v[k][j]);
             load.springs[k][j] = column * slip.q[k][last];
         }
@@ -191,7 +191,7 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
 }
 
 #[inline(always)]
-fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) -> Parameter<N> {
+fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs; 2]) -> Parameter<N> {
     let Taken { new, motion, record, .. } = *taken;
     let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
     let mut of = Parameter::NONE;
@@ -203,7 +203,7 @@ fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs<N>; 2]) 
             add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
             of.force[k] += weight * dot(&stiffness, &new.v[k]);
             for r in 0..PARTS {
-                add(&mut of.limit[k][r], -weight, &springs.fine_shift[k][r]);
+                add(&mut of.limit[k][r], -weight, used(&springs.fine_shift[k][r]));
                 of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
             }
             if record.slipping() == 0 {
