@@ -17,7 +17,7 @@ use super::spring_state::SpringState;
 use super::springs::{MOST, PressedSlopes, Springs, TABLES, fill};
 use super::state::Header;
 use super::step::StepRecord;
-use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, inner_after, rows};
+use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, Wide, inner_after, rows};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
@@ -312,7 +312,7 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
             let top_normal = element.normal(top);
             let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
             let by_top = if top_load >= from.units.load * 0.99 { 0.5 * by_load } else { 0.0 };
-            let mut record = StepRecord::<N>::NONE;
+            let (mut record, mut wide) = (StepRecord::<N>::NONE, Wide::NONE);
             let mut state = SpringState::RELAXED;
             let mut slopes = PressedSlopes::default();
             let mut inner = N;
@@ -346,8 +346,9 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                         let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes };
                         let parameters = [Parameter::load(&taken), Parameter::alignment(&taken, &neighbours)];
                         inner = inner_after(&taken, inner);
+                        let (taken, parameters) = wide.of(&taken, &parameters);
                         let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];
-                        differentiate(workspace, &path, &taken, &parameters, samples, by_top, inner);
+                        differentiate(workspace, &path, &taken, parameters, samples, by_top, inner);
                     } else {
                         workspace.forces.fill([0.0; BLOCK]);
                     }
@@ -447,11 +448,11 @@ fn accumulate_kernel(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
 }
 
 /// Derivatives of the state and of the tangential forces at the end of a step between samples.
-fn differentiate<const N: usize>(
+fn differentiate(
     workspace: &mut Workspace,
     path: &LoadPath,
-    taken: &Taken<N>,
-    parameters: &[Parameter<N>],
+    taken: &Taken<MOST>,
+    parameters: &[Parameter<MOST>],
     samples: [Option<usize>; 3],
     by_top: f64,
     inner: usize,
@@ -484,7 +485,7 @@ fn differentiate<const N: usize>(
                 (component, coefficient) = (component + 1, 0);
             }
         }
-        let Some(mut derivatives) = Derivatives::<N, BLOCK>::new(memory) else { return };
+        let Some(mut derivatives) = Derivatives::<MOST, BLOCK>::new(memory) else { return };
         [*x, *y] = tangent::tangent(taken, parameters, &columns, &mut derivatives, inner);
     }
 }

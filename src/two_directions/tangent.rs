@@ -15,10 +15,11 @@
 use super::edge::Edge;
 use super::fine::{self, SLIPS};
 use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, PARTS, PressedSlopes, Row, Springs, add, at, dot, used};
+use super::springs::{Both, Fine, Increment, MOST, PARTS, PressedSlopes, Row, Springs, add, at, dot, used};
 use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
+use core::slice::{from_mut, from_ref};
 
 /// Derivatives of a value, a column per parameter.
 pub(crate) type Columns<const C: usize> = [f64; C];
@@ -220,6 +221,92 @@ fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs; 2]) -> 
     of
 }
 
+/// A step among the largest number of springs, so that one function serves all sizes: what its derivatives need.
+pub(crate) struct Wide {
+    new: SpringState<MOST>,
+    record: StepRecord<MOST>,
+    parameters: [Parameter<MOST>; 2],
+}
+
+impl Wide {
+    pub const NONE: Wide =
+        Wide { new: SpringState::RELAXED, record: StepRecord::NONE, parameters: [Parameter::NONE; 2] };
+
+    /// Copies a step.
+    pub fn of<'a, const N: usize>(
+        &'a mut self,
+        taken: &Taken<'a, N>,
+        parameters: &[Parameter<N>; 2],
+    ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2]) {
+        let Taken { springs, new, motion, record, slopes, start_slopes } = *taken;
+        let (slip, edge) = (&record.slip, &new.edge);
+        let Wide { new: to, record: wide, parameters: wide_parameters } = self;
+        let (to_slip, to_edge) = (&mut wide.slip, &mut to.edge);
+        for (from, to) in [
+            (&slip.e, &mut to_slip.e),
+            (&slip.n, &mut to_slip.n),
+            (&slip.sigma, &mut to_slip.sigma),
+            (&slip.pivots, &mut to_slip.pivots),
+            (&record.limit, &mut wide.limit),
+            (&record.part, &mut wide.part),
+            (&record.trial, &mut wide.trial),
+            (&record.stiffness, &mut wide.stiffness),
+            (&record.start, &mut wide.start),
+            (&new.v, &mut to.v),
+            (&new.tractions, &mut to.tractions),
+            (&edge.column, &mut to_edge.column),
+        ] {
+            widen(from, to);
+        }
+        for k in 0..2 {
+            widen(&slip.square[k], &mut to_slip.square[k]);
+            widen(&new.fine[k], &mut to.fine[k]);
+        }
+        widen(&slip.inverse, &mut to_slip.inverse);
+        widen(&record.fine_scale, &mut wide.fine_scale);
+        for (from, to) in [
+            (&slip.per_along, &mut to_slip.per_along),
+            (&record.overshoot, &mut wide.overshoot),
+            (&edge.reach, &mut to_edge.reach),
+            (&edge.pressure, &mut to_edge.pressure),
+        ] {
+            widen(from_ref(from), from_mut(to));
+        }
+        for (from, to) in parameters.iter().zip(wide_parameters.iter_mut()) {
+            for k in 0..2 {
+                widen(&from.limit[k], &mut to.limit[k]);
+            }
+            widen(from_ref(&from.pressure), from_mut(&mut to.pressure));
+            widen(&from.sigma, &mut to.sigma);
+            widen(&from.sigma_by_pressure, &mut to.sigma_by_pressure);
+            widen(&from.springs, &mut to.springs);
+            widen(&from.tractions, &mut to.tractions);
+            to.force = from.force;
+        }
+        for (from, to) in slip.points.iter().zip(to_slip.points.iter_mut()) {
+            *to = *from;
+        }
+        (to_slip.count, to_slip.first) = (slip.count, slip.first);
+        (to_slip.set, to_slip.converged) = (slip.set, slip.converged);
+        (wide.last_before, wide.part_before) = (record.last_before, record.part_before);
+        (wide.slips, wide.sum) = (record.slips, record.sum);
+        (to_edge.last, to_edge.part) = (edge.last, edge.part);
+        (to_edge.step, to_edge.fine_secant) = (edge.step, edge.fine_secant);
+        to_edge.fine_stiffness = edge.fine_stiffness;
+        (Taken { springs, new: to, motion, record: wide, slopes, start_slopes }, wide_parameters)
+    }
+}
+
+/// Copies rows to the first places of wider ones.
+#[inline(never)]
+fn widen<const N: usize>(from: &[Row<N>], to: &mut [Row<MOST>]) {
+    for (from, to) in from.iter().zip(to) {
+        for j in 0..N.min(MOST) {
+            to[j] = from[j];
+        }
+    }
+}
+
 /// Parameters, the load first, and their derivatives.
 #[derive(Clone, Copy)]
 struct Parameters<'a, const N: usize, const C: usize> {
@@ -381,7 +468,8 @@ fn slide<const N: usize, const C: usize>(
     let (first, last) = (slip.first.min(N - 1), edge.last.min(N - 1));
     let entry = |k: usize, j: usize, i: usize| if i < last { springs.displacement[k][j][i] } else { edge.column[k][j] };
     // dσ at fixed angles.
-    let mut sigma = [[[0.0; C]; N]; 2];
+    let (mut sigma_x, mut sigma_y) = ([[0.0; C]; N], [[0.0; C]; N]);
+    let sigma = [&mut sigma_x, &mut sigma_y];
     for k in 0..2 {
         let mut relaxed = [[0.0; C]; N];
         let displacement = derivatives.displacement[k];
@@ -456,7 +544,7 @@ fn slide<const N: usize, const C: usize>(
         right[i] = row;
     }
     // Angles and tractions.
-    let mut q = sigma;
+    let q = sigma;
     for i in first..=last {
         if !slip.contains(i) {
             continue;
@@ -482,7 +570,7 @@ fn slide<const N: usize, const C: usize>(
     for n in (0..slip.count.min(N)).rev() {
         let t = slip.points[n].min(N - 1);
         for k in 0..2 {
-            let mut row = sigma[k][t];
+            let mut row = q[k][t];
             for m in first..=last {
                 let known = slip.contains(m) || (n + 1..slip.count.min(N)).any(|later| slip.points[later] == m);
                 if known {
@@ -609,18 +697,12 @@ fn fine_correction<const N: usize, const C: usize>(
     let first = inner.max(springs.under_flat);
     let [fine_x, fine_y] = &mut derivatives.fine;
     for (r, (x, y)) in fine_x.iter_mut().zip(fine_y.iter_mut()).enumerate() {
-        let limit = fine::limits(springs, edge, &motion.now.shift, r);
-        let stiffness = [fine::stiffnesses(springs, edge, 0, r), fine::stiffnesses(springs, edge, 1, r)];
-        let (per_over, mut per_limit) = (&record.fine_scale[r], [[0.0; N]; 2]);
-        for j in 0..N {
-            let per_area = 1.0 / (limit[0][j] * limit[1][j]);
-            (per_limit[0][j], per_limit[1][j]) = (limit[1][j] * per_area, limit[0][j] * per_area);
-        }
         let stop = if r <= edge.part { last + 1 } else { last };
         for j in first..stop {
             let (x, y) = (&mut x[j], &mut y[j]);
+            let limit = [0, 1].map(|k| motion.now.shift[k] - springs.fine_shift[k][r][j]);
             if rises && j >= record.last_before {
-                let share = motion.share(limit[0][j], limit[1][j]);
+                let share = motion.share(limit[0], limit[1]);
                 let engaged = j > record.last_before || r > record.part_before;
                 for (k, row) in [&mut *x, &mut *y].into_iter().enumerate() {
                     if engaged {
@@ -631,14 +713,18 @@ fn fine_correction<const N: usize, const C: usize>(
                     follow(row, [k, r, j], share[k], taken, columns, parameters);
                 }
             }
-            if per_over[j] < SLIPS {
+            let per_over = record.fine_scale[r][j];
+            if per_over < SLIPS {
                 let end = [new.fine[0][r][j], new.fine[1][r][j]];
-                let per_limit = at(&per_limit, j);
-                let returned = Returned { end, per_over: per_over[j], per_limit, place: [r, j] };
+                let per_area = 1.0 / (limit[0] * limit[1]);
+                let per_limit = [limit[1] * per_area, limit[0] * per_area];
+                let returned = Returned { end, per_over, per_limit, place: [r, j] };
                 returned.differentiate(parameters, &displacement, [&mut *x, &mut *y]);
             }
-            put(&mut force[0], stiffness[0][j], x);
-            put(&mut force[1], stiffness[1][j], y);
+            for (k, row) in [x, y].into_iter().enumerate() {
+                let stiffness = if j < last { springs.fine_stiffness[k][r][j] } else { edge.fine_stiffness[k][r] };
+                put(&mut force[k], stiffness, row);
+            }
         }
     }
 }
