@@ -46,7 +46,7 @@ fn is_aligned(element: &Element, header: &Header, load: f64) -> bool {
 }
 
 /// The larger load of both ends of a step.
-#[inline(always)]
+#[inline(never)]
 fn largest_load(element: &Element, header: &Header, input: f64) -> f64 {
     if input.to_bits() == header.input.to_bits() || !element.is_closed(input) {
         return header.load;
@@ -265,15 +265,30 @@ fn without_slip<const N: usize>(
     }
     let now = header.pressed(element);
     let stuck = stick::stuck(springs, &stored::<N>(state)?, &now, &offset)?;
+    Some((step_without_slip(element, header, &stuck, &offset, input, requested)?, offset))
+}
+
+/// The step with the offset, unless points at their limits or the sum of all forces slip.
+#[inline(never)]
+fn step_without_slip(
+    element: &Element,
+    header: &Header,
+    stuck: &Stuck,
+    offset: &Both<f64>,
+    input: f64,
+    requested: Requested,
+) -> Option<Step> {
     // Another load makes a point at its limit slip: the derivative is that of a step, and so is the step, whatever is requested.
     if stuck.at_limit {
         return None;
     }
-    let Stuck { stiffness: [k_x, k_y], .. } = stuck;
+    let Stuck { stiffness: [k_x, k_y], .. } = *stuck;
     let sum = [header.sum[0] + k_x * offset[0], header.sum[1] + k_y * offset[1]];
-    if sum[0] * sum[0] + sum[1] * sum[1] > now.load * now.load {
+    let limit = header.load / header.units.load;
+    if sum[0] * sum[0] + sum[1] * sum[1] > limit * limit {
         return None;
     }
+    let per_unit = 1.0 / (element.friction_coefficient * header.units.shift);
     let unit = element.friction_coefficient * header.units.load;
     let mut step = Step { force: [unit * sum[0], unit * sum[1], header.load], ..Step::NONE };
     if requested.tangent {
@@ -285,5 +300,5 @@ fn without_slip<const N: usize>(
             step.tangent[6 + k] = unit * (stuck.per_load[k] * slopes.load + stuck.per_shift[k] * slopes.shift[k]);
         }
     }
-    Some((step, offset))
+    Some(step)
 }

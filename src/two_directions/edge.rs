@@ -53,6 +53,7 @@ impl<const N: usize> Edge<N> {
     }
 
     /// With the edge in a part of a shell.
+    #[inline(always)]
     pub fn of_shell(springs: &Springs, now: &Pressed, last: usize, part: usize) -> Edge<N> {
         dispatch!(
             Edge::of_shell_kernel,

@@ -10,7 +10,6 @@
 //! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
 //! springs.
 
-use super::Requested;
 use super::advance::aligned;
 use super::load_path::{LoadPath, Place};
 use super::spring_state::SpringState;
@@ -18,6 +17,7 @@ use super::springs::{MOST, PressedSlopes, Springs, TABLES, fill};
 use super::state::Header;
 use super::step::StepRecord;
 use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, Wide, inner_after, rows};
+use super::{Requested, Step};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
@@ -263,9 +263,9 @@ pub fn harmonic_force(
     }
     let output = HarmonicOutput { force, jacobian: jacobian.as_deref_mut(), dissipated, drift };
     match element.springs {
-        8 => walk::<8>(element, workspace, output),
-        12 => walk::<12>(element, workspace, output),
-        _ => walk::<16>(element, workspace, output),
+        8 => walk(element, workspace, output, &mut Walker::<8>::relaxed()),
+        12 => walk(element, workspace, output, &mut Walker::<12>::relaxed()),
+        _ => walk(element, workspace, output, &mut Walker::<16>::relaxed()),
     }
     if on_line && let Some(jacobian) = jacobian {
         merge_line(workspace, jacobian);
@@ -282,8 +282,56 @@ fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
     largest
 }
 
+/// Springs that take the steps of a motion.
+trait Walk {
+    fn advance(&mut self, path: &LoadPath, springs: &Springs, requested: Requested) -> Step;
+
+    /// What the derivatives of the step need, and the first shell whose spring has slipped, from that before the step.
+    fn taken<'a>(
+        &'a mut self,
+        path: &'a LoadPath,
+        springs: [&'a Springs<'a>; 3],
+        slopes: [PressedSlopes; 2],
+        inner: usize,
+    ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize);
+}
+
+/// The state of N springs and the last step.
+struct Walker<const N: usize> {
+    state: SpringState<N>,
+    record: StepRecord<N>,
+    wide: Wide,
+}
+
+impl<const N: usize> Walker<N> {
+    fn relaxed() -> Walker<N> {
+        Walker { state: SpringState::RELAXED, record: StepRecord::NONE, wide: Wide::NONE }
+    }
+}
+
+impl<const N: usize> Walk for Walker<N> {
+    fn advance(&mut self, path: &LoadPath, springs: &Springs, requested: Requested) -> Step {
+        path.advance(springs, &mut self.state, requested, &mut self.record)
+    }
+
+    fn taken<'a>(
+        &'a mut self,
+        path: &'a LoadPath,
+        [springs, larger, smaller]: [&'a Springs<'a>; 3],
+        [start_slopes, slopes]: [PressedSlopes; 2],
+        inner: usize,
+    ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize) {
+        let (new, record, motion) = (&self.state, &self.record, &path.motion);
+        let taken = Taken { springs, new, motion, record, slopes, start_slopes };
+        let (load, alignment) = (Parameter::load(&taken), Parameter::alignment(&taken, [larger, smaller]));
+        let inner = inner_after(&taken, inner);
+        let (taken, parameters) = self.wide.of(&taken, [&load, &alignment]);
+        (taken, parameters, inner)
+    }
+}
+
 /// The periods of a motion that was synthesised.
-fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
+fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput, walker: &mut dyn Walk) {
     let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
@@ -307,22 +355,19 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
         }
         let at = |tables| Springs::new(from.under_flat, tables);
         if let (Some(springs), Some(larger), Some(smaller)) = (at(tables), at(larger), at(smaller)) {
-            let neighbours = [larger, smaller];
             // Of the logarithm of the reference size by the coefficients of the normal component.
             let top_normal = element.normal(top);
             let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
             let by_top = if top_load >= from.units.load * 0.99 { 0.5 * by_load } else { 0.0 };
-            let (mut record, mut wide) = (StepRecord::<N>::NONE, Wide::NONE);
-            let mut state = SpringState::RELAXED;
             let mut slopes = PressedSlopes::default();
-            let mut inner = N;
+            let mut inner = MOST;
             if requested.tangent {
                 workspace.derivatives.fill([0.0; BLOCK]);
                 workspace.sums.fill(0.0);
             }
             let at_top = workspace.place(largest);
             let press = LoadPath::new(element, &from, &Place { displacement: [0.0, 0.0, top], ..at_top });
-            press.advance(&springs, &mut state, Requested { tangent: false, energy: false }, &mut record);
+            walker.advance(&press, &springs, Requested { tangent: false, energy: false });
             from = press.to;
             let mut before = largest;
             for step in 0..=(periods + 1) * count {
@@ -330,11 +375,11 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                 let counts = step > periods * count;
                 let path = LoadPath::new(element, &from, &workspace.place(index));
                 let asked = Requested { energy: requested.energy && counts, ..requested };
-                let result = path.advance(&springs, &mut state, asked, &mut record);
+                let result = walker.advance(&path, &springs, asked);
                 if requested.tangent {
                     if !path.closed || !path.was_closed {
                         workspace.derivatives.fill([0.0; BLOCK]);
-                        inner = N;
+                        inner = MOST;
                     }
                     if path.closed {
                         let start = if path.was_closed { slopes } else { PressedSlopes::default() };
@@ -342,11 +387,9 @@ fn walk<const N: usize>(element: &Element, workspace: &mut Workspace, output: Ha
                         // The first displacement begins at rest, not at a sample, under the load of its sample.
                         let first = step == 0;
                         let start_slopes = if first { slopes } else { start };
-                        let (new, record, motion) = (&state, &record, &path.motion);
-                        let taken = Taken { springs: &springs, new, motion, record, slopes, start_slopes };
-                        let parameters = [Parameter::load(&taken), Parameter::alignment(&taken, &neighbours)];
-                        inner = inner_after(&taken, inner);
-                        let (taken, parameters) = wide.of(&taken, &parameters);
+                        let springs = [&springs, &larger, &smaller];
+                        let (taken, parameters, now) = walker.taken(&path, springs, [start_slopes, slopes], inner);
+                        inner = now;
                         let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];
                         differentiate(workspace, &path, &taken, parameters, samples, by_top, inner);
                     } else {

@@ -74,6 +74,7 @@ impl<'a, const N: usize> StoredSprings<'a, N> {
             && edge.step.iter().chain(&edge.fine_step).all(|value| *value > 0.0)
     }
 
+    #[inline(never)]
     pub fn copied(&self) -> SpringState<N> {
         let edge = Edge { reach: *self.reach, pressure: *self.pressure, column: *self.column, ..self.edge() };
         SpringState { v: *self.v, tractions: *self.tractions, fine: *self.fine, edge }

@@ -135,8 +135,8 @@ impl<const N: usize> Parameter<N> {
     }
 
     /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
-    pub fn alignment(taken: &Taken<N>, neighbours: &[Springs; 2]) -> Parameter<N> {
-        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: &[Springs; 2] => Parameter<N>)
+    pub fn alignment(taken: &Taken<N>, neighbours: [&Springs; 2]) -> Parameter<N> {
+        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: [&Springs; 2] => Parameter<N>)
     }
 
     #[inline(always)]
@@ -192,11 +192,11 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
 }
 
 #[inline(always)]
-fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: &[Springs; 2]) -> Parameter<N> {
+fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: [&Springs; 2]) -> Parameter<N> {
     let Taken { new, motion, record, .. } = *taken;
     let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
     let mut of = Parameter::NONE;
-    for (springs, weight) in neighbours.iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
+    for (springs, weight) in neighbours.into_iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
         let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
         add(&mut of.pressure, weight, &edge.pressure);
         for k in 0..2 {
@@ -236,7 +236,7 @@ impl Wide {
     pub fn of<'a, const N: usize>(
         &'a mut self,
         taken: &Taken<'a, N>,
-        parameters: &[Parameter<N>; 2],
+        parameters: [&Parameter<N>; 2],
     ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2]) {
         let Taken { springs, new, motion, record, slopes, start_slopes } = *taken;
         let (slip, edge) = (&record.slip, &new.edge);
@@ -260,8 +260,8 @@ impl Wide {
         }
         for k in 0..2 {
             widen(&slip.square[k], &mut to_slip.square[k]);
-            widen(&new.fine[k], &mut to.fine[k]);
         }
+        widen(new.fine.as_flattened(), to.fine.as_flattened_mut());
         widen(&slip.inverse, &mut to_slip.inverse);
         widen(&record.fine_scale, &mut wide.fine_scale);
         for (from, to) in [
@@ -272,10 +272,8 @@ impl Wide {
         ] {
             widen(from_ref(from), from_mut(to));
         }
-        for (from, to) in parameters.iter().zip(wide_parameters.iter_mut()) {
-            for k in 0..2 {
-                widen(&from.limit[k], &mut to.limit[k]);
-            }
+        for (from, to) in parameters.into_iter().zip(wide_parameters.iter_mut()) {
+            widen(from.limit.as_flattened(), to.limit.as_flattened_mut());
             widen(from_ref(&from.pressure), from_mut(&mut to.pressure));
             widen(&from.sigma, &mut to.sigma);
             widen(&from.sigma_by_pressure, &mut to.sigma_by_pressure);
@@ -301,8 +299,8 @@ impl Wide {
 #[inline(never)]
 fn widen<const N: usize>(from: &[Row<N>], to: &mut [Row<MOST>]) {
     for (from, to) in from.iter().zip(to) {
-        for j in 0..N.min(MOST) {
-            to[j] = from[j];
+        if let Some(place) = to.first_chunk_mut() {
+            *place = *from;
         }
     }
 }
