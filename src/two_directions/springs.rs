@@ -404,7 +404,7 @@ pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, referen
             density[j] /= traction[j][j].max(TINY);
         }
         let [mut sum_x, mut sum_y] = [0.0; 2];
-        for j in (0..=column).rev() {
+        for j in (0..MOST).rev().filter(|j| *j <= column) {
             sum_x += density[j] / step[0][j];
             sum_y += density[j] / step[1][j];
             (displacement_x[j][column], displacement_y[j][column]) = (sum_x, sum_y);
