@@ -98,11 +98,13 @@ pub(super) fn realigned<const N: usize>(
         let part = if width > 0.0 { ((target - below[0]) / width).clamp(0.0, 1.0) } else { 0.0 };
         below[1] + part * (above[1] - below[1])
     };
+    // Bounds that are news to the compiler only, which then checks no index.
     let polygon = |k: usize, target: f64, parts: usize, value: &dyn Fn(usize, usize) -> f64| {
+        let (k, parts) = (k.min(1), parts.min(PARTS));
         let mut below = [0.0, value(first, 0)];
         for j in first..=last {
-            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts.min(PARTS) } {
-                let corner = [old_springs.fine_shift[k][r][j], value(j, r)];
+            for r in 0..if j == last { parts.min(old.edge.part + 1) } else { parts } {
+                let corner = [old_springs.fine_shift[k][r][j.min(N - 1)], value(j, r)];
                 if corner[0] > target {
                     return between(below, corner, target);
                 }
@@ -111,12 +113,14 @@ pub(super) fn realigned<const N: usize>(
         }
         between(below, [old_now.shift[k], 0.0], target)
     };
-    let fine = |k: usize, shift: f64| ratio * polygon(k, shift / ratio, PARTS, &|j, r| old.fine[k][r][j]);
+    let of_fine = |k: usize, j: usize, r: usize| old.fine[k.min(1)][r.min(PARTS - 1)][j.min(N - 1)];
+    let of_law = |k: usize, j: usize| old.v[k.min(1)][j.min(N - 1)];
+    let fine = |k: usize, shift: f64| ratio * polygon(k, shift / ratio, PARTS, &|j, r| of_fine(k, j, r));
     let law = |k: usize, j: usize, shift: f64| {
         if j < first && first == springs.under_flat {
-            return ratio * old.v[k][j];
+            return ratio * of_law(k, j);
         }
-        fine(k, shift) + ratio * polygon(k, shift / ratio, 1, &|j, _| old.v[k][j] - old.fine[k][0][j])
+        fine(k, shift) + ratio * polygon(k, shift / ratio, 1, &|j, _| of_law(k, j) - of_fine(k, j, 0))
     };
     fill(springs, now, &law, &fine)
 }
