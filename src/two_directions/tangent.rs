@@ -130,13 +130,29 @@ impl<const N: usize> Parameter<N> {
     };
 
     /// The normal component at the end.
+    #[inline(always)]
     pub fn load(taken: &Taken<N>) -> Parameter<N> {
-        dispatch!(by_load, [const N: usize] taken: &Taken<N> => Parameter<N>)
+        let mut load = Parameter::NONE;
+        load.set_load(taken);
+        load
+    }
+
+    fn set_load(&mut self, taken: &Taken<N>) {
+        let load = self;
+        dispatch!(by_load, [const N: usize] load: &mut Parameter<N>, taken: &Taken<N> => ())
     }
 
     /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
+    #[inline(always)]
     pub fn alignment(taken: &Taken<N>, neighbours: [&Springs; 2]) -> Parameter<N> {
-        dispatch!(by_alignment, [const N: usize] taken: &Taken<N>, neighbours: [&Springs; 2] => Parameter<N>)
+        let mut alignment = Parameter::NONE;
+        alignment.set_alignment(taken, neighbours);
+        alignment
+    }
+
+    fn set_alignment(&mut self, taken: &Taken<N>, neighbours: [&Springs; 2]) {
+        let of = self;
+        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2] => ())
     }
 
     #[inline(always)]
@@ -156,11 +172,10 @@ impl<const N: usize> Parameter<N> {
 }
 
 #[inline(always)]
-fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
+fn by_load<const N: usize>(load: &mut Parameter<N>, taken: &Taken<N>) {
     let Taken { springs, new, motion, record, slopes, .. } = *taken;
     let (edge, slip) = (&new.edge, &record.slip);
     let last = edge.last.min(N - 1);
-    let mut load = Parameter::NONE;
     let [_, by_size] = springs.reach::<N>(last, &motion.now);
     for i in 0..N {
         load.pressure[i] = by_size[i] * slopes.size;
@@ -188,14 +203,12 @@ fn by_load<const N: usize>(taken: &Taken<N>) -> Parameter<N> {
         load.sigma[k][last] = corner;
     }
     load.through_pressure(taken);
-    load
 }
 
 #[inline(always)]
-fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: [&Springs; 2]) -> Parameter<N> {
+fn by_alignment<const N: usize>(of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2]) {
     let Taken { new, motion, record, .. } = *taken;
     let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
-    let mut of = Parameter::NONE;
     for (springs, weight) in neighbours.into_iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
         let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
         add(&mut of.pressure, weight, &edge.pressure);
@@ -218,7 +231,6 @@ fn by_alignment<const N: usize>(taken: &Taken<N>, neighbours: [&Springs; 2]) -> 
         }
     }
     of.through_pressure(taken);
-    of
 }
 
 /// A step among the largest number of springs, so that one function serves all sizes: what its derivatives need.
@@ -242,11 +254,22 @@ impl Wide {
         let (slip, edge) = (&record.slip, &new.edge);
         let Wide { new: to, record: wide, parameters: wide_parameters } = self;
         let (to_slip, to_edge) = (&mut wide.slip, &mut to.edge);
+        let slides = record.slipping() != 0;
+        if slides {
+            for (from, to) in [
+                (&slip.e, &mut to_slip.e),
+                (&slip.n, &mut to_slip.n),
+                (&slip.sigma, &mut to_slip.sigma),
+                (&slip.pivots, &mut to_slip.pivots),
+            ] {
+                widen(from, to);
+            }
+            for k in 0..2 {
+                widen(&slip.square[k], &mut to_slip.square[k]);
+            }
+            widen(&slip.inverse, &mut to_slip.inverse);
+        }
         for (from, to) in [
-            (&slip.e, &mut to_slip.e),
-            (&slip.n, &mut to_slip.n),
-            (&slip.sigma, &mut to_slip.sigma),
-            (&slip.pivots, &mut to_slip.pivots),
             (&record.limit, &mut wide.limit),
             (&record.part, &mut wide.part),
             (&record.trial, &mut wide.trial),
@@ -258,11 +281,7 @@ impl Wide {
         ] {
             widen(from, to);
         }
-        for k in 0..2 {
-            widen(&slip.square[k], &mut to_slip.square[k]);
-        }
         widen(new.fine.as_flattened(), to.fine.as_flattened_mut());
-        widen(&slip.inverse, &mut to_slip.inverse);
         widen(&record.fine_scale, &mut wide.fine_scale);
         for (from, to) in [
             (&slip.per_along, &mut to_slip.per_along),
@@ -275,10 +294,12 @@ impl Wide {
         for (from, to) in parameters.into_iter().zip(wide_parameters.iter_mut()) {
             widen(from.limit.as_flattened(), to.limit.as_flattened_mut());
             widen(from_ref(&from.pressure), from_mut(&mut to.pressure));
-            widen(&from.sigma, &mut to.sigma);
-            widen(&from.sigma_by_pressure, &mut to.sigma_by_pressure);
-            widen(&from.springs, &mut to.springs);
             widen(&from.tractions, &mut to.tractions);
+            if slides {
+                widen(&from.sigma, &mut to.sigma);
+                widen(&from.sigma_by_pressure, &mut to.sigma_by_pressure);
+                widen(&from.springs, &mut to.springs);
+            }
             to.force = from.force;
         }
         for (from, to) in slip.points.iter().zip(to_slip.points.iter_mut()) {
@@ -296,8 +317,12 @@ impl Wide {
 }
 
 /// Copies rows to the first places of wider ones.
-#[inline(never)]
 fn widen<const N: usize>(from: &[Row<N>], to: &mut [Row<MOST>]) {
+    dispatch!(widen_kernel, [const N: usize] from: &[Row<N>], to: &mut [Row<MOST>] => ());
+}
+
+#[inline(always)]
+fn widen_kernel<const N: usize>(from: &[Row<N>], to: &mut [Row<MOST>]) {
     for (from, to) in from.iter().zip(to) {
         if let Some(place) = to.first_chunk_mut() {
             *place = *from;
