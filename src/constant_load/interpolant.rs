@@ -21,7 +21,7 @@ use crate::shape::stick_zone::CurvePoint;
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
 
-/// The same with a layer that bends the curve strongly beyond: with 0.5 or 0.6 fewer curves converge.
+/// The same with a layer that bends the curve strongly beyond: with 0.5 fewer curves converge.
 pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
 /// Number of dyadic intervals of v.
@@ -124,8 +124,7 @@ impl ForceInterpolant {
         // From x = 0 on; the points are symmetric.
         tangents.reverse();
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
-        // With a layer the curve is singular closer to the intervals.
-        let accuracy = if N < TERMS { 1e-15 } else { 1e-14 };
+        let accuracy = 1e-15;
         let mut converged = decrease.is_converged(accuracy);
         let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
@@ -358,12 +357,12 @@ mod tests {
     #[test]
     fn interpolants_with_layers_converge() {
         use crate::constant_load::contact::tests::layered;
-        for ratio in [0.0, 10.0, 1.0, 0.3, 0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
+        for ratio in [0.0, 10.0, 1.0, 0.3, 0.2, 0.15, 0.1, 0.08, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
             let shares = [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter();
             let contacts =
                 shares.flat_map(|share| layered(share, ratio).into_iter().map(move |contact| (share, contact)));
             for (share, contact) in contacts {
-                let may_not = ratio < if share < 1.0 { 0.1 } else { 0.03 };
+                let may_not = ratio < if share < 1.0 { 0.15 } else { 0.08 };
                 let otherwise = if contact.is_ellipse() { 0 } else { super::WITHOUT_LAYER };
                 let converged = contact.interpolant().converged;
                 assert!(converged == 1 || (may_not && converged == otherwise), "{ratio} {share}");
