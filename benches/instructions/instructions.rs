@@ -54,8 +54,8 @@ const RELATIONS: [(&str, f64, &str, &str); 42] = [
     ("batch_element_shared", 1.05, "batch_element", "items may share an element at no cost"),
     ("element_harmonics_force", 0.9, "element_harmonics", "the force does not need the Jacobian"),
     ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
-    ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/5 changes the polynomials only"),
-    ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/5 changes the polynomials only"),
+    ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/12 changes the polynomials only"),
+    ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/12 changes the polynomials only"),
     ("stiffness_layer", 3.0, "stiffness", "a layer with N_c < N/4 takes more nodes"),
     ("curve_rough_layer", 20.0, "curve_force", "the documented cost of a small N_c"),
     ("harmonics_rough_layer", 15.0, "harmonics", "the documented cost of a small N_c"),
@@ -64,7 +64,7 @@ const RELATIONS: [(&str, f64, &str, &str); 42] = [
 
 /// N_c over N of layers as compliant as the contact; without a layer.
 const NONE: f64 = f64::NAN;
-const LAYER: f64 = 0.2;
+const LAYER: f64 = 0.09;
 const ROUGH: f64 = 0.01;
 
 const POINTS: usize = 128; // of the curve, of a path, samples and items

@@ -13,7 +13,7 @@
 //! K' = (8/π) ∫ sqrt(t (1-t)) k(δ0 t) dt,     0 <= t <= 1, up to gross slip
 //! ```
 //!
-//! - Up to 2/5 of the displacement of gross slip T(δ) is one polynomial, and so is K': the integrals of the powers are known.
+//! - Up to 2/5 of the displacement of gross slip, or 11/20, T(δ) is one polynomial, and so is K': the integrals of the powers are known.
 //! - Up to 0.999 of it: a midpoint rule in a variable that removes the singularity of k at gross slip (`sn_midpoint`).
 //! - From 1.05 of it: a quadrature rule that is the same for all amplitudes and is stored in the contact.
 //! - Between these: the tanh-sinh rule, which converges despite the square roots at both ends and other singularities close to them.

@@ -2,7 +2,7 @@
 //! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
-use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION};
+use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
@@ -174,7 +174,8 @@ impl Contact {
         // Calls accept no larger displacement, so that gross slip would never be reached.
         let slip_displacement = displacement_scale * zones.slip_shift();
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
-        let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (INNER_FRACTION, 1.0 - INNER_FRACTION) };
+        let (interpolant, inner) = self.interpolant_of_curve();
+        let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (inner, 1.0 - inner) };
         Ok(Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
@@ -196,23 +197,31 @@ impl Contact {
                 by_modulus,
                 slip_force * self.stiffness_scale,
             ],
-            ..self.with_interpolant()
+            interpolant,
+            ..self
         })
     }
 
-    fn with_interpolant(mut self) -> Contact {
+    /// The interpolant and the fraction of its first polynomial.
+    fn interpolant_of_curve(&self) -> (ForceInterpolant, f64) {
         let flat = &self.zones.flat;
         let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
         if self.is_layered() {
             let (slip_shift, compliance) = of(&self.zones);
-            self.interpolant = ForceInterpolant::of_layered(slip_shift, compliance, self.zones.sequence());
+            let fractions = [INNER_FRACTION, KNEE_FRACTION];
+            for fraction in fractions.into_iter().take(if self.has_knee() { 2 } else { 1 }) {
+                let both = ForceInterpolant::of_layered(fraction, slip_shift, compliance, self.zones.sequence());
+                if both.is_converged() {
+                    return (both, fraction);
+                }
+            }
         }
-        if !self.is_ellipse() && !self.interpolant.is_converged() {
-            let (slip_shift, compliance) = of(flat);
-            let alone = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
-            self.interpolant = if self.is_layered() { alone.without_layer() } else { alone };
+        if self.is_ellipse() {
+            return (ForceInterpolant::NONE, INNER_FRACTION);
         }
-        self
+        let (slip_shift, compliance) = of(flat);
+        let alone = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
+        (if self.is_layered() { alone.without_layer() } else { alone }, INNER_FRACTION)
     }
 
     /// The quadrature of K', from the stick zones. The curve, continued to negative displacements, has a point of zero compliance, to
@@ -243,7 +252,11 @@ impl Contact {
 
     /// 1 over the displacement of gross slip; 0 without friction.
     pub(crate) fn per_slip_displacement(&self) -> f64 {
-        if self.is_elementary() { self.outer_scale } else { INNER_FRACTION * self.inner_scale }
+        if self.is_elementary() {
+            self.outer_scale
+        } else {
+            self.outer_scale * (self.inner_scale / (self.inner_scale + self.outer_scale).max(f64::MIN_POSITIVE))
+        }
     }
 
     /// K' over the initial stiffness and its derivative with respect to y, in the range of the first polynomial.

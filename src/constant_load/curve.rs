@@ -89,9 +89,10 @@ impl Contact {
 
     /// The same; with a layer that of the load which the interpolant gives, if there is one.
     fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
-        match self.load_at(displacement) {
-            Some((load, _)) if self.is_layered() => self.stick_zones().at_load(load),
-            _ => self.stick_zone_at_displacement(displacement),
+        let load = if self.is_layered() { self.load_at(displacement) } else { None };
+        match load {
+            Some((load, _)) => self.stick_zones().at_load(load),
+            None => self.stick_zone_at_displacement(displacement),
         }
     }
 

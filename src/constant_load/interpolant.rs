@@ -3,7 +3,8 @@
 //!
 //! With the shift x and its value x_s at gross slip:
 //!
-//! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness;
+//! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness
+//!   (11/20 x_s with a layer that bends the curve too strongly for this, and correspondingly below);
 //! - beyond: polynomials in `v = sqrt(ρ)`, `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < v <= 2⁻ʲ, j = 0 to 4. The curve is
 //!   singular at v = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
 //!   converge at the same rate;
@@ -19,6 +20,9 @@ use crate::shape::stick_zone::CurvePoint;
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
+
+/// The same with a layer that bends the curve strongly beyond: with 0.5 fewer curves converge.
+pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
 /// Number of dyadic intervals of v.
 const PIECES: usize = 5;
@@ -65,7 +69,7 @@ fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ForceInterpolant {
-    /// Λ τ/x over y = x/(2/5 x_s): the secant stiffness over the initial one.
+    /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one.
     inner: Polynomial,
     /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
@@ -79,16 +83,17 @@ impl ForceInterpolant {
 
     /// The interpolant of the curve of a contact: the shift of gross slip, the compliance Λ, and points at decreasing remaining shifts.
     pub fn of(slip_shift: f64, compliance: f64, at_remaining: impl FnMut(f64) -> CurvePoint) -> ForceInterpolant {
-        ForceInterpolant::with::<16, 8>(slip_shift, compliance, at_remaining)
+        ForceInterpolant::with::<16, 8>(INNER_FRACTION, slip_shift, compliance, at_remaining)
     }
 
-    /// That of the curve of a contact with a layer.
+    /// That of the curve of a contact with a layer, given the fraction of the first polynomial.
     pub fn of_layered(
+        inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
         at_remaining: impl FnMut(f64) -> CurvePoint,
     ) -> ForceInterpolant {
-        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(slip_shift, compliance, at_remaining)
+        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(inner_fraction, slip_shift, compliance, at_remaining)
     }
 
     /// The same interpolant, marked as that of the curve of the contact without its layer.
@@ -103,11 +108,12 @@ impl ForceInterpolant {
     /// With N terms on the later intervals.
     #[inline(always)]
     fn with<const N: usize, const M: usize>(
+        inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
         mut at_remaining: impl FnMut(f64) -> CurvePoint,
     ) -> ForceInterpolant {
-        let (first, remaining) = (INNER_FRACTION * slip_shift, (1.0 - INNER_FRACTION) * slip_shift);
+        let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
             let CurvePoint { compliance_increase: increase, curvature, .. } =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
@@ -351,11 +357,15 @@ mod tests {
     #[test]
     fn interpolants_with_layers_converge() {
         use crate::constant_load::contact::tests::layered;
-        for ratio in [0.0, 10.0, 1.0, 0.3, 0.2, 0.15, 0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
-            for contact in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter().flat_map(|share| layered(share, ratio)) {
+        for ratio in [0.0, 10.0, 1.0, 0.3, 0.2, 0.15, 0.1, 0.08, 0.05, 0.03, 0.01, 3e-3, 1e-3] {
+            let shares = [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].into_iter();
+            let contacts =
+                shares.flat_map(|share| layered(share, ratio).into_iter().map(move |contact| (share, contact)));
+            for (share, contact) in contacts {
+                let may_not = ratio < if share < 1.0 { 0.15 } else { 0.08 };
                 let otherwise = if contact.is_ellipse() { 0 } else { super::WITHOUT_LAYER };
                 let converged = contact.interpolant().converged;
-                assert!(converged == 1 || (ratio < 0.2 && converged == otherwise), "{ratio}");
+                assert!(converged == 1 || (may_not && converged == otherwise), "{ratio} {share}");
                 let fractions = (1..200).map(|k| f64::from(k) / 200.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
                 for fraction in fractions.filter(|fraction| *fraction < 1.0) {
                     let displacement = fraction * contact.slip_displacement;

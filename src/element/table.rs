@@ -3,7 +3,8 @@
 //!
 //! `y(x) = x Q(t)` with one polynomial Q for each quarter and t in [-1, 1) the position in it. The functions of a contact are
 //! singular at x = 0 only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the
-//! middle has 16 terms, of which Chebyshev economization leaves 12.
+//! middle has 16 terms, of which Chebyshev economization leaves 12. With a layer they are singular at complex x too, where the
+//! compliance is zero; for N_c far below N the nearest ones are 4 half-lengths from the middle.
 
 use crate::numerics::chebyshev::monic_powers;
 use crate::shape::{ORDER, Series};
@@ -290,7 +291,7 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, parameters};
-    use crate::shape::{Relation, RoundedFlat, Shape};
+    use crate::shape::{Layer, Layered, Relation, RoundedFlat, Shape};
 
     #[test]
     fn tables_are_the_laws_of_the_shape_to_rounding() {
@@ -313,6 +314,35 @@ mod tests {
                 let [curvature, ..] = table.four_curvatures(&[x; 4], &mut Curvature::new()).unwrap();
                 assert!((curvature * x * x / (2.0 * second) - 1.0).abs() < 1e-10, "{flat} {x}");
                 x *= 0.97;
+            }
+        }
+    }
+
+    /// Of soft and stiff layers; N_c = N/1000 is the smallest one.
+    #[test]
+    fn tables_with_layers_lose_digits_for_the_smallest_stiffening_load() {
+        for (ratio, bound) in [(0.01, 3e-14), (0.005, 2e-12), (0.001, 2e-11)] {
+            let contacts = FLATS.map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
+            for (shape, share) in
+                contacts.iter().flat_map(|shape| [0.1, 1.0, 3.0, 10.0, 100.0].map(|share| (shape, share)))
+            {
+                let compliance = share * shape.normal_compliance(shape.at_load(150.0));
+                let layer = crate::parameters::Layer {
+                    normal_compliance: compliance,
+                    tangential_compliance: compliance,
+                    stiffening_load: 150.0 * ratio,
+                };
+                let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap() };
+                let largest = both.approach(both.at_load(150.0));
+                let mut table = Table::EMPTY;
+                table.fill(largest, &mut |x| both.series(both.at_approach(x), Relation::LoadOfApproach));
+                let mut x = largest;
+                while let Some(at) = table.position(x) {
+                    let (load, _) = table.value_and_slope(x, at);
+                    let exact = both.load(both.at_approach(x));
+                    assert!((load / exact - 1.0).abs() < bound, "{ratio} {share} {x} {:e}", load / exact - 1.0);
+                    x *= 0.999;
+                }
             }
         }
     }
