@@ -20,12 +20,11 @@ pub(super) fn header_of(view: &state::View, v: f64) -> Header {
 
 /// Springs from their displacements as functions of direction, node and S, those of the law and those of the fine correction: tractions
 /// and the edge follow.
-#[inline(never)]
 fn fill<const N: usize>(
     springs: &Springs,
     now: &Pressed,
-    law: &dyn Fn(usize, usize, f64) -> f64,
-    fine: &dyn Fn(usize, f64) -> f64,
+    law: impl Fn(usize, usize, f64) -> f64,
+    fine: impl Fn(usize, f64) -> f64,
 ) -> SpringState<N> {
     let mut state = SpringState { edge: Edge::new(springs, now), ..SpringState::RELAXED };
     for k in 0..2 {
@@ -81,7 +80,7 @@ pub(super) fn from_diagram<const N: usize>(
         }
         0.0
     };
-    fill(springs, &now, &|k, _, shift| at(k, shift), &at)
+    fill(springs, &now, |k, _, shift| at(k, shift), at)
 }
 
 /// The springs of a state in another alignment: the fine springs are the corners of a polygon over S, and so are the differences of those of
@@ -122,5 +121,5 @@ pub(super) fn realigned<const N: usize>(
         }
         fine(k, shift) + ratio * polygon(k, shift / ratio, 1, &|j, _| of_law(k, j) - of_fine(k, j, 0))
     };
-    fill(springs, now, &law, &fine)
+    fill(springs, now, law, fine)
 }

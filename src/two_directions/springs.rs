@@ -392,10 +392,10 @@ pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, referen
         }
     }
     for column in 0..n {
-        // D by back substitution, and its sums from outside.
+        // D by back substitution, and its sums from outside. The compiler cannot know that a decreasing index is within bounds.
         let mut density = [0.0; MOST];
         density[column] = 1.0 / traction[column][column].max(TINY);
-        for j in (0..column).rev() {
+        for j in (0..column).rev().map(|j| j.min(MOST - 2)) {
             // Column j + 1 of the map takes part in the rows before.
             let there = density[j + 1];
             for i in 0..=j {
@@ -404,7 +404,7 @@ pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, referen
             density[j] /= traction[j][j].max(TINY);
         }
         let [mut sum_x, mut sum_y] = [0.0; 2];
-        for j in (0..MOST).rev().filter(|j| *j <= column) {
+        for j in (0..=column).rev().map(|j| j.min(MOST - 1)) {
             sum_x += density[j] / step[0][j];
             sum_y += density[j] / step[1][j];
             (displacement_x[j][column], displacement_y[j][column]) = (sum_x, sum_y);

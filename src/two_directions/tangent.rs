@@ -139,7 +139,7 @@ impl<const N: usize> Parameter<N> {
 
     fn set_load(&mut self, taken: &Taken<N>) {
         let load = self;
-        dispatch!(by_load, [const N: usize] load: &mut Parameter<N>, taken: &Taken<N> => ())
+        dispatch!(by_load, [const N: usize] load: &mut Parameter<N>, taken: &Taken<N> => ());
     }
 
     /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
@@ -152,7 +152,7 @@ impl<const N: usize> Parameter<N> {
 
     fn set_alignment(&mut self, taken: &Taken<N>, neighbours: [&Springs; 2]) {
         let of = self;
-        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2] => ())
+        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2] => ());
     }
 
     #[inline(always)]
