@@ -236,7 +236,8 @@ impl<'a> Springs<'a> {
             let root = high.sqrt();
             // Free of cancellation.
             let difference = (size - lower) / (root + low.sqrt());
-            let weight = if i < last { self.weight[last] * self.unit[i] } else { 0.0 };
+            let own = self.weight[last] * self.unit[i];
+            let weight = if i < last { own } else { 0.0 };
             reach[i] = weight * difference;
             slope[i] = 0.5 * weight / root;
         }

@@ -693,12 +693,15 @@ impl Returned {
             let by_y = ratios[1] * ratios[1] * per_limit[1] * of.limit[1][r][j];
             put(&mut change, -(by_x + by_y), column);
         }
+        // Both are loaded before one is stored: the compiler would not combine them in vectors.
+        let (mut to_x, mut to_y) = (*x, *y);
         for c in 0..C {
-            let (v_x, v_y) = (x[c] + d_x[c], y[c] + d_y[c]);
+            let (v_x, v_y) = (to_x[c] + d_x[c], to_y[c] + d_y[c]);
             let change = weights[0] * v_x + weights[1] * v_y + change[c];
-            x[c] = per_over * v_x - end[0] * change - d_x[c];
-            y[c] = per_over * v_y - end[1] * change - d_y[c];
+            to_x[c] = per_over * v_x - end[0] * change - d_x[c];
+            to_y[c] = per_over * v_y - end[1] * change - d_y[c];
         }
+        (*x, *y) = (to_x, to_y);
     }
 }
 
