@@ -105,6 +105,58 @@ impl<const N: usize> Edge<N> {
         edge
     }
 
+    /// Its derivatives by those of the tables, of which `slopes` is a view, at the same load.
+    #[inline(always)]
+    pub fn slope(&self, springs: &Springs, slopes: &Springs, now: &Pressed) -> Edge<N> {
+        let (last, part) = (self.last.min(N - 1), self.part.min(PARTS - 1));
+        let first = last <= springs.under_flat;
+        let mut change = Edge { last, part, pressure: [0.0; N], ..Edge::NONE };
+        change.reach = springs.reach_slope(slopes, last, now);
+        let mut pressure = change.reach;
+        for row in &slopes.traction[springs.under_flat.min(last)..last] {
+            for i in 0..N {
+                pressure[i] += row[i];
+            }
+        }
+        let mut reach = self.reach;
+        for i in 0..N {
+            change.pressure[i] = if i < last { pressure[i] } else { 0.0 };
+            reach[i] = if i < last { reach[i] } else { 0.0 };
+        }
+        for k in 0..2 {
+            change.step[k] = -slopes.shift[k][last];
+            change.secant[k] = (-slopes.load[last] - self.secant[k] * change.step[k]) / self.step[k];
+            let [before, before_slope] =
+                if last > 0 { [springs, slopes].map(|tables| tables.secant[k][last - 1]) } else { [0.0; 2] };
+            let least = self.secant[k] - before <= LEAST_STIFFNESS * self.secant[k];
+            change.stiffness[k] =
+                if least { LEAST_STIFFNESS * change.secant[k] } else { change.secant[k] - before_slope };
+            for j in 0..=last {
+                let (row, row_slope) = (used(&springs.displacement[k][j]), used(&slopes.displacement[k][j]));
+                change.column[k][j] = change.step[k] - dot(row_slope, &reach) - dot(row, &change.reach);
+            }
+            // The fine correction.
+            change.fine_step[k] = -slopes.fine_shift[k][part][last];
+            change.fine_secant[k] =
+                (-slopes.fine_load[part][last] - self.fine_secant[k] * change.fine_step[k]) / self.fine_step[k];
+            let law = change.secant[k] - if first { 0.0 } else { before_slope };
+            let secant = |upper: [usize; 2], lower: [usize; 2]| {
+                let rise = |rows: &Fine<MOST>| rows[upper[0]][upper[1]] - rows[lower[0]][lower[1]];
+                let per_shift = 1.0 / rise(springs.fine_shift[k]).max(TINY);
+                let value = rise(springs.fine_load) * per_shift;
+                (rise(slopes.fine_load) - value * rise(slopes.fine_shift[k])) * per_shift
+            };
+            let mut before = if first { 0.0 } else { secant([0, last], [PARTS - 1, last - 1]) };
+            for r in 0..=part {
+                let own = if r < part { secant([r + 1, last], [r, last]) } else { change.fine_secant[k] };
+                let less = if r == 0 { law } else { 0.0 };
+                change.fine_stiffness[k][r] = own - before - less;
+                before = own;
+            }
+        }
+        change
+    }
+
     /// Stiffnesses of the springs; 0 outside.
     #[inline(always)]
     pub fn stiffnesses(&self, springs: &Springs, k: usize) -> Row<N> {
@@ -138,6 +190,24 @@ impl<const N: usize> Edge<N> {
         for j in 0..last {
             let density = (v[j] - v[j + 1]) * springs.per_step[k][j];
             add(&mut q, density, used(&springs.traction[j]));
+        }
+        q
+    }
+
+    /// The derivative of the tractions of the same springs.
+    #[inline(always)]
+    pub fn tractions_slope(&self, [springs, slopes]: [&Springs; 2], change: &Edge<N>, k: usize, v: &Row<N>) -> Row<N> {
+        let last = self.last.min(N - 1);
+        let at_edge = v[last] / self.step[k];
+        let at_edge_slope = -at_edge * change.step[k] / self.step[k];
+        let mut q = [0.0; N];
+        for i in 0..N {
+            q[i] = change.reach[i] * at_edge + self.reach[i] * at_edge_slope;
+        }
+        for j in 0..last {
+            let difference = v[j] - v[j + 1];
+            add(&mut q, difference * slopes.per_step[k][j], used(&springs.traction[j]));
+            add(&mut q, difference * springs.per_step[k][j], used(&slopes.traction[j]));
         }
         q
     }

@@ -16,7 +16,7 @@ use super::spring_state::SpringState;
 use super::springs::{MOST, PressedSlopes, Springs, TABLES, fill};
 use super::state::Header;
 use super::step::StepRecord;
-use super::tangent::{self, Derivatives, IncrementColumns, NEIGHBOUR, Parameter, Taken, Wide, inner_after, rows};
+use super::tangent::{self, Derivatives, IncrementColumns, Parameter, Taken, Wide, inner_after, rows};
 use super::{Requested, Step};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -44,6 +44,10 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
     Layout::init(Size::new(harmonics, samples).with_periods(periods), workspace)
 }
+
+/// Relative distance of the sizes whose tables are differentiated: the error is the square of it times the third derivative, up to 1e5 where
+/// nodes are close, and a rounding error over it.
+const NEIGHBOUR: f64 = 1e-6;
 
 /// Columns that are advanced at once.
 const BLOCK: usize = 12;
@@ -127,7 +131,7 @@ pub struct Workspace<'a> {
     basis: &'a [f64],
     one_direction: one_direction::Workspace<'a>,
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs, and of those that are aligned with slightly larger and smaller sizes.
+    /// Tables of the springs, their derivatives by the size of the alignment, and those of a slightly smaller size.
     springs: &'a mut [f64],
     /// Derivatives of the state, and those of both forces, block after block of columns.
     derivatives: &'a mut [[f64; BLOCK]],
@@ -290,7 +294,7 @@ trait Walk {
     fn taken<'a>(
         &'a mut self,
         path: &'a LoadPath,
-        springs: [&'a Springs<'a>; 3],
+        springs: [&'a Springs<'a>; 2],
         slopes: [PressedSlopes; 2],
         inner: usize,
     ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize);
@@ -317,13 +321,13 @@ impl<const N: usize> Walk for Walker<N> {
     fn taken<'a>(
         &'a mut self,
         path: &'a LoadPath,
-        [springs, larger, smaller]: [&'a Springs<'a>; 3],
+        [springs, table_slopes]: [&'a Springs<'a>; 2],
         [start_slopes, slopes]: [PressedSlopes; 2],
         inner: usize,
     ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize) {
         let (new, record, motion) = (&self.state, &self.record, &path.motion);
-        let taken = Taken { springs, new, motion, record, slopes, start_slopes };
-        let (load, alignment) = (Parameter::load(&taken), Parameter::alignment(&taken, [larger, smaller]));
+        let taken = Taken { springs, new, motion, record, slopes, start_slopes, table_slopes: Some(table_slopes) };
+        let (load, alignment) = (Parameter::load(&taken), Parameter::alignment(&taken, table_slopes));
         let inner = inner_after(&taken, inner);
         let (taken, parameters) = self.wide.of(&taken, [&load, &alignment]);
         (taken, parameters, inner)
@@ -347,14 +351,17 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput, wa
     if slides {
         let memory = core::mem::take(&mut workspace.springs);
         let (tables, neighbours) = memory.split_at_mut(memory.len() / 3);
-        let (larger, smaller) = neighbours.split_at_mut(neighbours.len() / 2);
+        let (slopes, smaller) = neighbours.split_at_mut(neighbours.len() / 2);
         fill(tables, element, &from.units, 1.0);
         if requested.tangent {
-            fill(larger, element, &from.units, 1.0 + NEIGHBOUR);
+            fill(slopes, element, &from.units, 1.0 + NEIGHBOUR);
             fill(smaller, element, &from.units, 1.0 - NEIGHBOUR);
+            for (slope, smaller) in slopes.iter_mut().zip(smaller) {
+                *slope = (*slope - *smaller) * (0.5 / NEIGHBOUR);
+            }
         }
         let at = |tables| Springs::new(from.under_flat, tables);
-        if let (Some(springs), Some(larger), Some(smaller)) = (at(tables), at(larger), at(smaller)) {
+        if let (Some(springs), Some(table_slopes)) = (at(tables), at(slopes)) {
             // Of the logarithm of the reference size by the coefficients of the normal component.
             let top_normal = element.normal(top);
             let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
@@ -387,7 +394,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput, wa
                         // The first displacement begins at rest, not at a sample, under the load of its sample.
                         let first = step == 0;
                         let start_slopes = if first { slopes } else { start };
-                        let springs = [&springs, &larger, &smaller];
+                        let springs = [&springs, &table_slopes];
                         let (taken, parameters, now) = walker.taken(&path, springs, [start_slopes, slopes], inner);
                         inner = now;
                         let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];

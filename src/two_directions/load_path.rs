@@ -191,7 +191,7 @@ fn tangent<const N: usize>(
     let Some(mut derivatives) = Derivatives::<N, 4>::new(&mut memory) else { return };
     let slopes = path.to.units.slopes(element, &path.normal, path.to.size);
     let start_slopes = PressedSlopes::default();
-    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes };
+    let taken = Taken { springs, new, motion: &path.motion, record, slopes, start_slopes, table_slopes: None };
     let inner = inner_after(&taken, N);
     let [x, y] = tangent::tangent(&taken, &[Parameter::load(&taken)], &columns, &mut derivatives, inner);
     for column in 0..3 {

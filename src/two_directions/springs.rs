@@ -243,6 +243,25 @@ impl<'a> Springs<'a> {
         }
         [reach, slope]
     }
+
+    /// The derivative of the pressure of the last shell by that of the tables, of which `slopes` is a view.
+    #[inline(always)]
+    pub fn reach_slope<const N: usize>(&self, slopes: &Springs, last: usize, now: &Pressed) -> Row<N> {
+        let (mut reach, last) = ([0.0; N], last.min(N - 1));
+        let (size, lower, lower_slope) = (now.size, self.size[last], slopes.size[last]);
+        for i in 0..N {
+            let (high, low) = (size - self.point[i], lower - self.point[i]);
+            let (high, low) = (if high > TINY { high } else { TINY }, if low > TINY { low } else { TINY });
+            let (root, low_root) = (high.sqrt(), low.sqrt());
+            let weight = self.weight[last] * self.unit[i];
+            let weight_slope = slopes.weight[last] * self.unit[i] + self.weight[last] * slopes.unit[i];
+            let difference = (size - lower) / (root + low_root);
+            let by_point = (slopes.point[i] - lower_slope) / low_root - slopes.point[i] / root;
+            let slope = weight_slope * difference + 0.5 * weight * by_point;
+            reach[i] = if i < last { slope } else { 0.0 };
+        }
+        reach
+    }
 }
 
 /// Number of springs under the flat, for a reference size.

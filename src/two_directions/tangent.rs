@@ -12,10 +12,9 @@
 //! eliminated with the pivots of the step. What is kept of a spring is its derivative less that of the displacement of the contact, which
 //! does not change as long as the spring sticks.
 
-use super::edge::Edge;
 use super::fine::{self, SLIPS};
 use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, MOST, PARTS, PressedSlopes, Row, Springs, add, at, dot, used};
+use super::springs::{Both, Increment, MOST, PARTS, PressedSlopes, Row, Springs, add, at, dot, used};
 use super::step::StepRecord;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -73,11 +72,20 @@ pub(crate) struct Taken<'a, const N: usize> {
     /// Derivatives of the normal state at the end and at the start.
     pub slopes: PressedSlopes,
     pub start_slopes: PressedSlopes,
+    /// Derivatives of the tables by the logarithm of the size of the alignment, if requested.
+    pub table_slopes: Option<&'a Springs<'a>>,
 }
 
-/// Relative distance of the sizes of the neighbours: the error is the square of it times the third derivative, up to 1e5 where the edge is
-/// close to a node, and a rounding error over it.
-pub(crate) const NEIGHBOUR: f64 = 1e-6;
+impl<const N: usize> Taken<'_, N> {
+    /// The derivative of a distance from a node to the edge.
+    #[inline(always)]
+    fn limit_slope(&self, of: &Parameter<N>, [k, r, j]: [usize; 3]) -> f64 {
+        match self.table_slopes {
+            Some(slopes) => of.shift[k] - of.alignment * slopes.fine_shift[k][r][j],
+            None => of.shift[k],
+        }
+    }
+}
 
 /// y += a x.
 #[inline(always)]
@@ -106,8 +114,9 @@ fn sum_of<const C: usize>(a: &Columns<C>, b: &Columns<C>) -> Columns<C> {
 /// The normal state and the alignment, which a step depends on besides the displacement and the state at its start: derivatives of the
 /// step with respect to one of them, at fixed angles of slip and springs at the start.
 pub(crate) struct Parameter<const N: usize> {
-    /// Of the distances from the nodes of the fine springs to the edge: part 0 is that of the law.
-    limit: Both<Fine<N>>,
+    /// Of the shift, and of the alignment.
+    shift: Both<f64>,
+    alignment: f64,
     /// Of the pressure; of σ through U and w, and through the pressures.
     pressure: Row<N>,
     sigma: Both<Row<N>>,
@@ -120,7 +129,8 @@ pub(crate) struct Parameter<const N: usize> {
 
 impl<const N: usize> Parameter<N> {
     const NONE: Parameter<N> = Parameter {
-        limit: [[[0.0; N]; PARTS]; 2],
+        shift: [0.0; 2],
+        alignment: 0.0,
         pressure: [0.0; N],
         sigma: [[0.0; N]; 2],
         sigma_by_pressure: [[0.0; N]; 2],
@@ -142,17 +152,17 @@ impl<const N: usize> Parameter<N> {
         dispatch!(by_load, [const N: usize] load: &mut Parameter<N>, taken: &Taken<N> => ());
     }
 
-    /// The logarithm of the size of the alignment, by differences between the springs of slightly larger and smaller sizes.
+    /// The logarithm of the size of the alignment, by the derivatives of the tables.
     #[inline(always)]
-    pub fn alignment(taken: &Taken<N>, neighbours: [&Springs; 2]) -> Parameter<N> {
+    pub fn alignment(taken: &Taken<N>, slopes: &Springs) -> Parameter<N> {
         let mut alignment = Parameter::NONE;
-        alignment.set_alignment(taken, neighbours);
+        alignment.set_alignment(taken, slopes);
         alignment
     }
 
-    fn set_alignment(&mut self, taken: &Taken<N>, neighbours: [&Springs; 2]) {
+    fn set_alignment(&mut self, taken: &Taken<N>, slopes: &Springs) {
         let of = self;
-        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2] => ());
+        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, slopes: &Springs => ());
     }
 
     #[inline(always)]
@@ -182,7 +192,7 @@ fn by_load<const N: usize>(load: &mut Parameter<N>, taken: &Taken<N>) {
     }
     for k in 0..2 {
         let shift = slopes.shift[k];
-        load.limit[k] = [[shift; N]; PARTS];
+        load.shift[k] = shift;
         let stiffness = (slopes.load - edge.secant[k] * shift) / edge.step[k];
         let fine_stiffness = (slopes.load - edge.fine_secant[k] * shift) / edge.fine_step[k];
         load.force[k] = (new.v[k][last] - new.fine[k][0][last]) * stiffness
@@ -206,29 +216,31 @@ fn by_load<const N: usize>(load: &mut Parameter<N>, taken: &Taken<N>) {
 }
 
 #[inline(always)]
-fn by_alignment<const N: usize>(of: &mut Parameter<N>, taken: &Taken<N>, neighbours: [&Springs; 2]) {
-    let Taken { new, motion, record, .. } = *taken;
+fn by_alignment<const N: usize>(of: &mut Parameter<N>, taken: &Taken<N>, slopes: &Springs) {
+    let Taken { springs, new, motion, record, .. } = *taken;
     let (slip, last) = (&record.slip, new.edge.last.min(N - 1));
-    for (springs, weight) in neighbours.into_iter().zip([0.5 / NEIGHBOUR, -0.5 / NEIGHBOUR]) {
-        let edge = Edge::of_shell(springs, &motion.now, last, new.edge.part);
-        add(&mut of.pressure, weight, &edge.pressure);
-        for k in 0..2 {
-            let stiffness = edge.stiffnesses(springs, k);
-            add(&mut of.tractions[k], weight, &edge.tractions(springs, k, &new.v[k]));
-            of.force[k] += weight * dot(&stiffness, &new.v[k]);
-            for r in 0..PARTS {
-                add(&mut of.limit[k][r], -weight, used(&springs.fine_shift[k][r]));
-                of.force[k] += weight * dot(&fine::stiffnesses(springs, &edge, k, r), &new.fine[k][r]);
-            }
-            if record.slipping() == 0 {
-                continue;
-            }
-            for j in slip.first.min(N - 1)..=last {
-                let row = edge.displacement(springs, k, j);
-                of.springs[k][j] += weight * dot(&row, &slip.q[k]);
-                add(&mut of.sigma[k], weight * stiffness[j] * (record.trial[k][j] - new.v[k][j]), &row);
-            }
+    let change = new.edge.slope(springs, slopes, &motion.now);
+    (of.alignment, of.pressure) = (1.0, change.pressure);
+    for k in 0..2 {
+        let stiffness = change.stiffnesses(slopes, k);
+        of.tractions[k] = new.edge.tractions_slope([springs, slopes], &change, k, &new.v[k]);
+        let mut force = dot(&stiffness, &new.v[k]);
+        for r in 0..PARTS {
+            force += dot(&fine::stiffnesses(slopes, &change, k, r), &new.fine[k][r]);
         }
+        of.force[k] = force;
+        if record.slipping() == 0 {
+            continue;
+        }
+        let mut sigma = [0.0; N];
+        for j in slip.first.min(N - 1)..=last {
+            let (row, row_slope) = (new.edge.displacement(springs, k, j), change.displacement(slopes, k, j));
+            of.springs[k][j] = dot(&row_slope, &slip.q[k]);
+            let distance = record.trial[k][j] - new.v[k][j];
+            add(&mut sigma, stiffness[j] * distance, &row);
+            add(&mut sigma, record.stiffness[k][j] * distance, &row_slope);
+        }
+        of.sigma[k] = sigma;
     }
     of.through_pressure(taken);
 }
@@ -250,7 +262,7 @@ impl Wide {
         taken: &Taken<'a, N>,
         parameters: [&Parameter<N>; 2],
     ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2]) {
-        let Taken { springs, new, motion, record, slopes, start_slopes } = *taken;
+        let Taken { springs, new, motion, record, slopes, start_slopes, table_slopes } = *taken;
         let (slip, edge) = (&record.slip, &new.edge);
         let Wide { new: to, record: wide, parameters: wide_parameters } = self;
         let (to_slip, to_edge) = (&mut wide.slip, &mut to.edge);
@@ -264,10 +276,13 @@ impl Wide {
             ] {
                 widen(from, to);
             }
-            for k in 0..2 {
-                widen(&slip.square[k], &mut to_slip.square[k]);
+            // The rows of slipping points.
+            let matrices = [&slip.square[0], &slip.square[1], &slip.inverse];
+            let [square_x, square_y] = &mut to_slip.square;
+            for (from, to) in matrices.into_iter().zip([square_x, square_y, &mut to_slip.inverse]) {
+                let rows = from.iter().zip(to).take(edge.last + 1).skip(slip.first);
+                rows.for_each(|(from, to)| widen(from_ref(from), from_mut(to)));
             }
-            widen(&slip.inverse, &mut to_slip.inverse);
         }
         for (from, to) in [
             (&record.limit, &mut wide.limit),
@@ -292,7 +307,7 @@ impl Wide {
             widen(from_ref(from), from_mut(to));
         }
         for (from, to) in parameters.into_iter().zip(wide_parameters.iter_mut()) {
-            widen(from.limit.as_flattened(), to.limit.as_flattened_mut());
+            (to.shift, to.alignment) = (from.shift, from.alignment);
             widen(from_ref(&from.pressure), from_mut(&mut to.pressure));
             widen(&from.tractions, &mut to.tractions);
             if slides {
@@ -312,7 +327,7 @@ impl Wide {
         (to_edge.last, to_edge.part) = (edge.last, edge.part);
         (to_edge.step, to_edge.fine_secant) = (edge.step, edge.fine_secant);
         to_edge.fine_stiffness = edge.fine_stiffness;
-        (Taken { springs, new: to, motion, record: wide, slopes, start_slopes }, wide_parameters)
+        (Taken { springs, new: to, motion, record: wide, slopes, start_slopes, table_slopes }, wide_parameters)
     }
 }
 
@@ -425,7 +440,7 @@ fn kernel<const N: usize, const C: usize>(
                 let returned = Returned { end: at(&new.v, j), per_over, per_limit, place: [0, j] };
                 let displacement = *derivatives.displacement;
                 let [x, y] = &mut derivatives.springs;
-                returned.differentiate(parameters, &displacement, [&mut x[j], &mut y[j]]);
+                returned.differentiate(taken, parameters, &displacement, [&mut x[j], &mut y[j]]);
             }
         }
     }
@@ -470,7 +485,7 @@ fn follow<const N: usize, const C: usize>(
         let rate = taken.motion.by[k] * taken.motion.per_rise[k];
         put(row, part - 1.0, &columns.by[k]);
         for (of, column) in parameters.iter() {
-            put(row, rate * of.limit[k][r][j], column);
+            put(row, rate * taken.limit_slope(of, [k, r, j]), column);
         }
         put(row, -rate * part * taken.slopes.shift[k], &columns.end);
         put(row, rate * part * taken.start_slopes.shift[k], &columns.start);
@@ -559,7 +574,7 @@ fn slide<const N: usize, const C: usize>(
                     put(&mut row, factor, &derivatives.springs[k][i]);
                     put(&mut row, factor, &derivatives.displacement[k]);
                     for (of, column) in parameters.iter() {
-                        put(&mut row, -factor * ratio * of.limit[k][0][i], column);
+                        put(&mut row, -factor * ratio * taken.limit_slope(of, [k, 0, i]), column);
                     }
                 }
             }
@@ -679,6 +694,7 @@ impl Returned {
     #[inline(always)]
     fn differentiate<const N: usize, const C: usize>(
         &self,
+        taken: &Taken<N>,
         parameters: Parameters<N, C>,
         [d_x, d_y]: &Both<Columns<C>>,
         [x, y]: [&mut Columns<C>; 2],
@@ -689,8 +705,8 @@ impl Returned {
         // d(over)/over.
         let mut change = [0.0; C];
         for (of, column) in parameters.iter() {
-            let by_x = ratios[0] * ratios[0] * per_limit[0] * of.limit[0][r][j];
-            let by_y = ratios[1] * ratios[1] * per_limit[1] * of.limit[1][r][j];
+            let by_x = ratios[0] * ratios[0] * per_limit[0] * taken.limit_slope(of, [0, r, j]);
+            let by_y = ratios[1] * ratios[1] * per_limit[1] * taken.limit_slope(of, [1, r, j]);
             put(&mut change, -(by_x + by_y), column);
         }
         // Both are loaded before one is stored: the compiler would not combine them in vectors.
@@ -745,7 +761,7 @@ fn fine_correction<const N: usize, const C: usize>(
                 let per_area = 1.0 / (limit[0] * limit[1]);
                 let per_limit = [limit[1] * per_area, limit[0] * per_area];
                 let returned = Returned { end, per_over, per_limit, place: [r, j] };
-                returned.differentiate(parameters, &displacement, [&mut *x, &mut *y]);
+                returned.differentiate(taken, parameters, &displacement, [&mut *x, &mut *y]);
             }
             for (k, row) in [x, y].into_iter().enumerate() {
                 let stiffness = if j < last { springs.fine_stiffness[k][r][j] } else { edge.fine_stiffness[k][r] };
