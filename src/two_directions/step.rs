@@ -128,7 +128,7 @@ fn kernel<const N: usize>(
         record.trial[1][j] = if inside { old[1][j] + by[1] * y } else { 0.0 };
     }
     record.limit = [limit_x, limit_y];
-    record.start = *tractions;
+    let before_start = core::mem::replace(&mut record.start, *tractions);
     let mut q = [[0.0; N]; 2];
     for k in 0..2 {
         record.stiffness[k] = edge.stiffnesses(springs, k);
@@ -150,7 +150,7 @@ fn kernel<const N: usize>(
     let mut end = record.trial;
     let slips = record.slips;
     if slips {
-        slide(springs, edge, [&q[0], &q[1]], by, &beyond, derivatives, record, &mut end);
+        slide(springs, edge, [&q[0], &q[1]], &before_start, by, &beyond, derivatives, record, &mut end);
         let every_point = record.slip.converged && record.slip.first == 0 && record.slip.count == 0;
         if !every_point {
             q = [edge.tractions(springs, 0, &end[0]), edge.tractions(springs, 1, &end[1])];
@@ -196,6 +196,7 @@ fn slide<const N: usize>(
     springs: &Springs,
     edge: &Edge<N>,
     q: [&Row<N>; 2],
+    before_start: &Both<Row<N>>,
     by: &Both<f64>,
     beyond: &Row<N>,
     derivatives: bool,
@@ -220,7 +221,15 @@ fn slide<const N: usize>(
         let (r_x, r_y) = (start[0][i], start[1][i]);
         let slipped = r_x * r_x + r_y * r_y > SLIPPED;
         let near = slipped && x * r_x + y * r_y > NEAR;
-        (e_x[i], e_y[i]) = (if near { r_x } else { x }, if near { r_y } else { y });
+        // A point that slipped in the step before as well turns on.
+        let (b_x, b_y) = (before_start[0][i], before_start[1][i]);
+        let (cosine, sine) = (b_x * r_x + b_y * r_y, b_x * r_y - b_y * r_x);
+        let square = cosine * cosine + sine * sine;
+        let turns = square > SLIPPED && cosine > NEAR;
+        let (cosine, sine) = if turns { (cosine, sine) } else { (1.0, 0.0) };
+        let length = (if turns { square } else { 1.0 }).sqrt();
+        let (on_x, on_y) = ((cosine * r_x - sine * r_y) / length, (cosine * r_y + sine * r_x) / length);
+        (e_x[i], e_y[i]) = (if near { on_x } else { x }, if near { on_y } else { y });
         continues[i] = if slipped && r_x * by[0] + r_y * by[1] > backwards { 1.0 } else { 0.0 };
     }
     *overshoot = over;
