@@ -686,3 +686,70 @@ fn jacobians_are_derivatives_after_any_number_of_periods() {
         }
     }
 }
+
+/// Random motions, by both inputs, from sticking to gross slip, with and without separation: their Jacobians against differences. Where the
+/// differences on both sides of a motion differ, the Jacobian is one of them.
+fn check_random_jacobians(motions: usize, seed: u64) {
+    let mut random = Random(seed);
+    let mut elements = layered(Directions::Two, NormalInput::Force);
+    elements.extend(by_approach_and_force());
+    for (half_width, springs) in HALF_WIDTHS.into_iter().flat_map(|width| [8, 12, 16].map(|springs| (width, springs))) {
+        let parameters = Parameters { springs, ..parameters(half_width) };
+        let inputs = [NormalInput::Approach, NormalInput::Force];
+        elements.extend(inputs.map(|input| Element::rounded_flat(&parameters, Directions::Two, input).unwrap()));
+    }
+    let mut corners = 0;
+    for _ in 0..motions {
+        let element = &elements[random.below(elements.len())];
+        let (u, full) = (unit(element), normal_input(element, 1.0));
+        let size = u * 0.03 * 100f64.powf(random.next());
+        let mut motion = [0.0; COEFFICIENTS];
+        motion[..2 * ROW].fill_with(|| size * random.signed());
+        // Half of the motions by approach separate.
+        let most = if element.normal_input == NormalInput::Approach as i32 { 2.0 } else { 0.9 };
+        let (sin, cos) = (TAU * random.next()).sin_cos();
+        let mean = full * (0.2 + 0.6 * random.next());
+        let amplitude = most * random.next() * mean.min(full - mean);
+        motion[2 * ROW..].copy_from_slice(&[mean, amplitude * cos, amplitude * sin]);
+        let Harmonic { force, jacobian, .. } = harmonic(element, 1, &motion);
+        let slip_force = element.friction_coefficient * force[2 * ROW].max(0.1 * element.normal_force);
+        for j in 0..COEFFICIENTS {
+            let scale = if j < 2 * ROW { u } else { full };
+            let moved = |h: f64| {
+                let mut motion = motion;
+                motion[j] += h * scale;
+                harmonic(element, 1, &motion).force
+            };
+            let error = |high: &[f64; COEFFICIENTS], low: &[f64; COEFFICIENTS], h: f64| {
+                let of = |i| (high[i] - low[i]) / h - jacobian[i + COEFFICIENTS * j] * scale;
+                (0..COEFFICIENTS).map(|i| of(i).abs()).fold(0.0, f64::max) / slip_force
+            };
+            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-12 over h.
+            let found = [1e-5, 1e-6, 1e-7, 1e-8].into_iter().any(|h| {
+                let (high, low) = (moved(h), moved(-h));
+                if error(&high, &low, 2.0 * h) < 1e-5_f64.max(1e-12 / h) {
+                    return true;
+                }
+                let sides = [error(&high, &force, h), error(&force, &low, h)];
+                let (one, other) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
+                let corner = one < 1e-3 && other > 10.0 * one;
+                corners += usize::from(corner);
+                corner
+            });
+            assert!(found, "{motion:?}, half-width {}, column {j}", element.half_width);
+        }
+    }
+    let columns = motions * COEFFICIENTS;
+    assert!(corners * 40 < columns, "{corners} corners in {columns} columns");
+}
+
+#[test]
+fn jacobians_of_random_motions_are_derivatives() {
+    check_random_jacobians(200, 1);
+}
+
+#[test]
+#[ignore = "takes half a minute: part of make check"]
+fn jacobians_of_many_random_motions_are_derivatives() {
+    check_random_jacobians(4000, 2);
+}

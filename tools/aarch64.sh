@@ -45,8 +45,8 @@ clients() {
     done
 }
 drivers() {
-    MICROSLIP_PREFIX="$installed" MICROSLIP_TARGET=$triple MICROSLIP_RUNNER="$emulator" FC=${cross}gfortran \
-        "$CARGO" test --locked --test c_drivers
+    MICROSLIP_PREFIX="$installed" MICROSLIP_TARGET=$triple MICROSLIP_RUNNER="$emulator" \
+        CC=${cross}gcc CXX=${cross}g++ FC=${cross}gfortran "$CARGO" test --locked --test c_drivers
 }
 # Imports and the bounded memory are no matter of the processor.
 rust() {

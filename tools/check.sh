@@ -24,6 +24,8 @@ rust() {
     step 'Miri' tools/miri.sh
     step 'accuracy, 1e5 points' "$CARGO" run --quiet --locked --package accuracy -- --points 1e5
     step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
+    step 'two directions: Jacobians of 4,000 random motions' \
+        "$CARGO" test --locked --test two_directions -- --ignored
     step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test bounded_memory
     step 'references of the interfaces' tools/docs.sh
 }

@@ -140,17 +140,18 @@ impl<const N: usize> Edge<N> {
             change.fine_secant[k] =
                 (-slopes.fine_load[part][last] - self.fine_secant[k] * change.fine_step[k]) / self.fine_step[k];
             let law = change.secant[k] - if first { 0.0 } else { before_slope };
+            let at = |rows: &Fine<MOST>, [r, j]: [usize; 2]| rows[r.min(PARTS - 1)][j.min(N - 1)];
             let secant = |upper: [usize; 2], lower: [usize; 2]| {
-                let rise = |rows: &Fine<MOST>| rows[upper[0]][upper[1]] - rows[lower[0]][lower[1]];
+                let rise = |rows: &Fine<MOST>| at(rows, upper) - at(rows, lower);
                 let per_shift = 1.0 / rise(springs.fine_shift[k]).max(TINY);
                 let value = rise(springs.fine_load) * per_shift;
                 (rise(slopes.fine_load) - value * rise(slopes.fine_shift[k])) * per_shift
             };
             let mut before = if first { 0.0 } else { secant([0, last], [PARTS - 1, last - 1]) };
-            for r in 0..=part {
+            for r in 0..PARTS {
                 let own = if r < part { secant([r + 1, last], [r, last]) } else { change.fine_secant[k] };
                 let less = if r == 0 { law } else { 0.0 };
-                change.fine_stiffness[k][r] = own - before - less;
+                change.fine_stiffness[k][r] = if r > part { 0.0 } else { own - before - less };
                 before = own;
             }
         }

@@ -28,6 +28,8 @@ use crate::shape::TINY;
 /// Newton's steps, and changes of the set of slipping points, after which each spring returns to its own limit.
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
+/// Newton's steps after which the set is reviewed, which is at the end otherwise.
+const REVIEW: usize = 15;
 /// The error of the angles at which the iteration ends: some rounding errors, amplified by the condition of J.
 const CONVERGED: f64 = 1e-12;
 /// Turns up to this one show which further points slip.
@@ -58,11 +60,14 @@ pub(crate) struct Problem<'a, const N: usize> {
     pub overshoot: &'a Row<N>,
 }
 
-/// Where Newton's method begins: directions of the tractions, points that slip, and the turn from which on it is given up.
+/// Where Newton's method begins: directions of the tractions, points that slip, and the turn from which on it is given up. Slip bends from the
+/// traction at the start of the step, or, without β, follows that at its end alone: a convex problem.
+#[derive(Clone, Copy)]
 pub(crate) struct Guess<const N: usize> {
     pub e: Both<Row<N>>,
     pub set: Set,
     pub largest_turn: f64,
+    pub bends: bool,
 }
 
 /// The slip at all points, and what its derivatives need.
@@ -133,7 +138,7 @@ impl<const N: usize> Slip<N> {
         for i in 0..N {
             let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
             let u = 2.0 * square - 1.0;
-            let u = if u > 0.0 { u } else { 0.0 };
+            let u = if guess.bends && u > 0.0 { u } else { 0.0 };
             self.per_along[i] = u * u / (1.0 + overshoot[i] * (1.0 / 3.0));
         }
         let (mut changes, mut steps) = (0, 0);
@@ -187,6 +192,13 @@ impl<const N: usize> Slip<N> {
                 steps += 1;
                 if steps > STEPS || turn > guess.largest_turn {
                     return;
+                }
+                // The angle of a point that hardly slips is undetermined: it may have to stick.
+                if steps % REVIEW == 0 {
+                    self.springs(problem, &q, end);
+                    if self.review(problem, &constant, end, true) {
+                        continue 'sets;
+                    }
                 }
                 self.rotate(&turns, LARGEST_TURN / turn.max(LARGEST_TURN));
                 // Newton's method converges quadratically with a new inverse, linearly with an old one.

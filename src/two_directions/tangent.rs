@@ -81,7 +81,7 @@ impl<const N: usize> Taken<'_, N> {
     #[inline(always)]
     fn limit_slope(&self, of: &Parameter<N>, [k, r, j]: [usize; 3]) -> f64 {
         match self.table_slopes {
-            Some(slopes) => of.shift[k] - of.alignment * slopes.fine_shift[k][r][j],
+            Some(slopes) => of.shift[k] - of.alignment * slopes.fine_shift[k][r.min(PARTS - 1)][j.min(N - 1)],
             None => of.shift[k],
         }
     }
@@ -559,7 +559,7 @@ fn slide<const N: usize, const C: usize>(
         put(&mut row, -slip.n[1][i], &sigma[0][i]);
         let (e_x, e_y, r_x, r_y) = (slip.e[0][i], slip.e[1][i], start[0][i], start[1][i]);
         let (along, u) = (e_x * r_x + e_y * r_y, 2.0 * (r_x * r_x + r_y * r_y) - 1.0);
-        if along > 0.0 && u > 0.0 {
+        if along > 0.0 && slip.per_along[i] > 0.0 {
             let (s_x, s_y) = (slip.sigma[0][i], slip.sigma[1][i]);
             let (factor, per_over) = (slip.per_along[i], 1.0 / (1.0 + overshoot[i] * (1.0 / 3.0)));
             let (beta, across) = (factor * along, s_y * r_x - s_x * r_y);
