@@ -46,7 +46,7 @@ wine_has_libraries() {
 # windows_program COMPILER ARGUMENT...: it is built, run, and reports no failed check.
 windows_program() {
     "$@" "$unpacked/libmicroslip.dll.a" -o "$unpacked/program.exe" && wine "$unpacked/program.exe" > "$work/report" &&
-        tr -d '\r' < "$work/report" | tail -n 1 | grep -x '[1-9][0-9]* passed, 0 failed'
+        tr -d '\r' < "$work/report" | tail -n 1 | grep -x '[1-9][0-9]* passed, 0 failed' || { tail -n 5 "$work/report" && false; }
 }
 windows() {
     check 'Windows: the exported functions are those of the header' windows_exports
