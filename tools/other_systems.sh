@@ -45,8 +45,10 @@ wine_has_libraries() {
 }
 # windows_program COMPILER ARGUMENT...: it is built, run, and reports no failed check.
 windows_program() {
-    "$@" "$unpacked/libmicroslip.dll.a" -o "$unpacked/program.exe" && wine "$unpacked/program.exe" > "$work/report" &&
-        tr -d '\r' < "$work/report" | tail -n 1 | grep -x '[1-9][0-9]* passed, 0 failed' || { tail -n 5 "$work/report" && false; }
+    "$@" "$unpacked/libmicroslip.dll.a" -o "$unpacked/program.exe" || return
+    wine "$unpacked/program.exe" | tr -d '\r' | tail -n 5 > "$work/report"
+    cat "$work/report"
+    tail -n 1 "$work/report" | grep -qx '[1-9][0-9]* passed, 0 failed'
 }
 windows() {
     check 'Windows: the exported functions are those of the header' windows_exports
