@@ -118,7 +118,7 @@ static double run_harmonic(void *context)
     if (j->springs) {
         bank_harmonic_force(j);
     } else {
-        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, j->jacobian, NULL);
+        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, j->tangent_requested ? j->jacobian : NULL, NULL);
     }
     return j->force[1] + j->jacobian[1];
 }
@@ -220,15 +220,15 @@ static double *workspace_of(int harmonics, int samples)
     return workspace;
 }
 
-/* Errors are those against 16 springs and 16 times as many samples. One spring-slider: with the K' and K'' of the contact at this amplitude and the mean load. 64: with its stiffness and friction. */
-static void add_harmonic(const mslip_element *element, const mslip_element *fine, const mslip_contact *contact, int harmonics,
-                         double slip, double approach)
+/* The circle with varying load. */
+static job harmonic_job(const mslip_element *element, int harmonics, double slip, double approach)
 {
     job j = { .element = element, .harmonics = harmonics, .tangent_requested = 1, .normal_stiffness = element->normal_force / element->approach };
     const int c = 2 * harmonics + 1;
     j.rows = allocate(STEPS * sizeof *j.rows);
     j.bank = allocate(SPRINGS * sizeof *j.bank);
     j.jacobian = allocate(COLUMNS * COLUMNS * sizeof *j.jacobian);
+    j.workspace = workspace_of(harmonics, STEPS);
     for (int m = 0; m < 3; ++m) {
         double at[2][3];
         displacement_at(VARYING_LOAD, slip, approach, 0.0, at[0]);
@@ -245,12 +245,16 @@ static void add_harmonic(const mslip_element *element, const mslip_element *fine
             j.rows[i][2 * k] = sin(2.0 * PI * (k * i % STEPS) / STEPS);
         }
     }
-    job exact = j;
-    exact.element = fine;
+    return j;
+}
+
+/* Errors are those against 16 times as many samples. One spring-slider: with the K' and K'' of the contact at this amplitude and the mean load. 64: with its stiffness and friction. */
+static void add_harmonic(const mslip_element *element, const mslip_contact *contact, int harmonics, double slip, double approach)
+{
+    job j = harmonic_job(element, harmonics, slip, approach), exact = j;
     exact.workspace = workspace_of(harmonics, 16 * STEPS);
     run_harmonic(&exact);
     const size_t first = entry_count;
-    j.workspace = workspace_of(harmonics, STEPS);
     add("two directions harmonic", "microslip", run_harmonic, &j, VARYING_LOAD);
     require(mslip_jenkins_equivalent(contact, motions[VARYING_LOAD].u * slip, &j.stiffness, &j.friction));
     j.friction /= contact->slip_force / element->friction_coefficient;
@@ -262,27 +266,35 @@ static void add_harmonic(const mslip_element *element, const mslip_element *fine
         j.friction = element->friction_coefficient;
     }
     for (entry *e = entries + first; e < entries + entry_count; ++e) {
-        e->error = first_harmonic_error(((const job *)e->context)->force, exact.force, 2, c);
+        e->error = first_harmonic_error(((const job *)e->context)->force, exact.force, 2, 2 * harmonics + 1);
     }
 }
 
 void task_two_directions(const test_case *c, const extent *x)
 {
     (void)x;
-    static mslip_element element, fine;
+    static mslip_element of_springs[3];
     mslip_parameters p = c->parameters;
     p.normal_force *= 1.6; /* the largest load of the swing */
-    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &element));
-    p.springs = 16;
-    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &fine));
+    for (int k = 0; k < 3; ++k) {
+        p.springs = 8 + 4 * k;
+        require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, of_springs + k));
+    }
+    const mslip_element *element = of_springs + 2; /* the default */
     const double slip = c->contact.slip_displacement;
     double approach;
-    require(mslip_normal_approach(&element, 1, &c->parameters.normal_force, &approach, NULL, NULL));
+    require(mslip_normal_approach(element, 1, &c->parameters.normal_force, &approach, NULL, NULL));
     for (int motion = 0; motion < MOTIONS; ++motion) {
         const size_t first = entry_count, mark = memory_mark();
-        add_steps(&element, motion, slip, approach);
+        add_steps(element, motion, slip, approach);
         for (int h = 1; h <= 5 && motion == VARYING_LOAD; h += 4) {
-            add_harmonic(&element, &fine, &c->contact, h, slip, approach);
+            add_harmonic(element, &c->contact, h, slip, approach);
+            for (int k = 0; k < 3; ++k) {
+                job j = harmonic_job(of_springs + k, h, slip, approach);
+                for (j.tangent_requested = 0; j.tangent_requested <= 1; ++j.tangent_requested) {
+                    add("two directions springs", "microslip", run_harmonic, &j, 8 + 4 * k);
+                }
+            }
         }
         measure(first, c->shape, motions[motion].u, mark);
     }
