@@ -29,14 +29,14 @@ mod operators;
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::CYCLE_WEIGHTS;
-use crate::numerics::chebyshev::{Interpolant, MORE_AROUND_MIDDLE, Polynomial, TERMS};
+use crate::numerics::chebyshev::{Interpolant, MORE_AROUND_MIDDLE, MORE_FROM_END, Polynomial, TERMS};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
 use crate::shape::stick_zone::Complement;
 use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
-use operators::{FIRST, Functionals, INNER_TAYLOR, OPERATORS, Operators, POINTS, TAYLOR, TOP};
+use operators::{FAR_TERMS, FIRST, Functionals, INNER_TAYLOR, OPERATORS, Operators, POINTS, TAYLOR, TOP};
 
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
 /// one more.
@@ -70,7 +70,7 @@ pub(crate) struct StiffnessTable {
     /// K' and K'' over y = ξ/(2/5).
     inner: [Polynomial; 2],
     /// K' ξ^(3/2) over 1.6/ξ.
-    far: Polynomial,
+    far: Rows<{ FAR_TERMS / 4 }>,
     /// (8/π) G over z = 4 2ʲ u - 3.
     below: Pieces<ROWS_BELOW>,
     above: Pieces<ROWS_ABOVE>,
@@ -166,7 +166,7 @@ impl StiffnessTable {
         energy_slope_at_slip: 0.0,
         gross_slip_rate: 0.0,
         inner: [[[0.0; 4]; 5]; 2],
-        far: [[0.0; 4]; 5],
+        far: [[0.0; 4]; FAR_TERMS / 4],
         below: Pieces::NONE,
         above: Pieces::NONE,
         energy: Pieces::NONE,
@@ -564,7 +564,7 @@ impl StiffnessTable {
         self.energy_slope_at_slip = 4.0 / PI * (1.0 - contact.stiffness_at_slip() - decrease);
         self.gross_slip_rate = 4.0 / PI * slip_force;
 
-        let mut far = [0.0; TERMS];
+        let mut far = [0.0; FAR_TERMS];
         apply(&mut far, 1.0, &OPERATORS.far, &tangent);
         apply(&mut far, first.scale, &OPERATORS.far_first, &first.phi);
         let [second, ..] = others;
@@ -572,7 +572,9 @@ impl StiffnessTable {
         for (k, series) in OPERATORS.far_roots.iter().enumerate() {
             add(&mut far, sum(2, &|of| of.powers[0][k]), series);
         }
-        self.far = rows(&Interpolant::of(far.map(|term| 8.0 / PI * term)).powers_from_end());
+        let mut far_powers = [0.0; FAR_TERMS];
+        apply(&mut far_powers, 8.0 / PI, &MORE_FROM_END, &far);
+        self.far = rows(&far_powers);
 
         let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
         let (mut below, mut above, energy) =

@@ -49,6 +49,7 @@ static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
 pub(crate) static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
+pub(crate) static MORE_FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
 /// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
 static PER_TWICE: [f64; TERMS] = {
@@ -151,11 +152,6 @@ impl<const N: usize> Interpolant<N> {
             *slope -= *value * (f64::from(m) / N as f64);
             *value += *slope;
         }
-        Interpolant(coefficients)
-    }
-
-    /// Of given coefficients.
-    pub fn of(coefficients: [f64; N]) -> Interpolant<N> {
         Interpolant(coefficients)
     }
 

@@ -18,6 +18,8 @@ pub(super) const FIRST: usize = 32;
 pub(super) const POINTS: usize = 24;
 /// Largest e of the first piece.
 pub(super) const TOP: f64 = 0.6;
+/// Terms beyond the pieces of gross slip: the derivative of those that are left out is n² times as large.
+pub(super) const FAR_TERMS: usize = 24;
 /// Terms of a Taylor series in a ratio of at most 1/256.
 pub(super) const TAYLOR: usize = 7;
 /// The same for a contribution that is at most 256^(-3/2) of the whole.
@@ -75,11 +77,11 @@ pub(super) struct All {
     pub outer_root_moment: [f64; TERMS],
     /// Beyond the pieces of gross slip: coefficients over q/q_max, `q = 1/ξ`, of `∫ sqrt(1 - q x) φ dx` from the first polynomial, and
     /// from the first two pieces, in units of their scales.
-    pub far: Operator<TERMS, TERMS>,
-    pub far_first: Operator<FIRST, TERMS>,
-    pub far_second: Operator<POINTS, TERMS>,
+    pub far: Operator<TERMS, FAR_TERMS>,
+    pub far_first: Operator<FIRST, FAR_TERMS>,
+    pub far_second: Operator<POINTS, FAR_TERMS>,
     /// Coefficients of `sqrt(1-q)` and of `q/(2 sqrt(1-q))`: the same of all others, by the first two moments.
-    pub far_roots: Operator<2, TERMS>,
+    pub far_roots: Operator<2, FAR_TERMS>,
 }
 
 /// The file holds what Rust prints for the value.

@@ -1,7 +1,7 @@
 //! How the operators are computed. Gauss-Legendre rules of 32 nodes are exact to rounding: where a root begins in a piece or next
 //! to it, its square root is the variable.
 
-use super::{All, FIRST, Functionals, OPERATORS, Operator, Operators, TOP};
+use super::{All, FAR_TERMS, FIRST, Functionals, OPERATORS, Operator, Operators, TOP};
 use crate::numerics::chebyshev::{Interpolant, TERMS};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use core::array::from_fn;
@@ -323,10 +323,10 @@ fn outer_operator(sign: f64) -> Operator<TERMS, FIRST> {
 }
 
 /// Beyond the pieces of gross slip, from the first polynomial.
-fn far_operator() -> Operator<TERMS, TERMS> {
-    let mut rows = [[0.0; TERMS]; TERMS];
+fn far_operator() -> Operator<TERMS, FAR_TERMS> {
+    let mut rows = [[0.0; TERMS]; FAR_TERMS];
     let mut row = 0;
-    while row < TERMS {
+    while row < FAR_TERMS {
         let q = far_at(row);
         let mut functional = Functional::<TERMS>::ZERO;
         let mut node = 0;
@@ -345,10 +345,10 @@ fn far_operator() -> Operator<TERMS, TERMS> {
 }
 
 /// For all pieces but the first two.
-fn far_roots() -> Operator<2, TERMS> {
-    let mut rows = [[0.0; 2]; TERMS];
+fn far_roots() -> Operator<2, FAR_TERMS> {
+    let mut rows = [[0.0; 2]; FAR_TERMS];
     let mut row = 0;
-    while row < TERMS {
+    while row < FAR_TERMS {
         let q = far_at(row);
         let root = square_root(1.0 - q);
         rows[row] = [root, 0.5 * q / root];
@@ -359,13 +359,13 @@ fn far_roots() -> Operator<2, TERMS> {
 
 /// q at a row point.
 fn far_at(row: usize) -> f64 {
-    0.5 * (1.0 + Interpolant::<TERMS>::POINTS[row]) / (1.0 + TOP)
+    0.5 * (1.0 + Interpolant::<FAR_TERMS>::POINTS[row]) / (1.0 + TOP)
 }
 
-fn far<const N: usize>(scale: f64) -> Operator<N, TERMS> {
-    let mut rows = [[0.0; N]; TERMS];
+fn far<const N: usize>(scale: f64) -> Operator<N, FAR_TERMS> {
+    let mut rows = [[0.0; N]; FAR_TERMS];
     let mut row = 0;
-    while row < TERMS {
+    while row < FAR_TERMS {
         let q = far_at(row);
         let mut functional = Functional::<N>::ZERO;
         let mut node = 0;
