@@ -206,7 +206,7 @@ FUNCTION(int32_t, mslip_batch_element_harmonic_force, (size_t n, size_t n_elemen
 
 LENGTH(mslip_state_length(0), 11)
 LENGTH(mslip_state_length(16), 53)
-LENGTH(mslip_stiffness_table_length(), 527)
+LENGTH(mslip_stiffness_table_length(), 531)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_UNIFORM_SAMPLING), 12084)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_EVENT_DRIVEN), 2516)
 LENGTH(mslip_element_state_length(1, 0), 28)
