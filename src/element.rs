@@ -790,7 +790,7 @@ impl Element {
         match self.load_of_shift.position(shift) {
             Some(at) => {
                 let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
-                middle + self.load_of_shift.integral_from_middle(shift, at)
+                middle + self.load_of_shift.integral_from_middle(at)
             }
             None => self.potential_outside(shift),
         }

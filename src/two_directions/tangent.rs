@@ -610,7 +610,8 @@ fn slide<const N: usize, const C: usize>(
         for k in 0..2 {
             let mut row = q[k][t];
             for m in first..=last {
-                let known = slip.contains(m) || (n + 1..slip.count.min(N)).any(|later| slip.points[later] == m);
+                let known =
+                    slip.contains(m) || slip.points.iter().take(slip.count).skip(n + 1).any(|later| *later == m);
                 if known {
                     put(&mut row, -slip.square[k][t][m], &q[k][m]);
                 }
