@@ -92,7 +92,7 @@ fn bounds_of_dissipation(history: &History) -> [f64; 2] {
     }
 }
 
-/// The work does not depend on what slips within a step: its errors are those of the mesh, as those of the losses under a constant load.
+/// The work does not depend on what slips within a step: its errors are those of the mesh, as of the losses under a constant load.
 fn bounds_of_work(history: &History) -> [f64; 2] {
     match history.name {
         "roundedflat_constN" => [0.5, 1.5],
