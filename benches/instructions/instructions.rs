@@ -12,7 +12,7 @@ use std::mem::MaybeUninit;
 use std::ptr::{self, null_mut};
 
 /// The first count is below this ratio times the second, and why.
-const RELATIONS: [(&str, f64, &str, &str); 42] = [
+const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
@@ -453,7 +453,7 @@ fn instructions(output: &str, name: &str) -> f64 {
 fn check_relations() {
     let output = std::env::var("GUNGRAUN_HOME").expect("the output directory, set by run.sh");
     let (mut report, mut failed) = (String::new(), 0);
-    for (smaller, bound, larger, reason) in RELATIONS {
+    for &(smaller, bound, larger, reason) in RELATIONS {
         let ratio = instructions(&output, smaller) / instructions(&output, larger);
         let holds = ratio < bound;
         failed += usize::from(!holds);
