@@ -206,8 +206,8 @@ static const char *ratios(const char *task, const char *const *methods, double p
 
 static void write_harmonic_table(FILE *file)
 {
-    fputs("\nTime of the harmonic force by uniform sampling over that of one spring-slider, the faster of two methods: median over shapes "
-          "and amplitudes, in\nbrackets the largest.\n\n"
+    fputs("\nTime of the harmonic force by uniform sampling over that of one spring-slider, the faster of two methods: median over "
+          "shapes\nand amplitudes, in brackets the largest.\n\n"
           "| motion | force, 64 samples | 128 | 256 | with Jacobian, 64 | 128 | 256 |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
     static const char *const tasks[] = { "odd motion", "general motion" };
     static const char *const methods[] = { "spring-slider", "spring-slider by reversals", NULL };
@@ -227,7 +227,7 @@ static void write_harmonic_table(FILE *file)
 static void write_element_table(FILE *file)
 {
     fputs("\nTime of an element under a varying normal force over that of one spring-slider with a varying limit: median over the "
-          "shapes, in brackets the largest.\nH = 1, 5, 9 with 64, 128, 256 samples.\n\n"
+          "shapes,\nin brackets the largest. H = 1, 5, 9 with 64, 128, 256 samples.\n\n"
           "| motion | force, H = 1 | H = 5 | H = 9 | with Jacobian, H = 1 | H = 5 | H = 9 | step |\n"
           "|---|---:|---:|---:|---:|---:|---:|---:|\n", file);
     static const char *const methods[][2] = { { "spring-slider", NULL }, { "spring-slider, folded transforms", NULL } };
@@ -283,8 +283,8 @@ static void write_step_tables(FILE *file)
         "mslip_batch_masing_update", "logarithm", "mslip_batch_element_update", "spring-slider, one step" };
     enum { CONTACT_STEP = 2, LOGARITHM, ELEMENT_STEP, METHODS = 6 };
     double least[METHODS] = { 0.0 }, largest[METHODS] = { 0.0 };
-    fputs("\nOne item of a batch, a/b = 0.3, at 0.7 of gross slip: contacts of 64 different loads, and elements of one kind (harmonic "
-          "force and Jacobian\nof one harmonic with 64 samples; a step of 16 in a period, with its stiffness):\n\n"
+    fputs("\nOne item of a batch, a/b = 0.3, at 0.7 of gross slip: contacts of 64 different loads, and elements of one kind "
+          "(harmonic\nforce and Jacobian of one harmonic with 64 samples; a step of 16 in a period, with its stiffness):\n\n"
           "| items | complex stiffness | harmonic force | step | step over one logarithm | step of an element | step of one "
           "spring-slider |\n|---:|---:|---:|---:|---:|---:|---:|\n", file);
     for (double n = 100.0; n <= 1e6; n *= 10.0) {
@@ -309,8 +309,8 @@ static void write_step_tables(FILE *file)
 
 static void write_stiffness_table(FILE *file)
 {
-    fputs("\nComplex stiffness with derivatives, over one logarithm: mean and worst of 200 amplitudes spaced uniformly up to twice the "
-          "displacement of gross slip,\nand worst of 30 that approach it from both sides. The table of a shape is made once.\n\n"
+    fputs("\nComplex stiffness with derivatives, over one logarithm: mean and worst of 200 amplitudes spaced uniformly up to twice "
+          "the\ndisplacement of gross slip, and worst of 30 that approach it from both sides. The table of a shape is made once.\n\n"
           "| a/b | single calls | worst | near gross slip | tabulated | worst | near gross slip | table |\n"
           "|---:|---:|---:|---:|---:|---:|---:|---:|\n", file);
     for (const entry *e = entries; e < entries + entry_count; ++e) {
@@ -333,7 +333,7 @@ static void write_stiffness_table(FILE *file)
 static void write_two_directions_tables(FILE *file)
 {
     fputs("\nA step of an element with two tangential directions, a/b = 0.3, of 64 in a period: mean over the second period, and the "
-          "slowest step.\nAmplitudes over the slip displacement of the mean load.\n\n"
+          "slowest\nstep. Amplitudes over the slip displacement of the mean load.\n\n"
           "| motion | amplitude | force | slowest | with tangent | slowest |\n|---|---:|---:|---:|---:|---:|\n", file);
     for (int motion = 0; two_directions_motion(motion); ++motion) {
         double amplitude = -1.0, mean[2] = { -1.0, -1.0 }, slowest[2] = { -1.0, -1.0 };
@@ -349,7 +349,7 @@ static void write_two_directions_tables(FILE *file)
                     text_of(slowest[0]), text_of(mean[1]), text_of(slowest[1]));
         }
     }
-    fputs("\nHarmonic force and Jacobian of two tangential directions on the circle with varying load, 64 samples, and ratios to "
+    fputs("\nHarmonic force and Jacobian of two tangential directions on the circle with varying load, 64 samples, and ratios to\n"
           "spring-sliders in the plane:\n\n"
           "| H | microslip | one spring-slider | 64 spring-sliders | over one | over 64 |\n|---:|---:|---:|---:|---:|---:|\n", file);
     for (int h = 1; h <= 5; h += 4) {
@@ -368,13 +368,15 @@ static void write_two_directions_tables(FILE *file)
 
 static void write_springs_table(FILE *file)
 {
-    fputs("\nThe same by the number of springs of the parameters:\n\n| springs | force, H = 1 | with Jacobian | force, H = 5 | with Jacobian |\n"
+    fputs("\nThe same by the number of springs of the parameters:\n\n"
+          "| springs | force, H = 1 | with Jacobian | force, H = 5 | with Jacobian |\n"
           "|---:|---:|---:|---:|---:|\n", file);
     for (int springs = 8; springs <= 16; springs += 4) {
         fprintf(file, "| %d |", springs);
         for (int k = 0; k < 4; ++k) {
             for (const entry *e = entries; e < entries + entry_count; ++e) {
-                if (!strcmp(e->task, "two directions springs") && e->parameter == springs && e->harmonics == (k < 2 ? 1 : 5) && e->jacobian == k % 2) {
+                if (!strcmp(e->task, "two directions springs") && e->parameter == springs && e->harmonics == (k < 2 ? 1 : 5)
+                    && e->jacobian == k % 2) {
                     fprintf(file, " %s |", text_of(e->median));
                 }
             }
@@ -389,7 +391,8 @@ static void newton_row(FILE *file, const char *contact, const char *task, double
     sample own = { .n = 0 }, one = { .n = 0 };
     double error = 0.0, error_of_one = 0.0;
     for (const entry *e = entries; e < entries + entry_count; ++e) {
-        if (strcmp(e->task, task) || e->parameter != parameter || e->harmonics != harmonics || e->samples != samples || !e->jacobian) {
+        if (strcmp(e->task, task) || e->parameter != parameter || e->harmonics != harmonics || e->samples != samples
+            || !e->jacobian) {
             continue;
         }
         if (!strcmp(e->method, "microslip")) {
@@ -411,7 +414,7 @@ static void newton_row(FILE *file, const char *contact, const char *task, double
 static void write_newton_table(FILE *file)
 {
     fputs("What a contact costs in an iteration of Newton's method (harmonic force and Jacobian), and the spring-slider that it "
-          "replaces; largest errors of the\nfirst harmonic from sampling:\n\n"
+          "replaces; largest\nerrors of the first harmonic from sampling:\n\n"
           "| contact | microslip | error | one spring-slider | error | ratio of times |\n|---|---:|---:|---:|---:|---:|\n", file);
     static const struct { const char *name, *task; double parameter; int most; } contacts[] = {
         { "constant load", "harmonic", -1.0, 9 }, { "varying load", "element", 0.0, 9 },

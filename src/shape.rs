@@ -93,10 +93,12 @@ pub(crate) struct Plane<'a> {
 }
 
 impl Plane<'_> {
-    /// S in a direction.
-    pub fn shift(&self, k: usize, w: f64) -> f64 {
-        let load = self.shape.load(w);
-        self.per_approach[k] * self.shape.approach(w) + self.per_load[k] * load + self.layer.shift(load)
+    /// N, and S in both directions.
+    pub fn load_and_shifts(&self, w: f64) -> [f64; 3] {
+        let (load, approach) = (self.shape.load(w), self.shape.approach(w));
+        let layer = self.layer.shift(load);
+        let shift = |k: usize| self.per_approach[k] * approach + self.per_load[k] * load + layer;
+        [load, shift(0), shift(1)]
     }
 
     /// K_t in a direction of a flat punch of the half-width s below that of the flat: a load of 0.

@@ -117,7 +117,8 @@ impl Units {
     pub fn of(element: &Element, load: f64) -> Units {
         let plane = element.plane();
         let size = plane.shape.at_load(load.max(LEAST_REFERENCE * element.normal_force));
-        Units { load: plane.shape.load(size), shift: plane.shift(0, size), size }
+        let [load, shift, _] = plane.load_and_shifts(size);
+        Units { load, shift, size }
     }
 
     /// w² under a load > 0.
@@ -309,7 +310,8 @@ pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, referen
         if w >= plane.largest * reference {
             return [NEVER; 3];
         }
-        [plane.shape.load(w) / units.load, plane.shift(0, w) / units.shift, plane.shift(1, w) / units.shift]
+        let [load, x, y] = plane.load_and_shifts(w);
+        [load / units.load, x / units.shift, y / units.shift]
     };
     let mut width = [flat; MOST];
     let mut position = [0.0; MOST];
