@@ -81,7 +81,9 @@ impl Tally {
         {
             let low = around.iter().fold(exact.clone(), |low, one| low.min(one));
             let high = around.iter().fold(exact.clone(), |high, one| high.max(one));
-            let slack = scale.abs().max(&low.abs()).max(&high.abs()) * (k * EPSILON);
+            // Results of neighbours have the error that is promised here.
+            let promised = if condition <= 1e12 { 1.0 + condition } else { 1.0 };
+            let slack = scale.abs().max(&low.abs()).max(&high.abs()) * (k * EPSILON * promised);
             let value = Real::new(exact.bits(), got);
             cell.between += 1;
             if (value >= &low - &slack && value <= high + slack) || (ratio <= k && condition.is_finite()) {
