@@ -94,8 +94,8 @@ impl RoundedFlatZones {
 
     /// The stick zone at a remaining shift, from one close to it; its contact, and the inverse of the remaining shift close to it.
     ///
-    /// The iteration raises an error to its fourth power. The last step is an expansion in which third powers of 2e-5, over the
-    /// square of the compliance if that is small, are below rounding.
+    /// The iteration raises an error to its fourth power. The last step is an expansion in which fourth powers of 2e-5, over the
+    /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/dw = 4 w ψ`, are included.
     fn refine_shift_remaining(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
         let mut punch = start;
         let mut iterations_left = 8;
@@ -110,11 +110,12 @@ impl RoundedFlatZones {
             let step = inverse.step(remaining);
             iterations_left -= 1;
             if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
-                let gap = remaining - now.shift.remaining;
                 // Relative change of c², and -½ ln(1 + change).
                 let change = step * (2.0 * w + step) / c2;
                 let increase = -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0)));
-                let load = now.load.remaining + gap / compliance * (1.0 - 0.5 * increase / compliance);
+                let per_size = self.flat / c2;
+                let square = 2.0 * (punch.psi + w * per_size) + step * (4.0 / 3.0) * self.flat * per_size * per_size;
+                let load = now.load.remaining + step * (4.0 * w * punch.psi + step * square) / self.load.max(TINY);
                 let zone = StickZone {
                     load: Complement { consumed: 1.0 - load, remaining: load },
                     shift: Complement { consumed: self.slip_shift - remaining, remaining },
