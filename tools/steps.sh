@@ -3,6 +3,9 @@
 
 : "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}"
 export CARGO CC CXX FC
+# The seed of all random tests.
+: "${MICROSLIP_SEED:=1}"
+export MICROSLIP_SEED
 unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that runs the script, not of those that it runs
 
 work=$(mktemp -d)
@@ -37,7 +40,11 @@ step() {
     if [ "$bad" -eq 0 ]; then
         printf '%-72s %s passed, %s s\n' "$step" "$good" "$seconds"
     else
-        { printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"; sed 's/^/    /' "$log"; } > "$log.report"
+        {
+            printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"
+            sed 's/^/    /' "$log"
+            echo "    again: MICROSLIP_SEED=$MICROSLIP_SEED $*"
+        } > "$log.report"
         cat "$log.report"
     fi
 }
