@@ -122,6 +122,30 @@ fn valid_arguments() {
     }
 }
 
+/// The results at several points are those at each alone.
+#[test]
+fn points_are_independent() {
+    for_each_call(|call, law| {
+        let of_points = |place: &usize| call.arguments[*place].extents == "n";
+        let (Some(count), false) = (call.place(Count), call.has(State) || !call.has(Input)) else { return };
+        let arrays: Vec<usize> = places(call, Input).chain(places(call, Output)).collect();
+        if call.has(Index) || !arrays.iter().all(of_points) {
+            return;
+        }
+        let all = Arguments::new(call, law, Before::Filled);
+        assert_eq!((call.function)(&all.slots), MSLIP_OK, "{}", call.name);
+        let expected = results(call, &all);
+        for i in 0..calls::N {
+            let mut slots = all.slots.clone();
+            slots[count] = Slot::Size(1);
+            let one = |place: usize| Slot::Pointer(all.memory(place).start.wrapping_add(8 * i));
+            arrays.iter().for_each(|place| slots[*place] = one(*place));
+            assert_eq!((call.function)(&slots), MSLIP_OK, "{}", call.name);
+        }
+        assert_eq!(results(call, &all), expected, "{}", call.name);
+    });
+}
+
 /// The check functions accept what was initialised.
 fn check_initialised(call: &Call, arguments: &Arguments) {
     let status = |place: usize| unsafe {
@@ -194,6 +218,9 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
             let words = vec![0x7777_7777_7777_7777; length];
             rejected_with(call, arguments, array, &words, argument.status);
         }
+        // NULL of no length is NULL.
+        arguments.slots[place] = Slot::Size(0);
+        rejected(call, arguments, array, Slot::Pointer(null_mut()), MSLIP_NULL_POINTER);
         arguments.slots[place] = Slot::Size(valid);
     }
 }
