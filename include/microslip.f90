@@ -338,9 +338,9 @@ module microslip
 
   interface mslip_element_displacement
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or, with two directions, 1 (y), and the
-    !! compliance [m/N] there. At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without
-    !! friction and without a normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     module procedure element_displacement_array, element_displacement_scalar
   end interface mslip_element_displacement
   ! </generated>
@@ -1874,9 +1874,9 @@ contains
 
   subroutine element_displacement_array(element, direction, force, normal_force, status, displacement, compliance)
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or, with two directions, 1 (y), and the
-    !! compliance [m/N] there. At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without
-    !! friction and without a normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force(:)
@@ -1905,9 +1905,9 @@ contains
 
   subroutine element_displacement_scalar(element, direction, force, normal_force, status, displacement, compliance)
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or, with two directions, 1 (y), and the
-    !! compliance [m/N] there. At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without
-    !! friction and without a normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force

@@ -59,7 +59,7 @@ found() {
 }
 
 [ "${1-}" != --install ] || { CI=true && shift; }
-[ $# -gt 0 ] || { echo "usage: $0 [--install] demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|octave|parallel|python..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: $0 [--install] GROUP... (demo, test, check, ...: see the table)" >&2; exit 2; }
 missing=$(
     echo "$table" | while IFS=: read -r head probe; do
         package=${head%% *}

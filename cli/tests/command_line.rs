@@ -893,7 +893,7 @@ fn errors_in_files_name_file_and_line() {
         (b"t,u\n0,1\n", "", "line 1: --column must select one of the 2 columns"),
         (b"0,.5e-6\n", "", "line 1: --column must select one of the 2 columns"),
         (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
-        (b"u,u [m]\n0,1\n", "--column u", "line 1: several columns are named u: --column must select one by its number"),
+        (b"u,u [m]\n0,1\n", "--column u", "line 1: several columns are named u: --column must"),
         (b"0,.1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
         (b"# c\n0,.1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
         (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units or --data-units)"),

@@ -171,9 +171,9 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// another sample, and the mean tangential force may depend on the start.
 ///
 /// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
-/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
-/// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With 1 period before
-/// the one that counts, the drift contains the first loading. A drift is not an error.
+/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one
+/// before, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With 1
+/// period before the one that counts, the drift contains the first loading. A drift is not an error.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

@@ -2,8 +2,8 @@
 
 use crate::cases::Case;
 use crate::equations::{Tractions, printed_load, printed_pressure, printed_relieved_traction};
-use crate::table::Table;
 use crate::swing;
+use crate::table::Table;
 use std::f64::consts::PI;
 
 /// L/b where the paper's captions give none.

@@ -1,5 +1,5 @@
-//! The error of a response in two directions against the number of periods before the one that counts: static shear along x is shaken
-//! out by a vibration along y, over many periods.
+//! The error of a response in two directions against the number of periods before the one that counts: static shear along x is
+//! shaken out by a vibration along y, over many periods.
 //!
 //! A mass on springs and a sphere under a constant normal force: harmonic balance of u and v with one harmonic, by Newton's method.
 
@@ -54,7 +54,8 @@ pub fn table() -> String {
     format!("| `periods` | amplitude | energy | drift |\n|---:|---:|---:|---:|\n{}", rows.collect::<String>())
 }
 
-/// Amplitude along y, energy and drift. The motion, u and v over the unit of displacement, is the first guess, and then the solution.
+/// Amplitude along y, energy and drift. The motion, u and v over the unit of displacement, is the first guess and then the
+/// solution.
 fn solve(element: &Element, load: [f64; 2], frequency: f64, periods: usize, motion: &mut Vector) -> [f64; 3] {
     let mut memory = vec![0.0; workspace_length(1, SAMPLES)];
     workspace_init(1, SAMPLES, periods, &mut memory).expect("allowed numbers");
