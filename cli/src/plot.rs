@@ -85,23 +85,14 @@ const TICK_DISTANCES: [f64; 2] = [55.0, 30.0];
 
 /// The first four colours also differ in grey.
 const DASHES: [Option<[f32; 2]>; 4] = [None, Some([14.0, 6.0]), Some([5.0, 4.0]), Some([2.0, 4.0])];
-const COLOURS: [[u8; 3]; 8] = [
-    [0, 0, 0],
-    [0, 90, 180],
-    [200, 70, 0],
-    [0, 140, 100],
-    [225, 150, 0],
-    [130, 50, 150],
-    [70, 170, 225],
-    [215, 90, 150],
-];
+const COLOURS: [u32; 8] = [0x000000, 0x005ab4, 0xc84600, 0x008c64, 0xe19600, 0x823296, 0x46aae1, 0xd75a96];
 const AXIS: Stroke = Stroke { colour: [0, 0, 0], width: 1.0, dash: None };
 const GRID: Stroke = Stroke { colour: [214, 214, 214], width: 1.0, dash: None };
 
 /// Each pair of a dash and a colour once in 32 numbers: after four lines the colours are shifted by one against the dashes.
 fn stroke(number: usize) -> Stroke {
-    let dash = DASHES[number % DASHES.len()];
-    Stroke { colour: COLOURS[(number + number / DASHES.len()) % COLOURS.len()], width: 2.0, dash }
+    let [_, colour @ ..] = COLOURS[(number + number / DASHES.len()) % COLOURS.len()].to_be_bytes();
+    Stroke { colour, width: 2.0, dash: DASHES[number % DASHES.len()] }
 }
 
 /// A panel, its axes, and the size of its graph.
@@ -453,6 +444,7 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
 
     fn picture(x: Axis, points: &[Point]) -> Picture {
         let lines = vec![Line { stroke: 0, name: String::new(), points: points.to_vec() }];
@@ -462,12 +454,8 @@ mod tests {
 
     #[test]
     fn no_two_lines_of_a_legend_look_alike() {
-        let mut seen = Vec::new();
-        for stroke in (0..MAX_NAMES).map(stroke) {
-            let look = (stroke.colour, stroke.dash);
-            assert!(!seen.contains(&look), "{look:?}");
-            seen.push(look);
-        }
+        let looks: HashSet<_> = (0..MAX_NAMES).map(|number| format!("{:?}", stroke(number))).collect();
+        assert_eq!(looks.len(), MAX_NAMES);
     }
 
     #[test]
