@@ -117,7 +117,7 @@ pub(crate) trait WorkspaceLayout: Sized {
     #[inline(always)]
     fn read(&[first, second, third]: &[f64; TAGS]) -> Result<Self, Error> {
         let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
-        let (Some(harmonics), Some(samples), Some(periods)) = counts else { return Err(Error::BadWorkspace) };
+        let (Some(harmonics), Some(samples), Some(periods @ 1..)) = counts else { return Err(Error::BadWorkspace) };
         Self::new(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)
     }
 
