@@ -83,19 +83,19 @@ uninstall:
 	@for file in $(files) $(shared) lib/libmicroslip.so; do rm -f "$(DESTDIR)$(PREFIX)/$$file"; done
 	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" "$(DESTDIR)$(PREFIX)/$(docdir)" 2>/dev/null || true
 
-## demo: run the Fortran examples and draw their figures
+## demo: run the Fortran examples and draw their figures (as root on Debian, installs missing packages)
 demo: demo-dependencies all
 	$(MAKE) -C fortran_examples demo PREFIX=../dist
 
 demo-dependencies:
-	@tools/dependencies.sh demo
+	@tools/dependencies.sh --install demo
 
 ## parallel: check that OpenMP threads and MPI ranks give the same bits for any number of them
 parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
-## test: the regular tests, in Rust, C, C++ and Fortran: some minutes
+## test: the regular tests, in Rust, C, C++ and Fortran: some minutes (as root on Debian, installs missing packages)
 test:
 	tools/test.sh
 
