@@ -587,16 +587,15 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         .map(|contact| forces(&format!("microslip loop {contact} --amplitude 1.4e-6")));
     // The friction force is 60 N.
     assert!(fitted.iter().zip(&measured).all(|(one, other)| (one - other).abs() < 1e-3), "{fitted:?}");
-    shell.check_error(
-        "microslip contact flat.toml --stiffening-load 0.1 --tangential-compliance 1e-9",
-        1,
-        "out of range",
-    );
-    shell.check_error(
-        "microslip contact flat.toml --normal-compliance=-1",
-        1,
-        "normal_compliance of a layer must be finite and >= 0, not -1",
-    );
+    for (option, error) in [
+        ("normal-compliance=-1", Error::BadNormalCompliance),
+        ("tangential-compliance=1e10", Error::BadTangentialCompliance),
+        ("stiffening-load=0.1", Error::BadStiffeningLoad),
+        ("reference-load=1e200", Error::BadReferenceLoad),
+    ] {
+        let (_, value) = option.split_once('=').unwrap();
+        shell.check_error(&format!("microslip contact flat.toml --{option}"), 1, &format!("{error}, not {value}"));
+    }
     let json: serde_json::Value = serde_json::from_str(&shell.read("new.json")).unwrap();
     assert_eq!(json["friction_coefficient"]["value"].as_f64(), Some(quantity(&table, "friction_coefficient").0));
 
