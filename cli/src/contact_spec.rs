@@ -54,7 +54,7 @@ pub struct ContactArgs {
     tangential_compliance: Option<f64>,
     /// Layer: N_c, its stiffness grows in proportion to N + N_c [default: 0, constant stiffness]
     #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
-    stiffening_load: Option<f64>,
+    pub stiffening_load: Option<f64>,
     /// Layer: the load under which its compliances hold, as measured [default: the normal force]
     #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
     reference_load: Option<f64>,
@@ -144,6 +144,32 @@ impl ContactSpec {
             ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
+    }
+}
+
+impl ContactSpec {
+    /// The element of the contact without its layer, by the normal force.
+    pub fn smooth_element(&self) -> Result<Element> {
+        let given = ContactArgs {
+            normal_compliance: None,
+            tangential_compliance: None,
+            reference_load: None,
+            ..self.given.clone()
+        };
+        ContactSpec { contact: self.contact, given, units: self.units }.element(Directions::One, NormalInput::Force)
+    }
+
+    /// Whether the library accepts a layer in the contact.
+    pub fn check_layer(&self, layer: &Layer) -> Result<()> {
+        let given = ContactArgs {
+            normal_compliance: Some(layer.normal_compliance),
+            tangential_compliance: Some(layer.tangential_compliance),
+            stiffening_load: Some(layer.stiffening_load),
+            reference_load: Some(layer.reference_load),
+            ..self.given.clone()
+        };
+        let spec = ContactSpec { contact: self.contact, given, units: self.units };
+        spec.element(Directions::One, NormalInput::Force).map(|_| ())
     }
 }
 
