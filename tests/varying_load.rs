@@ -285,6 +285,18 @@ fn loads_up_to_the_largest_for_the_length_are_exact() {
     }
 }
 
+/// In units in which the load is about 1e150: an element that is accepted takes its own load.
+#[test]
+fn the_load_of_the_parameters_is_accepted() {
+    for (normal_force, accepted) in [(0.99e150, true), (1.01e150, false), (4e150, false)] {
+        let (flat_half_width, edge_radius, length) = (1e49, 1e50, 1e50);
+        let material = [Material { young_modulus: 4e-100 * normal_force, poisson_ratio: 0.3 }; 2];
+        let parameters = Parameters { edge_radius, length, normal_force, material, ..parameters(flat_half_width) };
+        let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force);
+        assert_eq!(element.map(|element| element.check_normal_force(normal_force)).ok(), accepted.then_some(Ok(())));
+    }
+}
+
 #[test]
 fn tiny_loads_and_repeated_steps_are_regular() {
     for input in [NormalInput::Approach, NormalInput::Force] {
