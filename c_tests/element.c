@@ -37,13 +37,11 @@ static const double *with_layer(const double *v, int layered, double *row)
     return v + (layered ? MU : C_N) - CONTACT;
 }
 
-/* The layer of a row under another normal force. */
-static mslip_layer layer_of(const double *v, double normal_force)
+/* The layer of a row: its compliances are measured under N_layer. */
+static mslip_layer layer_of(const double *v)
 {
-    const double ratio = isfinite(v[N_C]) ? (v[N_LAYER] + v[N_C]) / (normal_force + v[N_C]) : 1.0;
-    const mslip_layer layer = { ratio * v[C_N], ratio * v[C_T], v[N_C] };
-    const mslip_layer none = { 0.0, 0.0, 0.0 };
-    return v[N_LAYER] > 0.0 ? layer : none;
+    const mslip_layer layer = { v[C_N], v[C_T], v[N_C], v[N_LAYER] };
+    return layer;
 }
 
 /* A history of the table. */
@@ -67,7 +65,7 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
         p.normal_force = normal_force > 0.0 ? normal_force : v[N_REF];
         p.friction_coefficient = mu;
         memcpy(p.material, material, sizeof material);
-        p.layer = layer_of(v, p.normal_force);
+        p.layer = layer_of(v);
         CHECK(mslip_element_init_elliptic(&p, 1, normal_input, element) == MSLIP_OK);
         return;
     }
@@ -80,10 +78,9 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
     p.normal_force = normal_force;
     p.friction_coefficient = mu;
     memcpy(p.material, material, sizeof material);
-    p.layer = layer_of(v, normal_force);
+    p.layer = layer_of(v);
     while ((status = mslip_element_init(&p, 1, normal_input, element)) == MSLIP_LENGTH_TOO_SHORT) {
         p.normal_force /= 4.0;
-        p.layer = layer_of(v, p.normal_force);
     }
     CHECK(status == MSLIP_OK && mslip_element_check(element) == MSLIP_OK);
 }
@@ -322,7 +319,7 @@ static void init_kind_of(int kind, double friction_coefficient, int32_t directio
     static const double flats[] = { 0.0, 6e-5, 5e-4 };
     if (kind == SPHERE) {
         const mslip_elliptic_parameters p = { 2e-4, 2e-4, 800.0, friction_coefficient, { { 2e11, 0.3 }, { 2e11, 0.3 } },
-                                              { 0.0, 0.0, 0.0 }, 0, 0 };
+                                              { 0.0, 0.0, 0.0, 0.0 }, 0, 0 };
         CHECK(mslip_element_init_elliptic(&p, directions, normal_input, element) == MSLIP_OK);
     } else {
         mslip_parameters p;

@@ -438,6 +438,50 @@ static void run_shortest(int environment, const mslip_parameters *shortest)
     }
 }
 
+/* Own states are valid, also with a layer of the smallest N_c: the loads of neighbouring knots differ by the error of the polynomials
+   of N(S), which is largest where two of them meet, at shifts S = 2^k (1 + q/4). The displacement of gross slip is mu S. */
+static void check_own_states(void)
+{
+    static double state[2000];
+    const size_t length = mslip_element_state_length(1, 200);
+    for (int share = 1; share <= 8; ++share) {
+        mslip_parameters p = flat_parameters();
+        mslip_element element;
+        double load = p.normal_force, force = p.friction_coefficient * load, slip, largest;
+        int exponent, invalid = 0;
+        CHECK(length <= LENGTH(state) && mslip_element_init(&p, 1, MSLIP_INPUT_NORMAL_FORCE, &element) == MSLIP_OK);
+        p.layer.normal_compliance = p.layer.tangential_compliance = share / element.tangential_stiffness;
+        p.layer.stiffening_load = 1e-3 * load;
+        CHECK(mslip_element_init(&p, 1, MSLIP_INPUT_NORMAL_FORCE, &element) == MSLIP_OK);
+        CHECK(mslip_element_displacement(&element, 0, 1, &force, &load, &largest, NULL) == MSLIP_OK);
+        (void)frexp(largest / p.friction_coefficient, &exponent);
+        /* In the largest octave, where N/N_c is largest. An edge beyond the load is at its end. */
+        for (int q = 0; q < 4; ++q) {
+            const double edge = p.friction_coefficient * ldexp(1.0 + 0.25 * q, exponent - 1);
+            double low = 0.0, high = p.normal_force;
+            for (int i = 0; i < 60; ++i) {
+                load = 0.5 * (low + high);
+                force = p.friction_coefficient * load;
+                CHECK(mslip_element_displacement(&element, 0, 1, &force, &load, &slip, NULL) == MSLIP_OK);
+                *(slip < edge ? &low : &high) = load;
+            }
+            double input[2] = { 0.0, 0.0 };
+            for (int step = 0; step < 800; ++step) {
+                input[0] += edge * pow(10.0, -8.0 - 0.1 * (rand() % 60)) * (rand() % 2 ? 1.0 : -1.0);
+                input[1] *= 1.0 + 1e-11 * (rand() % 10);
+                if (step % 20 == 0) {
+                    input[0] = 0.0;
+                    input[1] = high * (1.0 + 1e-9 * step / 20);
+                    mslip_element_state_init(1, length, state);
+                }
+                mslip_element_update(&element, length, state, input, state, NULL, NULL, NULL);
+                invalid += mslip_element_state_check(1, length, state) != MSLIP_OK;
+            }
+        }
+        if (!CHECK(invalid == 0)) printf("    layer of share %d: %d\n", share, invalid);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const int traps = check_arguments(argc, argv) > 1;
@@ -455,6 +499,7 @@ int main(int argc, char **argv)
         enter(environment);
         run(environment, statuses[1], values[1]);
         reject(environment);
+        check_own_states();
         for (int i = 0; i < SHORTEST; ++i) {
             run_shortest(environment, &shortest[i]);
         }

@@ -419,7 +419,8 @@ STATUS(MSLIP_BAD_EDGE_RADIUS, 3,
 STATUS(MSLIP_BAD_LENGTH, 4,
     "length must be finite and > 0")
 STATUS(MSLIP_BAD_NORMAL_FORCE, 5,
-    "normal_force must be finite and >= 0, that of an element > 0")
+    "normal_force must be finite and >= 0, in the parameters of an element > 0; so must each step and sample of a given "
+    "normal force")
 STATUS(MSLIP_BAD_FRICTION_COEFFICIENT, 6,
     "friction_coefficient must be finite and >= 0")
 STATUS(MSLIP_BAD_YOUNG_MODULUS, 7,
@@ -440,11 +441,16 @@ STATUS(MSLIP_OUT_OF_RANGE, 13,
 STATUS(MSLIP_BAD_SPRINGS, 14,
     "springs must be 0, 8, 12 or 16")
 STATUS(MSLIP_BAD_NORMAL_COMPLIANCE, 15,
-    "normal_compliance of a layer must be finite and >= 0")
+    "normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and "
+    "0 or 1e-150 .. 1e150")
 STATUS(MSLIP_BAD_TANGENTIAL_COMPLIANCE, 16,
-    "tangential_compliance of a layer must be finite and >= 0")
+    "tangential_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact "
+    "and 0 or 1e-150 .. 1e150")
 STATUS(MSLIP_BAD_STIFFENING_LOAD, 17,
-    "stiffening_load of a layer must be >= 0, or infinite")
+    "stiffening_load of a layer must be 0, infinite, or at least 1e-3 of normal_force")
+STATUS(MSLIP_BAD_REFERENCE_LOAD, 18,
+    "reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may be at "
+    "most 2^40 times those under this load")
 STATUS(MSLIP_BAD_CONTACT, 20,
     "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library")
 STATUS(MSLIP_BAD_STATE, 21,
@@ -491,8 +497,11 @@ STATUS(MSLIP_BAD_NORMAL_INPUT, 43,
     "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE")
 STATUS(MSLIP_BAD_PERIODS, 44,
     "the number of periods before the one that counts must be at most 65536")
+STATUS(MSLIP_BAD_COEFFICIENTS, 45,
+    "a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)")
 STATUS(MSLIP_BAD_ARRAY_SIZE, 90,
-    "array sizes do not agree (in Fortran), or an array is too long to be addressed")
+    "the shape of an optional argument, a state or a second input does not agree with that of the first input (in Fortran), "
+    "or an array is too long to be addressed")
 STATUS(MSLIP_BAD_ALIGNMENT, 91,
     "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment")
 #undef STATUS

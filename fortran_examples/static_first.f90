@@ -30,7 +30,7 @@ program static_first
   p%friction_coefficient = 0.5_wp
   p%material = mslip_material(2e11_wp, 0.3_wp)
   p%displacement_reference = MSLIP_RIGID_STRIP
-  p%layer = mslip_layer(1e-9_wp, 1e-9_wp, 100.0_wp)
+  p%layer = mslip_layer(1e-9_wp, 1e-9_wp, 100.0_wp, 2*normal_force)
   call mslip_element_init(p, 1_mslip_int, MSLIP_INPUT_APPROACH, element, status)
   call check
   allocate (workspace(mslip_element_workspace_length(1_mslip_int, harmonics, samples)))

@@ -112,7 +112,8 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_EDGE_RADIUS = 3  !! edge_radius must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_LENGTH = 4  !! length must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_FORCE = 5
-    !! normal_force must be finite and >= 0, that of an element > 0
+    !! normal_force must be finite and >= 0, in the parameters of an element > 0; so must each step and sample of a
+    !! given normal force
   integer(mslip_int), parameter, public :: MSLIP_BAD_FRICTION_COEFFICIENT = 6  !! friction_coefficient must be finite and >= 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! each young_modulus must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! each poisson_ratio must be between 0 and 0.5
@@ -126,10 +127,17 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
   integer(mslip_int), parameter, public :: MSLIP_BAD_SPRINGS = 14  !! springs must be 0, 8, 12 or 16
-  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 15  !! normal_compliance of a layer must be finite and >= 0
+  integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 15
+    !! normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the
+    !! contact and 0 or 1e-150 .. 1e150
   integer(mslip_int), parameter, public :: MSLIP_BAD_TANGENTIAL_COMPLIANCE = 16
-    !! tangential_compliance of a layer must be finite and >= 0
-  integer(mslip_int), parameter, public :: MSLIP_BAD_STIFFENING_LOAD = 17  !! stiffening_load of a layer must be >= 0, or infinite
+    !! tangential_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the
+    !! contact and 0 or 1e-150 .. 1e150
+  integer(mslip_int), parameter, public :: MSLIP_BAD_STIFFENING_LOAD = 17
+    !! stiffening_load of a layer must be 0, infinite, or at least 1e-3 of normal_force
+  integer(mslip_int), parameter, public :: MSLIP_BAD_REFERENCE_LOAD = 18
+    !! reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may
+    !! be at most 2^40 times those under this load
   integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
     !! invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
@@ -168,11 +176,15 @@ module microslip
     !! normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
   integer(mslip_int), parameter, public :: MSLIP_BAD_PERIODS = 44
     !! the number of periods before the one that counts must be at most 65536
+  integer(mslip_int), parameter, public :: MSLIP_BAD_COEFFICIENTS = 45
+    !! a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in
+    !! Fortran)
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
-    !! array sizes do not agree (in Fortran), or an array is too long to be addressed
+    !! the shape of an optional argument, a state or a second input does not agree with that of the first input (in
+    !! Fortran), or an array is too long to be addressed
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
     !! misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
-  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 4
+  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 5
     !! Version of this interface: incremented whenever a name, a meaning or a size changes.
   integer(mslip_int), parameter, public :: MSLIP_CENTRE_POINT = 0
     !! Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
@@ -197,8 +209,8 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BY_COMPOSITE_MODULUS = 6
     !! Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
   integer(mslip_int), parameter, public :: MSLIP_BY_LAYER_COMPLIANCE = 7
-    !! Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is
-    !! added.
+    !! Derivative with respect to the tangential compliance of the layer under its reference load; without a layer, with
+    !! respect to one that is added.
   integer(mslip_int), parameter, public :: MSLIP_PARAMETER_COUNT = 7  !! Number of parameters: rows of a sensitivity.
   integer(mslip_int), parameter, public :: MSLIP_OK = 0  !! Success.
   ! </generated>
@@ -216,10 +228,12 @@ module microslip
     !! A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the
     !! forces of the contact.
     real(mslip_real) :: normal_compliance = 0
-      !! Compliance c_n >= 0 under the normal force of the parameters [m/N]; 0: none. Not used under a constant normal force.
-    real(mslip_real) :: tangential_compliance = 0  !! Compliance c_t >= 0 under that force [m/N]; 0: none.
+      !! Compliance c_n >= 0 under the reference load [m/N]; 0: none. Not used under a constant normal force.
+    real(mslip_real) :: tangential_compliance = 0  !! Compliance c_t >= 0 under the reference load [m/N]; 0: none.
     real(mslip_real) :: stiffening_load = 0
-      !! N_c [N], at least 1e-3 of that force: the stiffness grows in proportion to N + N_c; 0 or infinite: constant stiffness.
+      !! N_c [N], at least 1e-3 of normal_force: the stiffness grows in proportion to N + N_c; 0 or infinite: constant stiffness.
+    real(mslip_real) :: reference_load = 0
+      !! N_r [N]: the load under which the compliances were measured; 0: normal_force. Under N they are c (N_r + N_c)/(N + N_c).
   end type mslip_layer
 
   type, bind(c), public :: mslip_parameters
@@ -1115,8 +1129,9 @@ contains
     !!
     !! Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative
     !! with respect to the edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E*
-    !! semi_axis_x^3/(3 N): of a sphere, its radius. Those with respect to a and L are 0. The compliances of a layer,
-    !! which are those under N, and its stiffening load stay fixed.
+    !! semi_axis_x^3/(3 N): of a sphere, its radius. Those with respect to a and L are 0. A layer is the same body under
+    !! any N: its compliance under the reference load, and both its loads, stay fixed. A reference_load of 0 stays at
+    !! the N of the contact.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacements [m]; magnitudes are at most 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
@@ -1551,9 +1566,9 @@ contains
     call count_coefficients(workspace, k, status)
     if (status /= MSLIP_OK) return
     ptr = c_null_ptr
-    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_ARRAY_SIZE
     if (present(force)) call check_array(force, k, ptr(1), status)
     if (present(jacobian)) call check_array(jacobian, [k, k], ptr(2), status)
+    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_harmonic_force(contact, address_of(workspace), displacement, ptr(1), ptr(2), &
       address_of(dissipated))
   end subroutine mslip_harmonic_force
@@ -1581,10 +1596,10 @@ contains
     call count_coefficients(workspace, k, status)
     if (status /= MSLIP_OK) return
     ptr = c_null_ptr
-    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_ARRAY_SIZE
     if (present(force)) call check_array(force, k, ptr(1), status)
     if (present(sensitivity)) call check_array(sensitivity, [k, int(MSLIP_PARAMETER_COUNT, mslip_size)], ptr(2), &
       status)
+    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_harmonic_sensitivity(contact, address_of(workspace), displacement, ptr(1), &
       ptr(2))
   end subroutine mslip_harmonic_sensitivity
@@ -1729,11 +1744,11 @@ contains
     n = size(displacement, 2, mslip_size)
     ptr = c_null_ptr
     call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
-    if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_ARRAY_SIZE
     if (present(active)) call check_array(active, n, ptr(2), status)
     if (present(force)) call check_array(force, [k, n], ptr(3), status)
     if (present(jacobian)) call check_array(jacobian, [k, k, n], ptr(4), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
+    if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_batch_harmonic_force(n, size(contacts, kind=mslip_size), contacts, ptr(1), &
       ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
   end subroutine mslip_batch_harmonic_force
@@ -2205,9 +2220,9 @@ contains
     call count_element_coefficients(workspace, k, status)
     if (status /= MSLIP_OK) return
     ptr = c_null_ptr
-    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_ARRAY_SIZE
     if (present(force)) call check_array(force, k, ptr(1), status)
     if (present(jacobian)) call check_array(jacobian, [k, k], ptr(2), status)
+    if (size(displacement, kind=mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_element_harmonic_force(element, address_of(workspace), displacement, ptr(1), &
       ptr(2), address_of(dissipated), address_of(drift))
   end subroutine mslip_element_harmonic_force
@@ -2337,12 +2352,12 @@ contains
     n = size(displacement, 2, mslip_size)
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
-    if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_ARRAY_SIZE
     if (present(active)) call check_array(active, n, ptr(2), status)
     if (present(force)) call check_array(force, [k, n], ptr(3), status)
     if (present(jacobian)) call check_array(jacobian, [k, k, n], ptr(4), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
     if (present(drift)) call check_array(drift, n, ptr(6), status)
+    if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_batch_element_harmonic_force(n, size(elements, kind=mslip_size), elements, &
       ptr(1), ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
   end subroutine mslip_batch_element_harmonic_force

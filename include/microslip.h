@@ -46,7 +46,7 @@
 // length must be finite and > 0
 #define MSLIP_BAD_LENGTH 4
 
-// normal_force must be finite and >= 0, that of an element > 0
+// normal_force must be finite and >= 0, in the parameters of an element > 0; so must each step and sample of a given normal force
 #define MSLIP_BAD_NORMAL_FORCE 5
 
 // friction_coefficient must be finite and >= 0
@@ -76,14 +76,17 @@
 // springs must be 0, 8, 12 or 16
 #define MSLIP_BAD_SPRINGS 14
 
-// normal_compliance of a layer must be finite and >= 0
+// normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150
 #define MSLIP_BAD_NORMAL_COMPLIANCE 15
 
-// tangential_compliance of a layer must be finite and >= 0
+// tangential_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150
 #define MSLIP_BAD_TANGENTIAL_COMPLIANCE 16
 
-// stiffening_load of a layer must be >= 0, or infinite
+// stiffening_load of a layer must be 0, infinite, or at least 1e-3 of normal_force
 #define MSLIP_BAD_STIFFENING_LOAD 17
+
+// reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may be at most 2^40 times those under this load
+#define MSLIP_BAD_REFERENCE_LOAD 18
 
 // invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
 #define MSLIP_BAD_CONTACT 20
@@ -154,14 +157,17 @@
 // the number of periods before the one that counts must be at most 65536
 #define MSLIP_BAD_PERIODS 44
 
-// array sizes do not agree (in Fortran), or an array is too long to be addressed
+// a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)
+#define MSLIP_BAD_COEFFICIENTS 45
+
+// the shape of an optional argument, a state or a second input does not agree with that of the first input (in Fortran), or an array is too long to be addressed
 #define MSLIP_BAD_ARRAY_SIZE 90
 
 // misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
 #define MSLIP_BAD_ALIGNMENT 91
 
 // Version of this interface: incremented whenever a name, a meaning or a size changes.
-#define MSLIP_ABI_VERSION 4
+#define MSLIP_ABI_VERSION 5
 
 // Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 #define MSLIP_CENTRE_POINT 0
@@ -199,7 +205,8 @@
 // Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
 #define MSLIP_BY_COMPOSITE_MODULUS 5
 
-// Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is added.
+// Derivative with respect to the tangential compliance of the layer under its reference load; without a layer, with respect to one
+// that is added.
 #define MSLIP_BY_LAYER_COMPLIANCE 6
 
 // Number of parameters: rows of a sensitivity.
@@ -220,14 +227,16 @@ typedef struct mslip_material {
 // the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40 times the
 // normal force of the parameters.
 typedef struct mslip_layer {
-    // Normal compliance c_n >= 0 under the normal force of the parameters [m/N]; 0: none. A contact under a constant normal force
-    // does not use it.
+    // Normal compliance c_n >= 0 under the reference load [m/N]; 0: none. A contact under a constant normal force does not use it.
     double normal_compliance;
-    // Tangential compliance c_t >= 0 under that force [m/N]; 0: none.
+    // Tangential compliance c_t >= 0 under the reference load [m/N]; 0: none.
     double tangential_compliance;
     // N_c [N]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or infinite:
     // the stiffness is constant.
     double stiffening_load;
+    // Reference load N_r, 0 <= N_r <= 1e150 [N]: the load under which the compliances were measured; 0: the normal force of the
+    // parameters. Under N they are c (N_r + N_c)/(N + N_c).
+    double reference_load;
 } mslip_layer;
 
 // Flat with rounded edges on a flat (Eq. 1-24); a cylinder if the flat has no width.
@@ -409,7 +418,8 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
 //
 // Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
 // edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-// radius. Those with respect to a and L are 0. The compliances of a layer, which are those under N, and its stiffening load stay fixed.
+// radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the reference load, and both
+// its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,

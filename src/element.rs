@@ -178,7 +178,7 @@ impl Element {
         in_range(&[normal_force], &[length, flat.half_width()])?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)? };
+        let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)?.0 };
         let plane = Plane { layer: &layered.layer, ..flat.plane() };
         self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
@@ -210,7 +210,7 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[normal_force], &[axis, composite_modulus])?;
         }
-        let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)? };
+        let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)?.0 };
         let plane = Plane { layer: &layered.layer, ..ellipse.plane() };
         self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;

@@ -50,7 +50,8 @@ status_codes! {
     BadFlatHalfWidth, MSLIP_BAD_FLAT_HALF_WIDTH = 2: "flat_half_width must be finite and >= 0";
     BadEdgeRadius, MSLIP_BAD_EDGE_RADIUS = 3: "edge_radius must be finite and > 0";
     BadLength, MSLIP_BAD_LENGTH = 4: "length must be finite and > 0";
-    BadNormalForce, MSLIP_BAD_NORMAL_FORCE = 5: "normal_force must be finite and >= 0, that of an element > 0";
+    BadNormalForce, MSLIP_BAD_NORMAL_FORCE = 5:
+        "normal_force must be finite and >= 0, in the parameters of an element > 0; so must each step and sample of a given normal force";
     BadFrictionCoefficient, MSLIP_BAD_FRICTION_COEFFICIENT = 6: "friction_coefficient must be finite and >= 0";
     BadYoungModulus, MSLIP_BAD_YOUNG_MODULUS = 7: "each young_modulus must be finite and > 0";
     BadPoissonRatio, MSLIP_BAD_POISSON_RATIO = 8: "each poisson_ratio must be between 0 and 0.5";
@@ -62,10 +63,14 @@ status_codes! {
         "length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness";
     OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
     BadSprings, MSLIP_BAD_SPRINGS = 14: "springs must be 0, 8, 12 or 16";
-    BadNormalCompliance, MSLIP_BAD_NORMAL_COMPLIANCE = 15: "normal_compliance of a layer must be finite and >= 0";
+    BadNormalCompliance, MSLIP_BAD_NORMAL_COMPLIANCE = 15:
+        "normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150";
     BadTangentialCompliance, MSLIP_BAD_TANGENTIAL_COMPLIANCE = 16:
-        "tangential_compliance of a layer must be finite and >= 0";
-    BadStiffeningLoad, MSLIP_BAD_STIFFENING_LOAD = 17: "stiffening_load of a layer must be >= 0, or infinite";
+        "tangential_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150";
+    BadStiffeningLoad, MSLIP_BAD_STIFFENING_LOAD = 17:
+        "stiffening_load of a layer must be 0, infinite, or at least 1e-3 of normal_force";
+    BadReferenceLoad, MSLIP_BAD_REFERENCE_LOAD = 18:
+        "reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may be at most 2^40 times those under this load";
     BadContact, MSLIP_BAD_CONTACT = 20:
         "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
     BadState, MSLIP_BAD_STATE = 21:
@@ -98,8 +103,10 @@ status_codes! {
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2, equal for all elements, states and workspaces of a call";
     BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE";
     BadPeriods, MSLIP_BAD_PERIODS = 44: "the number of periods before the one that counts must be at most 65536";
+    BadCoefficients, MSLIP_BAD_COEFFICIENTS = 45:
+        "a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
-        "array sizes do not agree (in Fortran), or an array is too long to be addressed";
+        "the shape of an optional argument, a state or a second input does not agree with that of the first input (in Fortran), or an array is too long to be addressed";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";
 }
 

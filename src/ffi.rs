@@ -39,7 +39,7 @@ use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
-pub const MSLIP_ABI_VERSION: i32 = 4;
+pub const MSLIP_ABI_VERSION: i32 = 5;
 
 /// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 pub const MSLIP_CENTRE_POINT: i32 = 0;
@@ -68,7 +68,8 @@ pub const MSLIP_BY_EDGE_RADIUS: i32 = 3;
 pub const MSLIP_BY_LENGTH: i32 = 4;
 /// Derivative with respect to E* at constant Poisson's ratios and a constant ratio of Young's moduli.
 pub const MSLIP_BY_COMPOSITE_MODULUS: i32 = 5;
-/// Derivative with respect to the tangential compliance of the layer; without a layer, with respect to one that is added.
+/// Derivative with respect to the tangential compliance of the layer under its reference load; without a layer, with respect to one
+/// that is added.
 pub const MSLIP_BY_LAYER_COMPLIANCE: i32 = 6;
 /// Number of parameters: rows of a sensitivity.
 pub const MSLIP_PARAMETER_COUNT: i32 = 7;
@@ -134,9 +135,9 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 104 && size_of::<EllipticParameters>() == 96);
+    assert!(size_of::<Parameters>() == 112 && size_of::<EllipticParameters>() == 104);
     assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, layer) == 72);
-    assert!(offset_of!(Parameters, springs) == 100 && offset_of!(EllipticParameters, springs) == 88);
+    assert!(offset_of!(Parameters, springs) == 108 && offset_of!(EllipticParameters, springs) == 96);
     assert!(offset_of!(EllipticParameters, material) == 32 && offset_of!(EllipticParameters, layer) == 64);
 };
 

@@ -119,7 +119,7 @@ pub(crate) trait ElementLaw: Sized {
     #[cold]
     fn state_error(error: Error, tag: f64) -> Error {
         match error {
-            Error::BadState if Self::OTHER_STATE.count(tag).is_some() => Error::BadDirections,
+            Error::BadState | Error::StateTooShort if Self::OTHER_STATE.count(tag).is_some() => Error::BadDirections,
             _ => error,
         }
     }

@@ -25,21 +25,23 @@ pub struct Material {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
-    /// Normal compliance c_n >= 0 under the normal force of the parameters \[m/N\]; 0: none. A contact under a constant normal force
-    /// does not use it.
+    /// Normal compliance c_n >= 0 under the reference load \[m/N\]; 0: none. A contact under a constant normal force does not use it.
     pub normal_compliance: f64,
-    /// Tangential compliance c_t >= 0 under that force \[m/N\]; 0: none.
+    /// Tangential compliance c_t >= 0 under the reference load \[m/N\]; 0: none.
     pub tangential_compliance: f64,
     /// N_c \[N\]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or infinite:
     /// the stiffness is constant.
     pub stiffening_load: f64,
+    /// Reference load N_r, 0 <= N_r <= 1e150 \[N\]: the load under which the compliances were measured; 0: the normal force of the
+    /// parameters. Under N they are c (N_r + N_c)/(N + N_c).
+    pub reference_load: f64,
 }
 
 impl Layer {
     /// No layer.
     #[must_use]
     pub const fn none() -> Layer {
-        Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0 }
+        Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0, reference_load: 0.0 }
     }
 
     /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which the
@@ -47,15 +49,16 @@ impl Layer {
     const SMALLEST_STIFFENING: f64 = 1e-3;
 
     /// # Errors
-    /// The error of the first field that is negative or NaN, or infinite if it is a compliance; `OutOfRange` if N_c is too small.
+    /// The error of the first field that is NaN or outside its range.
     fn check(&self, normal_force: f64) -> Result<(), Error> {
         not_negative(self.normal_compliance, Error::BadNormalCompliance)?;
         not_negative(self.tangential_compliance, Error::BadTangentialCompliance)?;
-        if !in_0_to(f64::INFINITY, self.stiffening_load) {
+        let too_small = self.stiffening_load > 0.0 && self.stiffening_load < Layer::SMALLEST_STIFFENING * normal_force;
+        if too_small || !in_0_to(f64::INFINITY, self.stiffening_load) {
             return Err(Error::BadStiffeningLoad);
         }
-        let too_small = self.stiffening_load > 0.0 && self.stiffening_load < Layer::SMALLEST_STIFFENING * normal_force;
-        if too_small { Err(Error::OutOfRange) } else { Ok(()) }
+        // The bound keeps N_r/N_c and its products with compliances representable.
+        if in_0_to(1e150, self.reference_load) { Ok(()) } else { Err(Error::BadReferenceLoad) }
     }
 }
 
@@ -306,20 +309,26 @@ mod tests {
 
     #[test]
     fn layers_are_checked() {
-        let check = |normal_compliance, tangential_compliance, stiffening_load| {
-            let layer = Layer { normal_compliance, tangential_compliance, stiffening_load };
-            Parameters { layer, ..steel() }.check()
-        };
-        for stiffening_load in [0.0, 0.1, f64::INFINITY] {
-            assert_eq!(check(1e-9, 0.0, stiffening_load), Ok(()));
+        const NONE: Layer = Layer::none();
+        let normal = |normal_compliance| Layer { normal_compliance, ..NONE };
+        let tangential = |tangential_compliance| Layer { tangential_compliance, ..NONE };
+        let stiffening = |stiffening_load| Layer { stiffening_load, ..NONE };
+        let reference = |reference_load| Layer { reference_load, ..NONE };
+        let infinite = f64::INFINITY;
+        for (field, valid, invalid, error) in [
+            (
+                &normal as &dyn Fn(f64) -> Layer,
+                [0.0, 1e-9, 1e-3],
+                [-1e-9, f64::NAN, infinite],
+                Error::BadNormalCompliance,
+            ),
+            (&tangential, [0.0, 1e-9, 1e-3], [-1e-9, f64::NAN, infinite], Error::BadTangentialCompliance),
+            (&stiffening, [0.0, 0.1, infinite], [-1e-9, f64::NAN, 0.0999], Error::BadStiffeningLoad),
+            (&reference, [0.0, 1e-300, 1e150], [-1e-9, f64::NAN, 1.01e150], Error::BadReferenceLoad),
+        ] {
+            let check = |value| Parameters { layer: field(value), ..steel() }.check();
+            assert_eq!((valid.map(check), invalid.map(check)), ([Ok(()); 3], [Err(error); 3]));
         }
-        for bad in [-1e-9, f64::NAN] {
-            assert_eq!(check(bad, 0.0, 0.0), Err(Error::BadNormalCompliance));
-            assert_eq!(check(0.0, bad, 0.0), Err(Error::BadTangentialCompliance));
-            assert_eq!(check(0.0, 0.0, bad), Err(Error::BadStiffeningLoad));
-        }
-        assert_eq!(check(f64::INFINITY, 0.0, 0.0), Err(Error::BadNormalCompliance));
-        assert_eq!(check(1e-9, 1e-9, 0.0999), Err(Error::OutOfRange));
     }
 
     #[test]

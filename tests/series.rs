@@ -178,6 +178,7 @@ fn layer_of((share, ratio): (f64, f64)) -> impl Fn(&Contact) -> Layer {
         normal_compliance: 0.0,
         tangential_compliance: share / contact.initial_stiffness,
         stiffening_load: ratio * NORMAL_FORCE,
+        reference_load: 0.0,
     }
 }
 
@@ -196,6 +197,10 @@ fn the_curve_and_its_inverse_are_those_of_the_pair() {
         let slip = pair.curve(pair.slip_force)[0];
         assert!((contact.slip_displacement / slip - 1.0).abs() < 1e-14);
         assert!((contact.initial_stiffness * pair.curve(0.0)[1] - 1.0).abs() < 1e-14);
+        // At gross slip a layer changes nothing of the stick zone: 0 but for a flat.
+        let [end, alone_at_end] =
+            [&contact, &alone].map(|one| one.curve_at_force(one.slip_force).unwrap().stick_half_width());
+        assert_eq!(end, alone_at_end, "{layer:?}");
         for part in [1e-9, 0.01, 0.1, 0.3, 0.39, 0.41, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999] {
             let force = part * pair.slip_force;
             let [displacement, compliance] = pair.curve(force);
@@ -376,6 +381,44 @@ fn spring_sliders_are_those_of_the_pair() {
     }
 }
 
+/// Contact and layer have together 60 N/um under 300 N, as measured, whatever the normal force of the parameters. A reference load of 0
+/// is that normal force.
+#[test]
+fn a_layer_holds_at_its_reference_load() {
+    let (measured, reference_load) = (60e6, 300.0);
+    let parameters = |normal_force, layer| Parameters {
+        flat_half_width: 0.5e-3,
+        edge_radius: 3e-3,
+        length: 20e-3,
+        normal_force,
+        friction_coefficient: 0.5,
+        material: [STEEL; 2],
+        layer,
+        ..Parameters::default()
+    };
+    let smooth = Contact::rounded_flat(&parameters(reference_load, Layer::none())).unwrap();
+    let compliance = 1.0 / measured - 1.0 / smooth.initial_stiffness;
+    for stiffening_load in [0.0, 15.0, f64::INFINITY] {
+        let of = |reference_load| Layer {
+            normal_compliance: 0.8 * compliance,
+            tangential_compliance: compliance,
+            stiffening_load,
+            reference_load,
+        };
+        let element =
+            |layer| Element::rounded_flat(&parameters(4000.0, layer), Directions::One, NormalInput::Approach).unwrap();
+        let found = element(of(reference_load)).displacement_under(0, 1e-9, reference_load);
+        // The displacement under 1e-9 N has lost nothing, and nothing slips yet: 1e-9/(mu N) = 7e-12.
+        assert!((measured * found.slope - 1.0).abs() < 1e-11, "{stiffening_load} {found:?}");
+        let contact = Contact::rounded_flat(&parameters(reference_load, of(0.0))).unwrap();
+        assert!((contact.initial_stiffness / measured - 1.0).abs() < 4e-15);
+        let [same, given] = [of(0.0), of(4000.0)].map(|layer| {
+            (format!("{:?}", Contact::rounded_flat(&parameters(4000.0, layer))), format!("{:?}", element(layer)))
+        });
+        assert!(same == given);
+    }
+}
+
 /// At a constant normal force an element has the curve of the contact under that force, in both directions.
 #[test]
 fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
@@ -407,13 +450,13 @@ fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
         let beyond = element.check_static(1.001 * contact.slip_force, normal_force);
         assert_eq!(beyond, Err(Error::ForceExceedsSlip));
     };
-    for layer in [Layer::none(), Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0 }]
-    {
+    for layer in [
+        Layer::none(),
+        Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0, reference_load: 0.0 },
+    ] {
         for input in [NormalInput::Approach, NormalInput::Force] {
-            // The compliance of the layer is given under the normal force of the parameters.
-            let load = 0.4 * NORMAL_FORCE;
-            let ratio = (NORMAL_FORCE + layer.stiffening_load) / (load + layer.stiffening_load);
-            let of_less = Layer { tangential_compliance: ratio * layer.tangential_compliance, ..layer };
+            // The layer remains the same under less load.
+            let (load, of_less) = (0.4 * NORMAL_FORCE, Layer { reference_load: NORMAL_FORCE, ..layer });
             for flat_half_width in [0.0, 50e-6] {
                 let parameters = Parameters {
                     flat_half_width,

@@ -24,6 +24,7 @@ fn layer_of(element: &Element, (share, ratio): Share) -> Layer {
         normal_compliance: share / element.normal_stiffness,
         tangential_compliance: share / element.tangential_stiffness,
         stiffening_load: ratio * element.normal_force,
+        reference_load: 0.0,
     }
 }
 

@@ -64,22 +64,15 @@ fn element_of_row(row: &Row, normal_force: f64, input: NormalInput) -> Element {
     let body = |e, nu| Material { young_modulus: row[e], poisson_ratio: row[nu] };
     let material = [body("E1", "nu1"), body("E2", "nu2")];
     let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
-    // The compliances of the table are those under N_layer.
-    let layer = |normal_force: f64| {
-        if !row.has("c_n") {
-            return Layer::none();
-        }
-        let [normal, tangential, reference, stiffening_load] = ["c_n", "c_t", "N_layer", "N_c"].map(|name| row[name]);
-        let ratio = if stiffening_load.is_finite() {
-            (reference + stiffening_load) / (normal_force + stiffening_load)
-        } else {
-            1.0
-        };
-        Layer { normal_compliance: ratio * normal, tangential_compliance: ratio * tangential, stiffening_load }
+    let layer = if row.has("c_n") {
+        let [normal_compliance, tangential_compliance, reference_load, stiffening_load] =
+            ["c_n", "c_t", "N_layer", "N_c"].map(|name| row[name]);
+        Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load }
+    } else {
+        Layer::none()
     };
     let element = if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
-        let layer = layer(normal_force);
         let ellipse = EllipticParameters {
             semi_axis_x,
             semi_axis_y,
@@ -91,7 +84,6 @@ fn element_of_row(row: &Row, normal_force: f64, input: NormalInput) -> Element {
         };
         Element::elliptic(&ellipse, Directions::One, input)
     } else {
-        let layer = layer(normal_force);
         let flat = Parameters { normal_force, friction_coefficient, material, layer, ..geometry(row) };
         Element::rounded_flat(&flat, Directions::One, input)
     };

@@ -100,6 +100,7 @@ fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
         normal_compliance: compliance,
         tangential_compliance: compliance,
         stiffening_load: stiffening * normal_force,
+        reference_load: 0.0,
     };
     let parameters = Parameters {
         layer: if stiffening > 0.0 { layer(1.0 / contact(normal_force).initial_stiffness) } else { Layer::none() },

@@ -123,14 +123,16 @@ pub enum Command {
   microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
     ))]
     Fit(ContactCommand<Fit>),
-    /// Layer of a rough surface in series with the contact, from the rms height of the roughness (Persson) or the asperities (Greenwood
-    /// and Williamson, normally distributed heights)
+    /// Layer in series with the contact, from measured stiffnesses of both together, the rms height of the roughness (Persson), or the
+    /// asperities (Greenwood and Williamson, normally distributed heights)
     #[command(after_help = help!(
-        "quantity, value, lower, upper (of the literature), unit; for the parameter file",
-        "layer contact.toml --rms-height 0.8e-6
+        "quantity, value, lower, upper (of the literature), unit; comments have the lines of a parameter file and of Fortran",
+        "layer contact.toml --measured-stiffness 60e6 --at 300
+  microslip layer contact.toml --measured-stiffness 40e6,60e6 --at 150,300
+  microslip layer contact.toml --rms-height 0.8e-6
   microslip layer contact.toml --asperity-radius 50e-6 --asperity-density 1e9 --height-deviation 0.5e-6"
     ))]
-    Layer(ContactCommand<RoughLayer>),
+    Layer(ContactCommand<LayerOptions>),
     /// Print a parameter file with comments
     #[command(after_help = "Example:\n  microslip example > contact.toml")]
     Example {
@@ -187,7 +189,18 @@ pub struct Tractions {
 }
 
 #[derive(Debug, Args)]
-pub struct RoughLayer {
+pub struct LayerOptions {
+    /// Measured tangential stiffness of contact and layer together, under one or two loads; two determine the stiffening load
+    #[arg(long, value_name = "N/m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    pub measured_stiffness: Vec<f64>,
+    /// Normal force of each measurement [default: the normal force]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(requires = "measured_stiffness")]
+    pub at: Vec<f64>,
+    /// Tangential force up to which the one measured stiffness is the secant from rest [default: 0, the initial stiffness]
+    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(requires = "measured_stiffness")]
+    pub secant_force: Option<f64>,
     /// Root mean square of the heights of both surfaces
     #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
     pub rms_height: Option<f64>,

@@ -46,15 +46,18 @@ pub struct ContactArgs {
     #[arg(long, value_name = "NUMBER", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
     #[serde(skip)]
     poisson_ratio: Vec<f64>,
-    /// Layer in series with the contact: compliance c_n >= 0 under the normal force [default: 0, none]
+    /// Layer in series with the contact: compliance c_n >= 0 under the reference load [default: 0, none]
     #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
     normal_compliance: Option<f64>,
-    /// Layer: compliance c_t >= 0 along the tangential force, under the normal force [default: 0, none]
+    /// Layer: compliance c_t >= 0 along the tangential force, under the reference load [default: 0, none]
     #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
     tangential_compliance: Option<f64>,
     /// Layer: N_c, its stiffness grows in proportion to N + N_c [default: 0, constant stiffness]
     #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
-    stiffening_load: Option<f64>,
+    pub stiffening_load: Option<f64>,
+    /// Layer: the load under which its compliances hold, as measured [default: the normal force]
+    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    reference_load: Option<f64>,
     /// Reference of the displacement [default: centre_point]
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
@@ -144,6 +147,32 @@ impl ContactSpec {
     }
 }
 
+impl ContactSpec {
+    /// The element of the contact without its layer, by the normal force.
+    pub fn smooth_element(&self) -> Result<Element> {
+        let given = ContactArgs {
+            normal_compliance: None,
+            tangential_compliance: None,
+            reference_load: None,
+            ..self.given.clone()
+        };
+        ContactSpec { contact: self.contact, given, units: self.units }.element(Directions::One, NormalInput::Force)
+    }
+
+    /// Whether the library accepts a layer in the contact.
+    pub fn check_layer(&self, layer: &Layer) -> Result<()> {
+        let given = ContactArgs {
+            normal_compliance: Some(layer.normal_compliance),
+            tangential_compliance: Some(layer.tangential_compliance),
+            stiffening_load: Some(layer.stiffening_load),
+            reference_load: Some(layer.reference_load),
+            ..self.given.clone()
+        };
+        let spec = ContactSpec { contact: self.contact, given, units: self.units };
+        spec.element(Directions::One, NormalInput::Force).map(|_| ())
+    }
+}
+
 /// The parameters as the library takes them.
 enum ShapeParameters {
     Flat(Parameters),
@@ -173,7 +202,7 @@ impl ContactArgs {
         self.semi_axis_x.is_some() || self.semi_axis_y.is_some()
     }
 
-    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 10] {
+    fn scalars(&mut self) -> [(&'static str, &mut Option<f64>); 11] {
         [
             ("flat_half_width", &mut self.flat_half_width),
             ("edge_radius", &mut self.edge_radius),
@@ -185,11 +214,12 @@ impl ContactArgs {
             ("normal_compliance", &mut self.normal_compliance),
             ("tangential_compliance", &mut self.tangential_compliance),
             ("stiffening_load", &mut self.stiffening_load),
+            ("reference_load", &mut self.reference_load),
         ]
     }
 
     /// Values of the parameters by name: those of a rounded flat (3), of an ellipse (2), common ones, and
-    /// those of a layer (3).
+    /// those of a layer (4).
     fn numbers(&self) -> Vec<(&'static str, Vec<f64>)> {
         let scalars = self.clone().scalars().map(|(name, value)| (name, Vec::from_iter(*value)));
         let lists = [("young_modulus", self.young_modulus.clone()), ("poisson_ratio", self.poisson_ratio.clone())];
@@ -269,6 +299,7 @@ impl ContactArgs {
             normal_compliance: self.normal_compliance.unwrap_or(0.0),
             tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
             stiffening_load: self.stiffening_load.unwrap_or(0.0),
+            reference_load: self.reference_load.unwrap_or(0.0),
         };
         Ok(if self.is_elliptic() {
             let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
@@ -347,16 +378,17 @@ impl ContactArgs {
         })
     }
 
-    /// The message of an error, with the values of the parameter that it names, and the name of that parameter.
+    /// The message of an error, with the values of the parameter that it names first, and the name of that parameter.
     fn explain(&self, error: Error) -> (String, Option<&'static str>) {
         let message = error.to_string();
-        let is_subject = |(name, _): &(&str, Vec<f64>)| message.split(' ').any(|word| word == *name);
-        let Some((name, values)) = self.numbers().into_iter().find(is_subject) else { return (message, None) };
+        let numbers = self.numbers();
+        let subject = message.split(' ').find_map(|word| numbers.iter().find(|(name, _)| word == *name));
+        let Some((name, values)) = subject else { return (message, None) };
         let detail = match error {
             Error::LengthTooShort => self.length_limits().unwrap_or_default(),
-            _ => format!(", not {}", format_list(&values)),
+            _ => format!(", not {}", format_list(values)),
         };
-        (message + &detail, Some(name))
+        (message.clone() + &detail, Some(name))
     }
 
     /// Half-width b, and the smallest length that the library accepts under this normal force.

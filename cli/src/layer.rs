@@ -1,15 +1,16 @@
-//! The command `layer`: the compliances of a rough surface in series with a contact, from its roughness.
+//! The command `layer`: the compliances of a layer in series with a contact, from measured stiffnesses or from the roughness.
 
-use crate::args::RoughLayer;
+use crate::args::LayerOptions;
 use crate::commands::Report;
 use crate::contact_spec::ContactSpec;
 use crate::error::{Result, input, usage};
-use crate::number::format_number;
+use crate::number::{format_list, format_number};
 use crate::table::Table;
 use crate::units::Quantity::{Force, Length};
+use microslip::Layer;
 use std::f64::consts::{PI, TAU};
 
-/// The stiffness under the normal force and N_c over it.
+/// The normal stiffness under the normal force and N_c over it.
 struct Rough {
     stiffness: f64,
     stiffening: f64,
@@ -19,58 +20,149 @@ struct Rough {
 
 /// Persson (2007): stiffness N/u0 with u0 from 0.4 to 0.5 times the rms height.
 const SHARES: [f64; 3] = [0.4, 0.45, 0.5];
-/// N_c over N, if it is not known.
+/// N_c over N, if it is not known: with N/1000 instead the loss at half of mu N is 2 % larger.
 const STIFFENING: f64 = 0.01;
 
-pub fn layer(options: &RoughLayer, spec: &ContactSpec) -> Result<Report> {
+pub fn layer(options: &LayerOptions, spec: &ContactSpec) -> Result<Report> {
     let Some(normal_force) = spec.given.normal_force.filter(|force| *force > 0.0) else {
         return input("the compliance of a rough surface is that under a normal force: normal_force must be > 0");
     };
     let asperities = [options.asperity_radius, options.asperity_density, options.height_deviation];
-    let rough = match (options.rms_height, asperities) {
-        (Some(height), [None, None, None]) => persson(normal_force, positive("rms-height", height)?),
-        (None, [Some(radius), Some(density), Some(deviation)]) => {
+    let rough = match (&options.measured_stiffness[..], options.rms_height, asperities) {
+        ([], Some(height), [None, None, None]) => Some(persson(normal_force, positive("rms-height", height)?)),
+        ([], None, [Some(radius), Some(density), Some(deviation)]) => {
             let radius = positive("asperity-radius", radius)?;
             let (density, deviation) =
                 (positive("asperity-density", density)?, positive("height-deviation", deviation)?);
             let scale = spec.contact.composite_modulus * (radius * deviation).sqrt() * density * nominal_area(spec);
-            greenwood_williamson(normal_force, scale, deviation)?
+            Some(greenwood_williamson(normal_force, scale, deviation)?)
         }
-        _ => return usage("give --rms-height, or --asperity-radius, --asperity-density and --height-deviation"),
+        ([_] | [_, _], None, [None, None, None]) => None,
+        _ => {
+            return usage(
+                "give --measured-stiffness of one or two loads, --rms-height, or --asperity-radius, --asperity-density and \
+                 --height-deviation",
+            );
+        }
     };
-    let normal = 1.0 / rough.stiffness;
-    let tangential = normal * spec.given.tangential_ratio()?;
-    let stiffening = (rough.stiffening * normal_force).max(1e-3 * normal_force);
+    let ratio = spec.given.tangential_ratio()?;
+    let layer = match &rough {
+        Some(rough) => Layer {
+            normal_compliance: 1.0 / rough.stiffness,
+            tangential_compliance: ratio / rough.stiffness,
+            stiffening_load: rough.stiffening.max(1e-3) * normal_force,
+            reference_load: normal_force,
+        },
+        None => measured(options, spec, normal_force, ratio)?,
+    };
+    spec.check_layer(&layer)?;
     let unit = format!("{}/N", spec.units.unit(Length));
+    let range = rough.and_then(|rough| rough.range);
     let row = |name: &str, value: f64| {
-        let [lower, upper] = rough.range.map_or([String::new(), String::new()], |[least, largest]| {
+        let [lower, upper] = range.map_or([String::new(), String::new()], |[least, largest]| {
             [value / largest, value / least].map(format_number)
         });
         format!("{name},{},{lower},{upper},{unit}", format_number(value))
     };
-    let rows = vec![
-        row("normal_compliance", normal),
-        row("tangential_compliance", tangential),
-        format!("stiffening_load,{},,,{}", format_number(stiffening), spec.units.unit(Force)),
-        format!(
-            "tangential_compliance_over_that_of_the_contact,{},,,-",
-            format_number(tangential * spec.contact.initial_stiffness)
-        ),
-    ];
-    Ok(Report::new("layer", spec, &options.text(), Table::of_text("quantity,value,lower,upper,unit", rows), Vec::new()))
+    let Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load } = layer;
+    let loads = [("stiffening_load", stiffening_load), ("reference_load", reference_load)];
+    let compliances = [("normal_compliance", normal_compliance), ("tangential_compliance", tangential_compliance)];
+    let mut rows: Vec<String> = compliances.iter().map(|(name, value)| row(name, *value)).collect();
+    rows.extend(
+        loads.iter().map(|(name, value)| format!("{name},{},,,{}", format_number(*value), spec.units.unit(Force))),
+    );
+    let numbers = compliances.iter().chain(&loads).map(|(_, value)| format!("{value:e}_wp")).collect::<Vec<_>>();
+    let report = Report::new(
+        "layer",
+        spec,
+        &options.text(),
+        Table::of_text("quantity,value,lower,upper,unit", rows),
+        Vec::new(),
+    );
+    let report = compliances
+        .iter()
+        .chain(&loads)
+        .fold(report, |report, (name, value)| report.with_remark(&format!("{name} = {}", format_number(*value))));
+    Ok(report.with_remark(&format!("p%layer = mslip_layer({})", numbers.join(", "))))
 }
 
-impl RoughLayer {
+/// Measured is the stiffness of contact and layer together: the layer has the compliance that the smooth contact lacks under the same
+/// load. Two loads give the stiffness of the layer twice, and N_c by its growth in proportion to N + N_c.
+fn measured(options: &LayerOptions, spec: &ContactSpec, normal_force: f64, ratio: f64) -> Result<Layer> {
+    let mut loads = options.at.clone();
+    if loads.is_empty() {
+        loads.push(normal_force);
+    }
+    let stiffnesses = &options.measured_stiffness;
+    if loads.len() != stiffnesses.len() {
+        return usage("--at must have as many values as --measured-stiffness");
+    }
+    let secant = options.secant_force.map_or(Ok(0.0), |force| positive("secant-force", force))?;
+    let friction = positive("friction-coefficient", spec.given.friction_coefficient.unwrap_or(0.0))?;
+    if stiffnesses.len() == 2 && options.secant_force.is_some() {
+        return usage("--secant-force is for a single --measured-stiffness");
+    }
+    let smooth = spec.smooth_element()?;
+    let mut layers = Vec::new();
+    for (&stiffness, &load) in stiffnesses.iter().zip(&loads) {
+        let (stiffness, load) = (positive("measured-stiffness", stiffness)?, positive("at", load)?);
+        if let Err(error) = smooth.check_normal_force(load).and_then(|()| smooth.check_static(secant, load)) {
+            return input(format!("under {} N: {error}", format_number(load)));
+        }
+        let point = smooth.displacement_under(0, secant, load);
+        let compliance = if secant == 0.0 { point.slope } else { point.value / secant };
+        if 1.0 / stiffness <= compliance {
+            let [stiffness, smooth] = [stiffness, 1.0 / compliance].map(format_number);
+            return input(format!(
+                "a measured stiffness of {stiffness} is not below that of the smooth contact under {load} N, {smooth}: a layer \
+                 makes no contact stiffer"
+            ));
+        }
+        layers.push(1.0 / stiffness - compliance);
+    }
+    let (load, compliance) = (loads[0], layers[0]);
+    let stiffening_load = match (layers.get(1), loads.get(1)) {
+        (Some(other), Some(&other_load)) => {
+            // (N + N_c) c is the same under both.
+            let stiffening = (load * compliance - other_load * other) / (other - compliance);
+            let grows = (load - other_load) * (other - compliance) > 0.0;
+            if !grows || stiffening < 0.0 {
+                return input(
+                    "the stiffness of a layer grows with the load, at most in proportion to it, and this one does not: give one load",
+                );
+            }
+            stiffening.max(1e-3 * normal_force)
+        }
+        _ => spec.given.stiffening_load.unwrap_or((STIFFENING * load).max(1e-3 * normal_force)),
+    };
+    // The layer under a tangential force T: mu (N + N_c) ln(1/(1 - y)), y = T/(mu (N + N_c)), over T.
+    let y = secant / (friction * (load + stiffening_load));
+    let secant_over_initial =
+        if secant > 0.0 && stiffening_load > 0.0 && stiffening_load.is_finite() { -(-y).ln_1p() / y } else { 1.0 };
+    let tangential_compliance = compliance / secant_over_initial;
+    Ok(Layer {
+        normal_compliance: tangential_compliance / ratio,
+        tangential_compliance,
+        stiffening_load,
+        reference_load: load,
+    })
+}
+
+impl LayerOptions {
     /// The options that repeat the command.
     fn text(&self) -> String {
+        let lists = [("measured-stiffness", &self.measured_stiffness), ("at", &self.at)];
         let options = [
+            ("secant-force", self.secant_force),
             ("rms-height", self.rms_height),
             ("asperity-radius", self.asperity_radius),
             ("asperity-density", self.asperity_density),
             ("height-deviation", self.height_deviation),
         ];
+        let lists = lists.into_iter().filter(|(_, values)| !values.is_empty());
+        let lists = lists.map(|(name, values)| format!(" --{name} {}", format_list(values)));
         let given = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
-        given.map(|(name, value)| format!(" --{name} {}", format_number(value))).collect()
+        lists.chain(given.map(|(name, value)| format!(" --{name} {}", format_number(value)))).collect()
     }
 }
 

@@ -587,16 +587,15 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         .map(|contact| forces(&format!("microslip loop {contact} --amplitude 1.4e-6")));
     // The friction force is 60 N.
     assert!(fitted.iter().zip(&measured).all(|(one, other)| (one - other).abs() < 1e-3), "{fitted:?}");
-    shell.check_error(
-        "microslip contact flat.toml --stiffening-load 0.1 --tangential-compliance 1e-9",
-        1,
-        "out of range",
-    );
-    shell.check_error(
-        "microslip contact flat.toml --normal-compliance=-1",
-        1,
-        "normal_compliance of a layer must be finite and >= 0, not -1",
-    );
+    for (option, error) in [
+        ("normal-compliance=-1", Error::BadNormalCompliance),
+        ("tangential-compliance=1e10", Error::BadTangentialCompliance),
+        ("stiffening-load=0.1", Error::BadStiffeningLoad),
+        ("reference-load=1e200", Error::BadReferenceLoad),
+    ] {
+        let (_, value) = option.split_once('=').unwrap();
+        shell.check_error(&format!("microslip contact flat.toml --{option}"), 1, &format!("{error}, not {value}"));
+    }
     let json: serde_json::Value = serde_json::from_str(&shell.read("new.json")).unwrap();
     assert_eq!(json["friction_coefficient"]["value"].as_f64(), Some(quantity(&table, "friction_coefficient").0));
 
@@ -658,31 +657,66 @@ fn a_fit_recovers_the_contact_of_its_loops() {
 }
 
 #[test]
-fn layers_follow_from_the_roughness() {
+fn layers_follow_from_measured_stiffnesses_and_from_the_roughness() {
     let shell = Shell::new("layer");
     // N/(0.45 h), with N_c = N/100.
     let table = shell.stdout("microslip layer flat.toml --rms-height 1e-6");
-    assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
     let values: Vec<f64> = cells(&table).1.iter().map(|row| row[1].parse().unwrap()).collect();
-    assert!((values[0] * 150.0 * 1.01 / 0.45e-6 - 1.0).abs() < 1e-14 && values[2] == 1.5, "{values:?}");
+    assert!((values[0] * 150.0 * 1.01 / 0.45e-6 - 1.0).abs() < 1e-14 && values[2..] == [1.5, 150.0], "{values:?}");
     assert!((values[1] / values[0] - 1.22).abs() < 0.02, "{values:?}");
-    shell.stdout("(cat flat.toml | sed '/material/,$d'; microslip layer flat.toml --rms-height 1e-6 | \
-                  awk -F, '/^[ns].*_[cl]o|^tangential_compliance,/ { print $1 \" = \" $2 }'; sed -n '/material/,$p' flat.toml) > rough.toml");
-    let stiffness = |contact: &str| -> f64 {
+    let initial = |contact: &str| -> f64 {
         let table = shell.stdout(&format!("microslip contact {contact}"));
         cells(&table).1.iter().find(|row| row[0] == "initial_stiffness").unwrap()[1].parse().unwrap()
     };
-    assert!(
-        (1.0 / stiffness("rough.toml") - 1.0 / stiffness("flat.toml") - values[1]).abs() < 1e-13 * values[1] + 1e-22
-    );
+    let secant = |contact: &str| -> f64 {
+        let table = shell.stdout(&format!("microslip curve {contact} --force 20"));
+        20.0 / cells(&table).1[0][0].parse::<f64>().unwrap()
+    };
+    let under = |load: f64| format!("rough.toml --normal-force {load}");
+    // The comments of the table are lines of a parameter file, whose layer holds at another normal force.
+    for (given, expected) in [
+        (
+            "--rms-height 1e-6",
+            (1.0 / (1.0 / initial("flat.toml") + values[1]), &initial as &dyn Fn(&str) -> f64, 150.0),
+        ),
+        ("--measured-stiffness 3e7", (3e7, &initial, 150.0)),
+        ("--measured-stiffness 3e7 --at 50", (3e7, &initial, 50.0)),
+        ("--normal-force 4000 --measured-stiffness 3e7 --at 50 --stiffening-load 0", (3e7, &initial, 50.0)),
+        ("--measured-stiffness 3e7 --at 100 --secant-force 20 --stiffening-load 7", (3e7, &secant, 100.0)),
+        ("--measured-stiffness 2e7,3e7 --at 75,150", (2e7, &initial, 75.0)),
+        ("--measured-stiffness 2e7,3e7 --at 75,150", (3e7, &initial, 150.0)),
+    ] {
+        let table = shell.stdout(&format!("microslip layer flat.toml {given}"));
+        assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+        let lines = table
+            .lines()
+            .filter_map(|line| line.strip_prefix("# ").filter(|line| line.contains("e = ") || line.contains("d = ")));
+        let layer = lines.map(|line| format!("{line}\n")).collect::<String>();
+        assert!(layer.lines().count() == 4 && table.contains("\n# p%layer = mslip_layer("), "{table}");
+        shell.write("rough.toml", layer + &shell.read("flat.toml"));
+        let (stiffness, found, load) = expected;
+        // The displacement of the rest has 17 digits; the layer is a difference.
+        assert!((found(&under(load)) / stiffness - 1.0).abs() < 1e-13, "{given}: {}", found(&under(load)));
+    }
     let asperities = "--asperity-radius 5e-5 --asperity-density 1e9 --height-deviation 5e-7";
     assert!(shell.stdout(&format!("microslip layer flat.toml {asperities}")).contains("stiffening_load"));
     for (arguments, status, text) in [
         ("", 2, "--rms-height, or --asperity-radius"),
         ("--rms-height -1", 2, "--rms-height must be finite and > 0"),
+        ("--rms-height 1e300", 1, "normal_compliance of a layer must be"),
         ("--rms-height 1e-6 --asperity-radius 1", 2, "--rms-height, or"),
         ("--rms-height 1e-6 --normal-force 0", 1, "normal_force must be > 0"),
         ("--asperity-radius 5e-5 --asperity-density 1 --height-deviation 5e-7", 1, "outside the model"),
+        ("--at 3", 2, "--measured-stiffness"),
+        ("--measured-stiffness 3e7 --rms-height 1e-6", 2, "give --measured-stiffness of one or two loads"),
+        ("--measured-stiffness -3e7", 2, "--measured-stiffness must be finite and > 0"),
+        ("--measured-stiffness 2e7,3e7", 2, "--at must have as many values"),
+        ("--measured-stiffness 2e7,3e7 --at 75,150 --secant-force 1", 2, "for a single"),
+        ("--measured-stiffness 3e7,2e7 --at 75,150", 1, "at most in proportion"),
+        ("--measured-stiffness 1e7,5e7 --at 75,150", 1, "at most in proportion"),
+        ("--measured-stiffness 3e12", 1, "no contact stiffer"),
+        ("--measured-stiffness 3e7 --secant-force 100", 1, "mu N"),
+        ("--measured-stiffness 3e7 --friction-coefficient 0", 2, "--friction-coefficient must be"),
     ] {
         shell.check_error(&format!("microslip layer flat.toml {arguments}"), status, text);
     }

@@ -58,7 +58,8 @@ typedef struct field {
 
 #define FIELD(type, name) { #name, offsetof(type, name) }
 #define OF_LAYER(type, name) { #name, offsetof(type, layer.name) }
-#define LAYER(type) OF_LAYER(type, normal_compliance), OF_LAYER(type, tangential_compliance), OF_LAYER(type, stiffening_load)
+#define LAYER(type) OF_LAYER(type, normal_compliance), OF_LAYER(type, tangential_compliance), \
+    OF_LAYER(type, stiffening_load), OF_LAYER(type, reference_load)
 
 static const field line_fields[] = {
     FIELD(mslip_parameters, flat_half_width), FIELD(mslip_parameters, edge_radius), FIELD(mslip_parameters, length),

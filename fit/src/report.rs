@@ -258,7 +258,8 @@ pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &
     }
     text += &format!("normal_force = {:e}\nfriction_coefficient = {friction:e}\n", contact.normal_force);
     if *series > 0.0 {
-        text += &format!("tangential_compliance = {series:e}\n");
+        // As measured: under another normal_force the layer remains the same.
+        text += &format!("tangential_compliance = {series:e}\nreference_load = {:e}\n", contact.normal_force);
         if *share > 0.0 {
             text += &format!("stiffening_load = {:e}\n", stiffening_load(*share, contact.normal_force));
         }

@@ -5,7 +5,7 @@ module case_input
     without_force
   use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
-  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP, mslip_parameters
+  use microslip, only: MSLIP_CENTRE_POINT, MSLIP_RIGID_STRIP, mslip_layer, mslip_parameters
   implicit none
   private
   public :: read_case, prepare_problem
@@ -181,12 +181,12 @@ contains
       integer :: m
       real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
-      real(wp) :: normal_compliance, tangential_compliance, stiffening_load
+      real(wp) :: normal_compliance, tangential_compliance, stiffening_load, reference_load
       character(len=path_length) :: parameter_file
       type(contact_input) :: c
       namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, parameter_file, &
         flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, &
-        displacement_reference, springs, normal_compliance, tangential_compliance, stiffening_load
+        displacement_reference, springs, normal_compliance, tangential_compliance, stiffening_load, reference_load
 
       law = ' '
       second_direction = with_friction
@@ -206,6 +206,7 @@ contains
       normal_compliance = 0.0_wp
       tangential_compliance = 0.0_wp
       stiffening_load = 0.0_wp
+      reference_load = 0.0_wp
       parameter_file = ' '
       call start('contact')
       allocate (data%contacts(0))
@@ -251,9 +252,7 @@ contains
         c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
                                                     displacement_reference == 'rigid strip')
         c%parameters%springs = springs
-        c%parameters%layer%normal_compliance = normal_compliance
-        c%parameters%layer%tangential_compliance = tangential_compliance
-        c%parameters%layer%stiffening_load = stiffening_load
+        c%parameters%layer = mslip_layer(normal_compliance, tangential_compliance, stiffening_load, reference_load)
         if (len_trim(parameter_file) > 0) call read_parameter_file(parameter_file, c%parameters)
         data%contacts = [data%contacts, c]
       end do
@@ -466,6 +465,8 @@ contains
         read (value, *, iostat=status) parameters%layer%tangential_compliance
       case ('stiffening_load')
         read (value, *, iostat=status) parameters%layer%stiffening_load
+      case ('reference_load')
+        read (value, *, iostat=status) parameters%layer%reference_load
       case ('springs')
         read (value, *, iostat=status) parameters%springs
       case ('young_modulus')

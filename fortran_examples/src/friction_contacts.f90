@@ -225,20 +225,14 @@ contains
     self%fine_basis = series_basis(harmonics, 256)
   end subroutine prepare
 
-  !> The same contact under another normal force: the compliances of a layer are those under it.
+  !> The same contact, with the same layer, under another normal force.
   pure type(mslip_parameters) function under(parameters, normal_force) result(p)
     type(mslip_parameters), intent(in) :: parameters
     real(wp), intent(in) :: normal_force
-    real(wp) :: softer
 
     p = parameters
     p%normal_force = normal_force
-    associate (n_c => parameters%layer%stiffening_load)
-      if (n_c <= 0.0_wp) return
-      softer = (parameters%normal_force + n_c) / (normal_force + n_c)
-    end associate
-    p%layer%normal_compliance = softer * parameters%layer%normal_compliance
-    p%layer%tangential_compliance = softer * parameters%layer%tangential_compliance
+    if (p%layer%reference_load <= 0.0_wp) p%layer%reference_load = parameters%normal_force
   end function under
 
   !> Stiffness of a stuck contact in the second tangential direction: that of the first small step after it is pressed.

@@ -25,7 +25,8 @@ NAMES = [parameter.name.lower() for parameter in microslip.Parameter]
 
 def contact(arguments, changed):
     """The `microslip.Contact` of these arguments, some of them `changed`, which have the names of `NAMES`."""
-    arguments, changed = dict(arguments), dict(changed)
+    # A layer remains the same under another normal force.
+    arguments, changed = {"reference_load": arguments["normal_force"]} | dict(arguments), dict(changed)
     if "composite_modulus" in changed:
         factor = changed.pop("composite_modulus") / microslip.Contact(**arguments).composite_modulus
         arguments["young_modulus"] = np.multiply(arguments["young_modulus"], factor).tolist()

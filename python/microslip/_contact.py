@@ -109,8 +109,8 @@ class Contact(_Law):
     `RIGID_STRIP`, corrected to three-dimensional contact mechanics; the words "centre_point" and "rigid_strip" will do too. An
     elliptical contact is made by `Contact.elliptic`. Contacts are equal if their results are.
 
-    `normal_compliance` and `tangential_compliance` [m/N], under `normal_force`, are those of a layer in series with the contact,
-    whose stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
+    `normal_compliance` and `tangential_compliance` [m/N] are those of a layer in series with the contact under `reference_load` [N],
+    at which they were measured (0: `normal_force`). Its stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
     """
 
     _type = "mslip_contact"
@@ -137,6 +137,7 @@ class Contact(_Law):
         normal_compliance: float = 0.0,
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
+        reference_load: float = 0.0,
         displacement_reference: Constant = 0,
     ) -> None:
         self._initialise("", locals())
@@ -154,6 +155,7 @@ class Contact(_Law):
         normal_compliance: float = 0.0,
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
+        reference_load: float = 0.0,
     ) -> Contact:
         """An elliptical Hertz contact, of these semi-axes [m] along and across the tangential force; a sphere if they are equal."""
         return cls._new()._initialise("_elliptic", locals())

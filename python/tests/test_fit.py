@@ -150,13 +150,12 @@ def test_three_measured_loops_to_a_forced_response(tmp_path):
     contact, which has a layer with a stiffness that grows with the load.
     """
     random = np.random.default_rng(7)
-    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0}
+    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0, "reference_load": TRUTH["normal_force"]}
     truth = microslip.Contact(**TRUTH | layer)
     t = 2 * np.pi * np.arange(160) / 80
     measured = []
     for amplitude, load in [(0.7, 200.0), (2.0, 400.0), (1.2, 800.0)]:
-        under_load = {"normal_force": load, "tangential_compliance": layer["tangential_compliance"] * 1000 / (load + 200)}
-        law = microslip.Contact(**TRUTH | layer | under_load)
+        law = microslip.Contact(**TRUTH | layer | {"normal_force": load})
         displacement = amplitude * law.slip_displacement * np.cos(t)
         force = law.update(microslip.State(), displacement).force + 5e-4 * law.slip_force * random.standard_normal(160)
         measured.append({"displacement": displacement, "force": force, "normal_force": load})

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
 use crate::numerics::sn_midpoint::Quadrature;
-use crate::parameters::{self, EllipticParameters, Pair, Parameters, Sensitivity, check_moduli};
+use crate::parameters::{self, EllipticParameters, PARAMETERS, Pair, Parameters, Sensitivity, check_moduli};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
@@ -143,8 +143,11 @@ impl Contact {
 
     /// With the layer of parameters that were checked in series.
     fn with_layer(mut self, layer: &parameters::Layer, normal_force: f64) -> Result<Contact, Error> {
-        let layer = Layer::new(layer, normal_force)?;
-        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale)?, self.is_elementary());
+        let (layer, under_load) = Layer::new(layer, normal_force)?;
+        let of_contact = self.stick_zones().small_load().compliance;
+        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale, of_contact)?, self.is_elementary());
+        // For a friction force of 1, by the compliance under the reference load.
+        self.sensitivity_scales[PARAMETERS - 1] = under_load * self.stiffness_scale;
         let tag = if self.zones.has_layer() { TAG_ROUNDED_FLAT } else { self.tag };
         Ok(Contact { tag, ..self })
     }
@@ -195,7 +198,7 @@ impl Contact {
                 by_radius,
                 by_length,
                 by_modulus,
-                slip_force * self.stiffness_scale,
+                slip_force * self.sensitivity_scales[PARAMETERS - 1],
             ],
             interpolant,
             ..self
@@ -385,6 +388,7 @@ pub(crate) mod tests {
             normal_compliance: 0.0,
             tangential_compliance: share / alone.initial_stiffness,
             stiffening_load: 150.0 * ratio,
+            reference_load: 0.0,
         };
         let flat = |a| Contact::rounded_flat(&Parameters { layer: layer(&contact(a)), ..parameters(a) }).unwrap();
         let ellipse = EllipticParameters {

@@ -166,7 +166,7 @@ pub(crate) mod tests {
                 normal_force,
                 friction_coefficient,
                 material: BODIES.map(|body| Material { young_modulus: factor * body.young_modulus, ..body }),
-                layer: Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load },
+                layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
                 displacement_reference,
                 springs: 0,
             })
@@ -185,7 +185,7 @@ pub(crate) mod tests {
                 normal_force,
                 friction_coefficient,
                 material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
-                layer: Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load },
+                layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
                 ..EllipticParameters::default()
             })
             .unwrap()
@@ -193,7 +193,7 @@ pub(crate) mod tests {
     }
 
     /// Line contacts with both displacement references, among them a short one, and a sphere; without a layer, and with linear and
-    /// stiffening ones.
+    /// stiffening ones, which remain the same under another normal force: their compliance is given under another load.
     pub(crate) fn cases() -> Vec<Case> {
         let mut cases = Vec::<Case>::new();
         for half_width in FLATS {

@@ -330,8 +330,9 @@ mod tests {
                     normal_compliance: compliance,
                     tangential_compliance: compliance,
                     stiffening_load: 150.0 * ratio,
+                    reference_load: 0.0,
                 };
-                let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap() };
+                let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap().0 };
                 let largest = both.approach(both.at_load(150.0));
                 let mut table = Table::EMPTY;
                 table.fill(largest, &mut |x| both.series(both.at_approach(x), Relation::LoadOfApproach));

@@ -386,7 +386,8 @@ mod tests {
 
     #[test]
     fn the_energy_of_any_slip_zone_is_accurate_relative_to_itself() {
-        let layer = Layer { normal_compliance: 1e-9, tangential_compliance: 2e-9, stiffening_load: 30.0 };
+        let layer =
+            Layer { normal_compliance: 1e-9, tangential_compliance: 2e-9, stiffening_load: 30.0, reference_load: 0.0 };
         let flats = FLATS.map(parameters).into_iter().chain([Parameters { layer, ..parameters(50e-6) }]);
         for parameters in flats {
             let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force).unwrap();

@@ -2,11 +2,11 @@
 //!
 //! Contact and layer carry the same forces N and T, and have one friction coefficient. Then both have the same memory diagram over the
 //! load, so that their displacements add up: the pair is the contact with the sums of U, S and M
-//! ([derivation](../../../docs/derivation.md)). Under the load N of the parameters the layer has the compliances c_n and c_t, and its
+//! ([derivation](../../../docs/derivation.md)). Under its reference load N_r the layer has the compliances c_n and c_t, and its
 //! stiffness grows in proportion to N + N_c:
 //!
 //! ```text
-//! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N0 + N_c) ln(1 + N/N_c),   m = ∫ N df = (N0 + N_c) [N - N_c ln(1 + N/N_c)]
+//! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N_r + N_c) ln(1 + N/N_c),   m = ∫ N df = (N_r + N_c) [N - N_c ln(1 + N/N_c)]
 //! ```
 //!
 //! N_c infinite: f = N, m = N²/2. [`Layered`] is the sum as a shape; nothing above it knows of layers.
@@ -25,7 +25,7 @@ use crate::shape::{ORDER, Relation, Reversed, Series, Shape, TINY};
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layer {
-    /// Normal and tangential compliance without load \[m/N\]: those of the parameters times 1 + N0/N_c.
+    /// Normal and tangential compliance without load \[m/N\]: the compliances of the parameters times 1 + N_r/N_c.
     normal: f64,
     tangential: f64,
     /// 1/N_c \[1/N\]; 0 for a constant stiffness.
@@ -38,24 +38,34 @@ const MOST_COMPLIANT: f64 = (1u64 << 40) as f64;
 impl Layer {
     pub(crate) const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
 
-    /// The layer of parameters that were checked, N > 0.
+    /// The layer of parameters that were checked, N > 0, and its compliance under N over that of the parameters.
     ///
     /// # Errors
-    /// `OutOfRange` if derived quantities are not representable.
-    pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<Layer, Error> {
-        let parameters::Layer { normal_compliance, tangential_compliance, stiffening_load } = *parameters;
-        for compliance in [normal_compliance, tangential_compliance] {
+    /// `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
+    /// `BadTangentialCompliance` if it, or the displacement, is not representable.
+    pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<(Layer, f64), Error> {
+        let parameters::Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load } =
+            *parameters;
+        let reference = if reference_load > 0.0 { reference_load } else { normal_force };
+        // Beyond 2^200 N the layer is linear to rounding.
+        let is_linear = stiffening_load == 0.0 || stiffening_load > 2f64.powi(200) * normal_force.max(reference);
+        let stiffening = if is_linear { 0.0 } else { 1.0 / stiffening_load };
+        let unloaded = 1.0 + stiffening * reference;
+        let under_load = unloaded / (1.0 + stiffening * normal_force);
+        if under_load > MOST_COMPLIANT {
+            return Err(Error::BadReferenceLoad);
+        }
+        for (compliance, error) in
+            [(normal_compliance, Error::BadNormalCompliance), (tangential_compliance, Error::BadTangentialCompliance)]
+        {
             if compliance > 0.0 {
-                in_range(&[compliance], &[])?;
-                in_range(&[compliance, normal_force], &[])?;
+                in_range(&[compliance, under_load], &[]).map_err(|_| error)?;
+                in_range(&[compliance, under_load, normal_force], &[]).map_err(|_| error)?;
             }
         }
-        let constant = stiffening_load == 0.0 || stiffening_load == f64::INFINITY;
-        // Beyond 2^200 N the layer is linear to rounding.
-        let stiffening =
-            if constant || stiffening_load > 2f64.powi(200) * normal_force { 0.0 } else { 1.0 / stiffening_load };
-        let unloaded = 1.0 + stiffening * normal_force;
-        Ok(Layer { normal: normal_compliance * unloaded, tangential: tangential_compliance * unloaded, stiffening })
+        let layer =
+            Layer { normal: normal_compliance * unloaded, tangential: tangential_compliance * unloaded, stiffening };
+        Ok((layer, under_load))
     }
 
     pub fn is_none(&self) -> bool {
@@ -63,10 +73,15 @@ impl Layer {
     }
 
     /// # Errors
-    /// `OutOfRange` if the layer hides the contact: given the normal and tangential compliance of both under a load.
+    /// `BadNormalCompliance`, `BadTangentialCompliance` if the layer hides the contact: given the normal and tangential compliance of
+    /// both under a load.
     pub fn check_share(&self, load: f64, [normal, tangential]: [f64; 2]) -> Result<(), Error> {
         let hides = |layer: f64, both: f64| layer * self.softness(load) > (1.0 - 1.0 / MOST_COMPLIANT) * both;
-        if hides(self.normal, normal) || hides(self.tangential, tangential) { Err(Error::OutOfRange) } else { Ok(()) }
+        match (hides(self.normal, normal), hides(self.tangential, tangential)) {
+            (true, _) => Err(Error::BadNormalCompliance),
+            (_, true) => Err(Error::BadTangentialCompliance),
+            _ => Ok(()),
+        }
     }
 
     /// S less the U of layer and contact `per_approach` times, over N, from that of the contact alone, if it does not depend on N and is no
@@ -233,12 +248,9 @@ impl LayerCurve {
         -self.consumed(load) / (of_contact + self.compliance_at(load))
     }
 
-    /// The parts of the layer in the derivatives by N, at constant c_t, and by μ.
+    /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
     pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
-        let per_compliance = 1.0 / (of_contact + self.compliance_at(load));
-        // [λ2 - η x2], and [τ λ2 - (x2 - ζτ)].
-        let first = self.first_moment(load);
-        [self.stiffening * first * per_compliance, first * per_compliance]
+        [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance_at(load)))
     }
 
     /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
@@ -259,19 +271,20 @@ impl LayerCurve {
 }
 
 impl Layer {
-    /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`.
+    /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`, given the
+    /// compliance of the contact in these units.
     ///
     /// # Errors
-    /// `OutOfRange` if derived quantities are not representable.
-    pub fn relative(&self, normal_force: f64, stiffness_scale: f64) -> Result<LayerCurve, Error> {
+    /// `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is not representable.
+    pub fn relative(&self, normal_force: f64, stiffness_scale: f64, of_contact: f64) -> Result<LayerCurve, Error> {
         if self.tangential > 0.0 {
-            in_range(&[self.tangential, stiffness_scale], &[])?;
+            in_range(&[self.tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
         }
         let softest = self.softness(normal_force);
         let stiffening = self.stiffening * normal_force * softest;
         let compliance = self.tangential * softest * stiffness_scale;
-        if compliance > MOST_COMPLIANT {
-            Err(Error::OutOfRange)
+        if compliance > MOST_COMPLIANT * of_contact {
+            Err(Error::BadTangentialCompliance)
         } else {
             Ok(LayerCurve { compliance, stiffening, softest })
         }
@@ -342,7 +355,6 @@ impl LayeredZones {
     /// The stick zone of the contact without the layer, but for its shift. A zone of known size needs λ for the energy of a flat only.
     fn in_contact(&self, zone: &StickZone) -> StickZone {
         let compliance_increase = match zone.size_parameter {
-            Some(size) if self.elliptic != 0 => (1.0 - size) / size.max(TINY),
             Some(_) => zone.compliance_increase - self.layer.increase(zone.load),
             None => {
                 let contact = self.contact();
@@ -730,12 +742,13 @@ pub(crate) mod tests {
             normal_compliance: normal * shape.normal_compliance(w),
             tangential_compliance: tangential * shape.tangential_compliance(w),
             stiffening_load: ratio * 150.0,
+            reference_load: 0.0,
         }
     }
 
     fn with_layers<S: Shape + Copy + 'static>(shape: S) -> impl Iterator<Item = std::boxed::Box<dyn Shape>> {
         LAYERS.into_iter().map(move |layer| {
-            let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap();
+            let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap().0;
             std::boxed::Box::new(Layered { shape, layer }) as std::boxed::Box<dyn Shape>
         })
     }

@@ -353,7 +353,7 @@ contains
     end do
     call set_up()
     u = reshape([u], shape(u) + [1, 0], pad=[0.0_wp])
-    if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_ARRAY_SIZE)
+    if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_COEFFICIENTS)
     if (procedures(p)%element .and. procedures(p)%memory == 's' .and. procedures(p)%array == shift) then
       call set_up()
       vector = [vector, 0.0_wp]
@@ -516,7 +516,7 @@ contains
     type(mslip_parameters) :: parameters, unset
     type(mslip_elliptic_parameters) :: ellipse
     type(mslip_contact) :: contact
-    real(wp) :: values(13), value
+    real(wp) :: values(14), value
     integer :: i, k
 
     call mslip_contact_init(unset, contact, status)
@@ -531,9 +531,9 @@ contains
         call mslip_contact_init(transfer(values, parameters), contact, status)
         call check_status('a parameter', status, expected(i))
         if (elliptic(i) == none) cycle
-        values(:12) = transfer(ellipse_parameters(), values, 12)
+        values(:13) = transfer(ellipse_parameters(), values, 13)
         values(i) = value
-        call mslip_contact_init_elliptic(transfer(values(:12), ellipse), contact, status)
+        call mslip_contact_init_elliptic(transfer(values(:13), ellipse), contact, status)
         call check_status('a parameter of an ellipse', status, elliptic(i))
       end do
       call mslip_parameters_default(unset)
@@ -567,6 +567,9 @@ contains
     ellipse%layer = mslip_layer(0, 0, -1)
     call mslip_contact_init_elliptic(ellipse, contact, status)
     call check_status('the stiffening load of a layer', status, MSLIP_BAD_STIFFENING_LOAD)
+    ellipse%layer = mslip_layer(0, 0, 0, -1)
+    call mslip_contact_init_elliptic(ellipse, contact, status)
+    call check_status('the reference load of a layer', status, MSLIP_BAD_REFERENCE_LOAD)
     parameters = flat_parameters()
     parameters%length = 1.0e-4_wp
     call mslip_contact_init(parameters, contact, status)
@@ -740,7 +743,7 @@ contains
       end if
       call set_up()
       workspace = workspace_of_one
-      if (procedures(p)%memory == 'w') call rejected('the workspace of one direction', MSLIP_BAD_ARRAY_SIZE)
+      if (procedures(p)%memory == 'w') call rejected('the workspace of one direction', MSLIP_BAD_COEFFICIENTS)
       state = state_of_one
       states(:, n) = state_of_one(:size(states, 1))
       if (procedures(p)%outputs(5:5) == 'N') out(5)%v = spread(untouched, 1, size(state))

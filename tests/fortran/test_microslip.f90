@@ -94,7 +94,7 @@ contains
     call check('a message for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
     call check('size of a contact: no padding', storage_size(cylinder) == 64*(6 + size(cylinder%reserved)))
     call check('size of a material', storage_size(mslip_material(1.0_wp, 0.3_wp)) == 2*64)
-    call check('size of the parameters', storage_size(flat_parameters()) == 13*64)
+    call check('size of the parameters', storage_size(flat_parameters()) == 14*64)
   end subroutine test_library
 
   subroutine test_contacts()

@@ -103,8 +103,9 @@ pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measuremen
     let mut parameters = library_parameters(contact, rig.normal_force);
     let [compliance, load] = rig.layer;
     parameters.layer = Layer {
-        tangential_compliance: compliance * (contact.normal_force + load) / (rig.normal_force + load),
+        tangential_compliance: compliance,
         stiffening_load: load,
+        reference_load: contact.normal_force,
         ..Layer::default()
     };
     let law = &microslip::Contact::rounded_flat(&parameters).unwrap();

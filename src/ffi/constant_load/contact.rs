@@ -206,7 +206,8 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 ///
 /// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
 /// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-/// radius. Those with respect to a and L are 0. The compliances of a layer, which are those under N, and its stiffening load stay fixed.
+/// radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the reference load, and both
+/// its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]

@@ -93,11 +93,11 @@ impl StickZones for EllipseZones {
     }
 
     fn size(&self, zone: &StickZone) -> f64 {
-        1.0 / (1.0 + zone.compliance_increase)
+        zone.size_parameter.unwrap_or_else(|| 1.0 / (1.0 + zone.compliance_increase))
     }
 
     fn size_parameter(&self, zone: &StickZone) -> f64 {
-        zone.size_parameter.unwrap_or_else(|| self.size(zone))
+        self.size(zone)
     }
 
     fn quadrature_point(&self, size: f64) -> QuadraturePoint {

@@ -385,8 +385,10 @@ impl Procedure<'_> {
             let inputs =
                 function.arguments.iter().filter(|argument| argument.is_input() && argument.declaration.pointer);
             let first = usize::from(checks.first().is_some_and(|check| check.starts_with("call check_index")));
-            for (number, check) in inputs.filter_map(|input| self.check_of_input(input)).enumerate() {
-                checks.insert(first + number, check);
+            for (number, (of_coefficients, check)) in inputs.filter_map(|input| self.check_of_input(input)).enumerate()
+            {
+                // Another workspace disagrees with all arrays: the last error stays.
+                checks.insert(if of_coefficients { checks.len() } else { first + number }, check);
             }
             if function.is_batch() && letters.contains(&'m') {
                 checks.push(
@@ -473,7 +475,8 @@ impl Procedure<'_> {
         if shape.len() > 1 { format!("[{}]", shape.join(", ")) } else { shape.concat() }
     }
 
-    fn check_of_input(&self, input: &Argument) -> Option<String> {
+    /// The check of the size of an input, and whether it is that of coefficients.
+    fn check_of_input(&self, input: &Argument) -> Option<(bool, String)> {
         let mut inputs = self.function.arguments.iter().filter(|other| other.is_input() && other.declaration.pointer);
         // The first one defines n. The elements of a batch are checked last.
         let is_second = inputs.next().is_some_and(|first| first.name() != input.name());
@@ -483,7 +486,8 @@ impl Procedure<'_> {
             _ => is_second,
         };
         let letter = input.extents.chars().find(is_checked)?;
-        Some(format!("if ({} /= {letter}) status = MSLIP_BAD_ARRAY_SIZE", self.size(input, 1)))
+        let code = if letter == 'k' { "MSLIP_BAD_COEFFICIENTS" } else { "MSLIP_BAD_ARRAY_SIZE" };
+        Some((letter == 'k', format!("if ({} /= {letter}) status = {code}", self.size(input, 1))))
     }
 
     /// The actual argument of an argument whose shape is not checked.

@@ -66,7 +66,7 @@ impl<'a> Layered<'a> {
             let tangential_compliance = sampler.power(-3.0, 3.0) / case.contact.initial_stiffness;
             let linear = sampler.chance(0.3);
             let stiffening_load = if linear { f64::INFINITY } else { normal_force * sampler.power(-3.0, 2.0) };
-            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load };
+            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
             if let Some(layered) = Layered::new(case, layer) {
                 return layered;
             }

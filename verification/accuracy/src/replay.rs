@@ -75,7 +75,7 @@ fn of_contact(row: &Row, input: Input, arguments: &str, tally: &mut Tally) -> bo
     match (words.first().copied(), words.len(), values.as_slice()) {
         (None, ..) => curve::fields(case, &mut crate::Sampler::new(0), tally),
         (Some("c_t"), _, &[tangential_compliance, stiffening_load, value]) => {
-            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load };
+            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
             layer::at(case, layer, (words[2], value), range, tally);
         }
         (Some("T"), 1, &[force]) => curve::at_force(case, force, range, tally),

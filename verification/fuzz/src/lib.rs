@@ -203,7 +203,12 @@ fn listed() -> &'static [(AnyParameters, Contact)] {
         let flat = |flat_half_width| Parameters { flat_half_width, ..FLAT };
         let unlike = [STEEL, Material { young_modulus: 7e10, poisson_ratio: 0.5 }];
         let rubber = [Material { young_modulus: 1e6, poisson_ratio: 0.0 }; 2];
-        let layer = |stiffening_load| Layer { normal_compliance: 1e-9, tangential_compliance: 2e-9, stiffening_load };
+        let layer = |stiffening_load| Layer {
+            normal_compliance: 1e-9,
+            tangential_compliance: 2e-9,
+            stiffening_load,
+            reference_load: 0.0,
+        };
         let flats = [
             flat(0.0),
             flat(1e-9),
