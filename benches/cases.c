@@ -20,6 +20,7 @@ test_case case_of(double shape)
     }
     p->flat_half_width = shape * 0.5e-3;
     p->length = 20e-3;
+    p->displacement_reference = MSLIP_CENTRE_POINT;
     p->normal_force = 800.0;
     p->friction_coefficient = 0.5;
     p->material[0].young_modulus = p->material[1].young_modulus = 2e11;

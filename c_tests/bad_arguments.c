@@ -262,6 +262,59 @@ static void test_layer(int shape)
     }
 }
 
+static const char *warning(int shape, int32_t i)
+{
+    const void *p = parameter(shape, 0);
+    return IS_ROUNDED(shape) ? mslip_parameters_warning(p, i) : mslip_elliptic_parameters_warning(p, i);
+}
+
+/* Each implausible value has one warning, no plausible, unset or invalid value has any, and no exception is raised. */
+static void test_warnings(int shape)
+{
+    const struct {
+        int shape, field;
+        double value;
+        const char *start;
+    } rows[] = {
+        { ROUNDED, 0, 0.3, "flat_half_width is implausible" }, { ROUNDED, 1, 2.0, "edge_radius is implausible" },
+        { ROUNDED, 1, 2e-6, "edge_radius is implausible" }, { ROUNDED, 2, 19.7, "length is implausible" },
+        { ROUNDED, 2, 1.97e-5, "length is implausible" }, { ROUNDED, 4, 41.7, "friction_coefficient is implausible" },
+        { ROUNDED, 5, 2e5, "young_modulus is implausible" }, { ROUNDED, 7, 2e17, "young_modulus is implausible" },
+        { ROUNDED, 1, 2e-4, "edge_radius is below flat_half_width" }, { ROUNDED, 3, 3e5, "normal_force is implausible: b - a" },
+        { ROUNDED, 2, 1e-3, "length is below two widths" }, { ROUNDED, 2, 1.5e-3, NULL }, { ROUNDED, 3, 2e5, NULL },
+        { ELLIPTIC, 0, 0.85, "semi_axis_x is implausible" }, { ELLIPTIC, 1, 1.5e-7, "semi_axis_y is implausible" },
+        { ELLIPTIC, 2, 6e4, "normal_force is implausible: the semi-axes" }, { ELLIPTIC, 2, 5e4, NULL },
+        { ELLIPTIC, 3, 90.0, "friction_coefficient is implausible" }, { ELLIPTIC, 6, 2.1e5, "young_modulus is implausible" },
+    };
+    const uint64_t invalid[] = { 0x7ff0000000000001, 0x7ff8000000000000, 0x7ff0000000000000, 0xbff0000000000000 };
+    const int lengths = IS_ROUNDED(shape) ? 3 : 2, modulus = lengths + 2;
+    for (size_t i = 0; i < LENGTH(rows); ++i) {
+        set_parameters(shape);
+        *parameter(shape, rows[i].field) = rows[i].value;
+        const char *text = rows[i].shape == shape ? warning(shape, 0) : rows[i].start;
+        CHECK(rows[i].start == NULL ? text == NULL : text != NULL && strncmp(text, rows[i].start, strlen(rows[i].start)) == 0);
+        CHECK(rows[i].shape != shape || (warning(shape, 1) == NULL && warning(shape, -1) == NULL));
+    }
+    for (int i = 0; i < shapes[shape].fields; ++i) {
+        for (size_t k = 0; k < LENGTH(invalid); ++k) {
+            set_parameters(shape);
+            memcpy(parameter(shape, i), &invalid[k], sizeof invalid[k]);
+            CHECK(warning(shape, 0) == NULL);
+        }
+    }
+    /* Lengths in mm, with moduli in Pa and in MPa; all values unset. */
+    set_parameters(shape);
+    for (int i = 0; i < lengths; ++i) {
+        *parameter(shape, i) *= 1e3;
+    }
+    CHECK(warning(shape, lengths - 1) != NULL && warning(shape, lengths) == NULL);
+    *parameter(shape, modulus) = *parameter(shape, modulus + 2) *= 1e-6;
+    CHECK(warning(shape, 0) == NULL);
+    mslip_parameters_default(last(input_region, sizeof(mslip_parameters)));
+    CHECK(mslip_parameters_warning(last(input_region, sizeof(mslip_parameters)), 0) == NULL && raised() == 0);
+    CHECK(mslip_parameters_warning(NULL, 0) == NULL && mslip_elliptic_parameters_warning(NULL, 0) == NULL);
+}
+
 /* Values that are valid one by one, but not together; invalid references of the displacement, and numbers of springs. */
 static void test_combinations(void)
 {
@@ -311,6 +364,7 @@ static void test_combinations(void)
     }
     for (int shape = 0; shape < SHAPES; ++shape) {
         test_layer(shape);
+        test_warnings(shape % 2);
     }
     save_regions();
     mslip_parameters_default(NULL);
@@ -549,7 +603,8 @@ static void test_choice(const function *f, const argument *a)
 {
     int32_t *const choice = (int32_t *)(void *)((char *)&call + a->field);
     const int is_directions = choice == &call.directions, is_rule = choice == &call.rule;
-    const int32_t bad[] = { is_directions ? 0 : 2, is_directions ? 3 : 7, -1, INT32_MAX, INT32_MIN };
+    /* MSLIP_BY_NORMAL_FORCE, 0, is no normal input. */
+    const int32_t bad[] = { is_rule ? 2 : MSLIP_BY_NORMAL_FORCE, is_directions ? 3 : is_rule ? 7 : 1, -1, INT32_MAX, INT32_MIN };
     for (size_t i = 0; i < 2 * LENGTH(bad); ++i) {
         *choice = bad[i / 2];
         call.harmonics = i % 2 ? 0 : call.harmonics;

@@ -27,6 +27,7 @@ static inline mslip_parameters flat_parameters(void)
     p.length = 1.97e-2;
     p.normal_force = 178.24;
     p.friction_coefficient = 0.417;
+    p.displacement_reference = MSLIP_CENTRE_POINT;
     p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
     p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.29;
     return p;
@@ -77,7 +78,7 @@ static inline mslip_contact contact_of(int kind)
 enum { VARIANTS = 4, TWO_DIRECTIONS = 2 };
 static inline int32_t normal_input_of(int variant)
 {
-    return variant % 2;
+    return MSLIP_INPUT_APPROACH + variant % 2;
 }
 
 static inline int32_t directions_of(int variant)

@@ -77,6 +77,7 @@ static void init_from_row(const double *v, double mu, double normal_force, int32
     p.length = v[L];
     p.normal_force = normal_force;
     p.friction_coefficient = mu;
+    p.displacement_reference = MSLIP_CENTRE_POINT;
     memcpy(p.material, material, sizeof material);
     p.layer = layer_of(v);
     while ((status = mslip_element_init(&p, 1, normal_input, element)) == MSLIP_LENGTH_TOO_SHORT) {
@@ -299,7 +300,7 @@ static void check_normal_law(int layered)
         const double *v = with_layer(t.value, layered, &row[CONTACT]), force = v[FORCE], approach = v[APPROACH];
         const double slope = layered ? 1e-12 : 1e-13; /* the singularities of a layer are closer to the pieces of the tables */
         for (int k = 0; k < 6; ++k) {
-            init_from_row(row, 0.5, factors[k / 2] * force, k % 2, &element);
+            init_from_row(row, 0.5, factors[k / 2] * force, MSLIP_INPUT_APPROACH + k % 2, &element);
             accepted(&t, mslip_normal_force(&element, 1, &approach, &got[0], &got[1], &got[2]));
             compare(&t, "N", got[0], force, 1e-14 * force);
             compare(&t, "dN/d(u_n)", got[1], v[STIFFNESS], slope * v[STIFFNESS]);
@@ -328,6 +329,7 @@ static void init_kind_of(int kind, double friction_coefficient, int32_t directio
         p.edge_radius = 3e-3;
         p.length = 20e-3;
         p.normal_force = 800.0;
+        p.displacement_reference = MSLIP_CENTRE_POINT;
         p.friction_coefficient = friction_coefficient;
         p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
         p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.3;
@@ -402,7 +404,8 @@ static void test_separation(void)
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int input = MSLIP_INPUT_APPROACH; input <= MSLIP_INPUT_NORMAL_FORCE; ++input) {
             init_kind(kind, 0.5, input, &element);
-            const double unit = 400.0 / element.tangential_stiffness, whole = input ? 800.0 : element.approach;
+            const double unit = 400.0 / element.tangential_stiffness;
+            const double whole = input == MSLIP_INPUT_APPROACH ? element.approach : 800.0;
             for (size_t k = 0; k < sizeof vanishing / sizeof *vanishing; ++k) {
                 /* Constant displacement and falling load; then slip on the way to separation. */
                 for (int slips = 0; slips < 2; ++slips) {
@@ -454,6 +457,7 @@ static void test_largest_load(void)
     p.edge_radius = 3e-3;
     p.length = 1e-3;
     p.friction_coefficient = 0.5;
+    p.displacement_reference = MSLIP_CENTRE_POINT;
     p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
     p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.3;
     for (int flat = 0; flat < 3; ++flat) {
@@ -470,7 +474,8 @@ static void test_largest_load(void)
                 init_state(STATE, state[k]);
             }
             for (int i = 1; i <= 50; ++i) {
-                const double w = (input ? elements[0].normal_force : elements[0].approach) * i / 50.0 * (1.0 - 1e-9);
+                const double largest = input == MSLIP_INPUT_APPROACH ? elements[0].approach : elements[0].normal_force;
+                const double w = largest * i / 50.0 * (1.0 - 1e-9);
                 const double u = 1e-3 * elements[0].approach * (i % 7 - 3);
                 for (int k = 0; k < 2; ++k) {
                     CHECK(advance(&elements[k], state[k], u, w, force[k], &energy[k]) == MSLIP_OK);

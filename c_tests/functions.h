@@ -428,7 +428,8 @@ STATUS(MSLIP_BAD_YOUNG_MODULUS, 7,
 STATUS(MSLIP_BAD_POISSON_RATIO, 8,
     "each poisson_ratio must be between 0 and 0.5")
 STATUS(MSLIP_BAD_DISPLACEMENT_REFERENCE, 9,
-    "displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP")
+    "displacement_reference must be MSLIP_RIGID_STRIP, the contact of a machine, or MSLIP_CENTRE_POINT, that of the paper, 7 "
+    "to 13 % more compliant")
 STATUS(MSLIP_BAD_SEMI_AXIS_X, 10,
     "semi_axis_x must be finite and > 0")
 STATUS(MSLIP_BAD_SEMI_AXIS_Y, 11,

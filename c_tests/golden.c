@@ -60,6 +60,7 @@ static void check_contacts(void)
         }
         ++contact_count;
         mslip_parameters_default(&r->parameters);
+        r->parameters.displacement_reference = MSLIP_CENTRE_POINT;
         r->parameters.flat_half_width = v[1];
         r->parameters.edge_radius = v[2];
         r->parameters.length = v[3];

@@ -54,13 +54,14 @@ int main(int argc, char **argv)
 
     mslip_parameters_default(&memory.parameters);
     mslip_elliptic_parameters_default(&memory.elliptic);
-    CHECK(memory.parameters.displacement_reference == MSLIP_CENTRE_POINT && memory.parameters.springs == 0);
+    CHECK(memory.parameters.displacement_reference == -1 && memory.parameters.springs == 0);
     CHECK(memory.elliptic.springs == 0 && memory.elliptic.reserved == 0);
     memory.parameters.flat_half_width = 0.0;
     memory.parameters.edge_radius = 5e-3;
     memory.parameters.length = 2e-2;
     memory.parameters.normal_force = 100.0;
     memory.parameters.friction_coefficient = 0.5;
+    memory.parameters.displacement_reference = MSLIP_CENTRE_POINT;
     for (body = 0; body < 2; ++body) {
         memory.parameters.material[body].young_modulus = 2e11;
         memory.parameters.material[body].poisson_ratio = 0.5;

@@ -17,6 +17,7 @@ program first_contact
     displacement_reference=MSLIP_RIGID_STRIP)
   allocate (workspace(mslip_harmonic_workspace_length(harmonics, samples)))
 
+  if (mslip_parameters_warning(p, 1) /= '') print '(2a)', 'warning: ', mslip_parameters_warning(p, 1)  ! units, exchanged values
   ! Once for each contact, then any of the other calls. Every call returns a status.
   call mslip_contact_init(p, contact, status)
   if (status == MSLIP_OK) call mslip_complex_stiffness(contact, amplitude, status, k_real, k_imag)

@@ -38,11 +38,11 @@ module microslip
   !! component after component: those of the tangential one or two, then those of the normal one. A Jacobian has the derivative of
   !! force coefficient i with respect to displacement coefficient j in element (i, j), column-major: a default NumPy array of the
   !! same memory holds its transpose.
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_loc, c_null_ptr, c_ptr, c_size_t
   implicit none
   private
 
-  public :: mslip_version, mslip_abi_version, mslip_status_text
+  public :: mslip_version, mslip_abi_version, mslip_status_text, mslip_parameters_warning, mslip_elliptic_parameters_warning
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
   public :: mslip_harmonic_workspace_size, mslip_element_workspace_size
   ! <generated: public>
@@ -118,7 +118,8 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_YOUNG_MODULUS = 7  !! each young_modulus must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_POISSON_RATIO = 8  !! each poisson_ratio must be between 0 and 0.5
   integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT_REFERENCE = 9
-    !! displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP
+    !! displacement_reference must be MSLIP_RIGID_STRIP, the contact of a machine, or MSLIP_CENTRE_POINT, that of the
+    !! paper, 7 to 13 % more compliant
   integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_X = 10  !! semi_axis_x must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_SEMI_AXIS_Y = 11  !! semi_axis_y must be finite and > 0
   integer(mslip_int), parameter, public :: MSLIP_LENGTH_TOO_SHORT = 12
@@ -194,9 +195,9 @@ module microslip
     !! Harmonic force from uniformly spaced samples of a period; its Jacobian is exact for this discretisation.
   integer(mslip_int), parameter, public :: MSLIP_EVENT_DRIVEN = 1
     !! Harmonic force from Gauss-Legendre nodes between the events: reversals, loop closures, onset of gross slip.
-  integer(mslip_int), parameter, public :: MSLIP_INPUT_APPROACH = 0
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_APPROACH = 16
     !! The normal component of a displacement is the normal approach [m]; if it is not positive, the contact is open.
-  integer(mslip_int), parameter, public :: MSLIP_INPUT_NORMAL_FORCE = 1
+  integer(mslip_int), parameter, public :: MSLIP_INPUT_NORMAL_FORCE = 17
     !! The normal component of a displacement is the normal force [N] itself.
   integer(mslip_int), parameter, public :: MSLIP_BY_NORMAL_FORCE = 1
     !! Row of a sensitivity: derivative with respect to the normal force N.
@@ -249,8 +250,8 @@ module microslip
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
-    integer(mslip_int) :: displacement_reference = MSLIP_CENTRE_POINT
-      !! `MSLIP_CENTRE_POINT`, as in the paper, or `MSLIP_RIGID_STRIP`.
+    integer(mslip_int) :: displacement_reference = -1
+      !! `MSLIP_RIGID_STRIP`, corrected to 3-D, for the contact of a machine, or `MSLIP_CENTRE_POINT`, as in the paper.
     integer(mslip_int) :: springs = 0
       !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
   end type mslip_parameters
@@ -406,6 +407,20 @@ module microslip
       import
       type(mslip_elliptic_parameters), intent(inout) :: p
     end subroutine c_elliptic_parameters_default
+
+    pure function c_parameters_warning(p, i) bind(c, name='mslip_parameters_warning')
+      import
+      type(mslip_parameters), intent(in) :: p
+      integer(c_int32_t), value :: i
+      type(c_ptr) :: c_parameters_warning
+    end function c_parameters_warning
+
+    pure function c_elliptic_parameters_warning(p, i) bind(c, name='mslip_elliptic_parameters_warning')
+      import
+      type(mslip_elliptic_parameters), intent(in) :: p
+      integer(c_int32_t), value :: i
+      type(c_ptr) :: c_elliptic_parameters_warning
+    end function c_elliptic_parameters_warning
 
     function c_contact_init(p, contact) bind(c, name='mslip_contact_init')
       import
@@ -878,11 +893,33 @@ contains
     text = text_of(c_status_text(status))
   end function mslip_status_text
 
+  function mslip_parameters_warning(parameters, i) result(text)
+    !! Warning i >= 1 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the
+    !! model is inaccurate. Empty if there are no more. Lengths are in m and moduli in Pa, or in mm and MPa if both moduli are at
+    !! most 1.3e6.
+    type(mslip_parameters), intent(in) :: parameters  !! The parameters; any value is accepted.
+    integer(mslip_int), intent(in) :: i  !! Number of the warning.
+    character(len=length_of(c_parameters_warning(parameters, i - 1_mslip_int))) :: text  !! The text, without blanks around it.
+
+    text = ''
+    if (len(text) > 0) text = text_of(c_parameters_warning(parameters, i - 1_mslip_int))
+  end function mslip_parameters_warning
+
+  function mslip_elliptic_parameters_warning(parameters, i) result(text)
+    !! Warning i >= 1 of the parameters of an elliptical contact, as `mslip_parameters_warning`.
+    type(mslip_elliptic_parameters), intent(in) :: parameters  !! The parameters; any value is accepted.
+    integer(mslip_int), intent(in) :: i  !! Number of the warning.
+    character(len=length_of(c_elliptic_parameters_warning(parameters, i - 1_mslip_int))) :: text  !! As above.
+
+    text = ''
+    if (len(text) > 0) text = text_of(c_elliptic_parameters_warning(parameters, i - 1_mslip_int))
+  end function mslip_elliptic_parameters_warning
+
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Defaults, and sizes of workspaces
 
   subroutine mslip_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`, default springs.
+    !! Every value unset (NaN, the displacement reference -1), so that a forgotten one is rejected by name; default springs.
     type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_parameters_default(parameters)
@@ -2365,6 +2402,15 @@ contains
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Conversion between Fortran and C
+
+  pure function length_of(text) result(length)
+    ! 0 without a text.
+    type(c_ptr), intent(in) :: text
+    integer(c_size_t) :: length
+
+    length = 0
+    if (c_associated(text)) length = c_strlen(text)
+  end function length_of
 
   function text_of(text) result(copy)
     ! A C string as Fortran text. Its length is not deferred: with -fno-automatic gfortran 12 returns such a text empty.

@@ -18,9 +18,9 @@ use table::{PIECES, Table};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NormalInput {
     /// The normal approach; not positive if the contact is open.
-    Approach = 0,
+    Approach = 16,
     /// The normal force.
-    Force = 1,
+    Force = 17,
 }
 
 /// Number of tangential directions: a displacement is `[u, w]` or `[u, v, w]`, a force `[T, N]` or `[Tx, Ty, N]`.

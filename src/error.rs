@@ -56,7 +56,7 @@ status_codes! {
     BadYoungModulus, MSLIP_BAD_YOUNG_MODULUS = 7: "each young_modulus must be finite and > 0";
     BadPoissonRatio, MSLIP_BAD_POISSON_RATIO = 8: "each poisson_ratio must be between 0 and 0.5";
     BadDisplacementReference, MSLIP_BAD_DISPLACEMENT_REFERENCE = 9:
-        "displacement_reference must be MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP";
+        "displacement_reference must be MSLIP_RIGID_STRIP, the contact of a machine, or MSLIP_CENTRE_POINT, that of the paper, 7 to 13 % more compliant";
     BadSemiAxisX, MSLIP_BAD_SEMI_AXIS_X = 10: "semi_axis_x must be finite and > 0";
     BadSemiAxisY, MSLIP_BAD_SEMI_AXIS_Y = 11: "semi_axis_y must be finite and > 0";
     LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:

@@ -52,9 +52,9 @@ pub const MSLIP_UNIFORM_SAMPLING: i32 = 0;
 pub const MSLIP_EVENT_DRIVEN: i32 = 1;
 
 /// The normal component of a displacement is the normal approach \[m\]; if it is not positive, the contact is open.
-pub const MSLIP_INPUT_APPROACH: i32 = 0;
+pub const MSLIP_INPUT_APPROACH: i32 = 16;
 /// The normal component of a displacement is the normal force \[N\] itself.
-pub const MSLIP_INPUT_NORMAL_FORCE: i32 = 1;
+pub const MSLIP_INPUT_NORMAL_FORCE: i32 = 17;
 
 /// Row of a sensitivity: derivative with respect to the normal force N.
 pub const MSLIP_BY_NORMAL_FORCE: i32 = 0;

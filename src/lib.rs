@@ -23,6 +23,8 @@ mod tag;
 mod fourier;
 pub mod shape;
 
+mod plausibility;
+
 pub mod element;
 
 pub mod law;

@@ -86,7 +86,7 @@ pub struct Parameters {
     pub material: [Material; 2],
     /// A layer in series with the contact; all zero: none.
     pub layer: Layer,
-    /// `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
+    /// `MSLIP_RIGID_STRIP` (1, corrected to 3-D, for the contact of a machine) or `MSLIP_CENTRE_POINT` (0, as in the paper).
     pub displacement_reference: i32,
     /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
     pub springs: i32,
@@ -114,7 +114,7 @@ pub struct EllipticParameters {
     pub reserved: i32,
 }
 
-/// Default of the numbers: NaN, so that an omitted parameter is rejected by its own error.
+/// Default of the numbers: NaN, and of the displacement reference: -1, so that an omitted parameter is rejected by its own error.
 const UNSET: f64 = f64::NAN;
 
 const UNSET_MATERIAL: Material = Material { young_modulus: UNSET, poisson_ratio: UNSET };
@@ -129,7 +129,7 @@ impl Default for Parameters {
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
             layer: Layer::none(),
-            displacement_reference: CENTRE_POINT,
+            displacement_reference: -1,
             springs: 0,
         }
     }
@@ -271,6 +271,7 @@ mod tests {
             normal_force: 100.0,
             friction_coefficient: 0.5,
             material: [material; 2],
+            displacement_reference: CENTRE_POINT,
             ..Parameters::default()
         }
     }
@@ -283,8 +284,10 @@ mod tests {
         assert_eq!(one.check(), Ok(()));
         one.material[1].poisson_ratio = f64::NAN;
         assert_eq!(one.check(), Err(Error::BadPoissonRatio));
-        one = Parameters { displacement_reference: 2, ..steel() };
-        assert_eq!(one.check(), Err(Error::BadDisplacementReference));
+        for displacement_reference in [2, Parameters::default().displacement_reference] {
+            one = Parameters { displacement_reference, ..steel() };
+            assert_eq!(one.check(), Err(Error::BadDisplacementReference));
+        }
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
         for springs in [0, 8, 12, 16] {

@@ -23,6 +23,7 @@ pub(crate) mod tractions;
 pub use hertz_ellipse::HertzEllipse;
 pub(crate) use layer::{Layer, Layered, LayeredZones};
 pub use rounded_flat::RoundedFlat;
+pub(crate) use rounded_flat::size_under_load;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
 
 /// A nested family of contact sizes in absolute terms. A size is given by a parameter w \[m\] that is 0 for the smallest one.

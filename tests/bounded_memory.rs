@@ -28,6 +28,7 @@ fn contacts() -> [(&'static str, Contact); 4] {
             normal_force: 1e5 * length,
             friction_coefficient: 0.5,
             material,
+            displacement_reference: microslip::parameters::CENTRE_POINT,
             ..Parameters::default()
         };
         Contact::rounded_flat(&parameters).unwrap()

@@ -87,13 +87,14 @@ fn case() -> Case {
         normal_force: number("contact.normal_force"),
         friction_coefficient: number("contact.friction_coefficient"),
         material: body,
+        displacement_reference: microslip::parameters::RIGID_STRIP,
         ..Parameters::default()
     };
     // Not supported here.
     assert_eq!(words("contact.law")[0], "microslip");
     assert_eq!(numbers("contact.dof")[1], 0.0);
     assert_eq!(number("excitation.phase"), 0.0);
-    assert_eq!(words("contact.displacement_reference")[0], "centre point");
+    assert_eq!(words("contact.displacement_reference")[0], "rigid_strip");
     assert!(!variables.contains_key("contact.count"));
     let mass = matrix("model.mass");
     let mut excitation = DVector::zeros(mass.nrows());
@@ -237,14 +238,10 @@ impl<'a> Balance<'a> {
     }
 
     /// Newton's method with step halving, down to rounding.
-    fn newton(&self, law: &Law, mut motion: DVector<f64>, share: f64) -> Solution {
-        let excitation = &self.excitation * share;
-        let at = |motion: &DVector<f64>| {
-            let (residual, jacobian) = self.residual_and_jacobian(law, motion);
-            (residual + &self.excitation - &excitation, jacobian)
-        };
+    fn newton(&self, law: &Law, mut motion: DVector<f64>) -> Solution {
+        let at = |motion: &DVector<f64>| self.residual_and_jacobian(law, motion);
         let (mut residual, mut jacobian) = at(&motion);
-        let mut residuals = vec![residual.norm() / excitation.norm()];
+        let mut residuals = vec![residual.norm() / self.excitation.norm()];
         for _ in 0..60 {
             if residuals.last().is_some_and(|left| *left < 1e-14) {
                 break;
@@ -254,26 +251,16 @@ impl<'a> Balance<'a> {
             let better = halved.map(|trial| (at(&trial), trial)).find(|((left, _), _)| left.norm() < residual.norm());
             let Some(((left, slope), next)) = better else { break };
             (motion, residual, jacobian) = (next, left, slope);
-            residuals.push(residual.norm() / excitation.norm());
+            residuals.push(residual.norm() / self.excitation.norm());
         }
         Solution { motion, residuals }
     }
 
-    /// Continuation in the excitation, with steps refined until Newton's method converges.
+    /// Newton's method from the motions with softer and softer springs in place of the contact, until it converges.
     fn solve(&self, law: &Law) -> Solution {
-        for steps in [1, 4, 16, 64] {
-            let mut solution = Solution {
-                motion: self.with_spring(self.case.contact.initial_stiffness) / steps as f64,
-                residuals: vec![],
-            };
-            for step in 1..=steps {
-                solution = self.newton(law, solution.motion, step as f64 / steps as f64);
-            }
-            if solution.residuals.last().is_some_and(|left| *left < 1e-11) {
-                return solution;
-            }
-        }
-        panic!("no balance");
+        let solution = |part| self.newton(law, self.with_spring(part * self.case.contact.initial_stiffness));
+        let is_converged = |solution: &Solution| solution.residuals.last().is_some_and(|left| *left < 1e-11);
+        [1.0, 0.4, 0.1].into_iter().map(solution).find(is_converged).expect("a balance")
     }
 }
 

@@ -26,6 +26,7 @@ fn contact() -> impl Strategy<Value = Contact> {
                     normal_force,
                     friction_coefficient,
                     material,
+                    displacement_reference: microslip::parameters::CENTRE_POINT,
                     ..Parameters::default()
                 };
                 // The half-width depends on the length: iterate to the requested ratio.

@@ -23,6 +23,7 @@ fn contacts(friction_coefficient: f64, layer: &dyn Fn(&Contact) -> Layer) -> Vec
             friction_coefficient,
             material: [STEEL; 2],
             layer,
+            displacement_reference: microslip::parameters::CENTRE_POINT,
             ..Parameters::default()
         };
         let alone = Contact::rounded_flat(&parameters(Layer::none())).unwrap();
@@ -394,6 +395,7 @@ fn a_layer_holds_at_its_reference_load() {
         friction_coefficient: 0.5,
         material: [STEEL; 2],
         layer,
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     };
     let smooth = Contact::rounded_flat(&parameters(reference_load, Layer::none())).unwrap();
@@ -466,6 +468,7 @@ fn displacements_of_elements_under_static_forces_are_those_of_contacts() {
                     friction_coefficient: 0.4,
                     material: [STEEL; 2],
                     layer,
+                    displacement_reference: microslip::parameters::CENTRE_POINT,
                     ..Parameters::default()
                 };
                 let element = Element::rounded_flat(&parameters, Directions::One, input).unwrap();

@@ -138,15 +138,17 @@ fn tangents_are_derivatives() {
     ];
     let (mut errors, mut beyond) = (Vec::new(), 0);
     for element in &elements {
-        let (unit, full) =
-            (unit(element), if element.normal_input == 1 { element.normal_force } else { element.approach });
+        let (unit, full) = (
+            unit(element),
+            if element.normal_input == NormalInput::Force as i32 { element.normal_force } else { element.approach },
+        );
         let mut contact = Contact::new(element);
         let mut at = [0.0, 0.0, full];
         contact.to(at);
         for k in 0..200 {
             let size = [0.05, 0.3, 1.0, 3.0][k % 4] * unit;
             let load = if k % 3 == 0 { at[2] } else { full * (random.next() * 1.3 - 0.15) };
-            let load = if element.normal_input == 1 { load.max(0.0) } else { load };
+            let load = if element.normal_input == NormalInput::Force as i32 { load.max(0.0) } else { load };
             let next = [at[0] + size * (random.next() - 0.5), at[1] + size * (random.next() - 0.5), load];
             let next = if k % 10 < 2 { [next[0], at[1], next[2]] } else { next };
             let step = contact.trial(next);
@@ -197,7 +199,11 @@ fn tangents_are_derivatives() {
 /// The normal component of a share of the normal force of the parameters.
 fn normal_input(element: &Element, share: f64) -> f64 {
     let load = share * element.normal_force;
-    if element.normal_input == 1 || share <= 0.0 { load } else { element.approach_under(load).value }
+    if element.normal_input == NormalInput::Force as i32 || share <= 0.0 {
+        load
+    } else {
+        element.approach_under(load).value
+    }
 }
 
 /// mu N of the parameters.

@@ -21,6 +21,7 @@ fn parameters(flat_half_width: f64) -> Parameters {
         normal_force: 800.0,
         friction_coefficient: 0.5,
         material: [STEEL; 2],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     }
 }

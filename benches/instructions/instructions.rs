@@ -110,6 +110,7 @@ fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
         normal_force,
         friction_coefficient: 0.4,
         material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     };
     let mut contact = MaybeUninit::uninit();
@@ -264,6 +265,7 @@ fn element() -> &'static mslip_element {
         normal_force: 200.0,
         friction_coefficient: 0.4,
         material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     };
     let mut element = Box::new(MaybeUninit::uninit());

@@ -140,28 +140,7 @@ pub fn contact(spec: &ContactSpec) -> Report {
     let table = Table::of_text("quantity,value,unit", properties.map(row).into());
     let pressure = across(contact, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
     let panels = vec![panel(ACROSS, Axis::linear("pressure", Pressure), pressure)];
-    let mut report = Report::new("contact", spec, "", table, panels);
-    report.warnings.extend(model_warnings(spec));
-    report
-}
-
-/// Dimensions for which the model is inaccurate.
-fn model_warnings(spec: &ContactSpec) -> Vec<String> {
-    let (half_width, mut warnings) = (spec.contact.half_width, Vec::new());
-    let size = |value: f64| rounded(value, Length, spec.units);
-    if let Some(radius) = spec.given.edge_radius.filter(|radius| half_width > *radius) {
-        let (b, radius) = (size(half_width), size(radius));
-        warnings.push(format!(
-            "half-width b = {b} exceeds the radius R = {radius}; the half-plane assumption needs b << R"
-        ));
-    }
-    if let Some(length) = spec.given.length.filter(|length| *length < 4.0 * half_width) {
-        let (b, ratio, length) = (size(half_width), length / (2.0 * half_width), size(length));
-        warnings.push(format!(
-            "L/2b = {ratio:.2} (L = {length}, b = {b}) is below 2; the model assumes a long contact, L >> b"
-        ));
-    }
-    warnings
+    Report::new("contact", spec, "", table, panels)
 }
 
 /// The maximum pressure: in the middle of a cylinder or an ellipse; on the rounded edge of a flat, where a golden-section search

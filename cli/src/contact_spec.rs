@@ -9,7 +9,7 @@ use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use serde::Deserialize;
-use std::ops::RangeInclusive;
+use std::ffi::CStr;
 use std::path::Path;
 
 /// Parameters of the file or of the options.
@@ -58,7 +58,7 @@ pub struct ContactArgs {
     /// Layer: the load under which its compliances hold, as measured [default: the normal force]
     #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
     reference_load: Option<f64>,
-    /// Reference of the displacement [default: centre_point]
+    /// Reference of the displacement of a flat: rigid_strip for the contact of a machine
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
     /// Springs of histories in two directions: 8, 12 or 16, more accurate and slower [default: 0, that of the library]
@@ -84,25 +84,11 @@ struct MaterialTable {
 #[serde(rename_all = "snake_case")]
 #[value(rename_all = "snake_case")]
 enum Reference {
-    /// The centre of the contact, under a line of uniform traction
-    CentrePoint,
-    /// A rigid strip, corrected to three-dimensional contact mechanics
+    /// A rigid strip, corrected to three-dimensional contact mechanics: the contact of a machine
     RigidStrip,
+    /// The centre of the contact, under a line of uniform traction: as in the paper, 7 to 13 % more compliant
+    CentrePoint,
 }
-
-/// A parameter: its name, the range of plausible values in SI units, and what has values of this size.
-type Plausible = (&'static str, Quantity, RangeInclusive<f64>, &'static str);
-
-/// Numbers outside are valid, but most likely in other units: millimetres or megapascals change them by factors of 1e3 and 1e6.
-const PLAUSIBLE: [Plausible; 6] = [
-    ("flat_half_width", Quantity::Length, 0.0..=0.1, "a flank is at most 0.2 m wide"),
-    ("length", Quantity::Length, 1e-4..=1.0, "flanks and dampers are 0.1 mm to 1 m long"),
-    ("semi_axis_x", Quantity::Length, 1e-6..=0.1, HERTZ),
-    ("semi_axis_y", Quantity::Length, 1e-6..=0.1, HERTZ),
-    ("friction_coefficient", Quantity::Number, 0.0..=2.0, "metals and ceramics in air have 0.1 to 1.5"),
-    ("young_modulus", Quantity::Pressure, 1e7..=1.3e12, "soft plastics have 10 MPa, diamond has 1.2 TPa"),
-];
-const HERTZ: &str = "a contact of 1 um is one of single asperities, and one of 0.1 m is not local";
 
 /// A contact and the parameters that define it.
 #[derive(Debug)]
@@ -226,19 +212,28 @@ impl ContactArgs {
         scalars.into_iter().chain(lists).collect()
     }
 
-    /// Warnings about parameters of an implausible size.
+    /// Warnings of the library about implausible parameters, with the value of the parameter with which each begins.
     pub fn implausible(&self) -> Vec<String> {
-        let (units, numbers) = (self.units.unwrap_or(Units::Si), self.numbers());
-        let warning = |(name, quantity, range, reason): &Plausible| {
-            let (_, values) = numbers.iter().find(|(known, _)| known == name)?;
-            let value = values.iter().find(|value| !range.contains(&(**value * units.in_si(*quantity))))?;
-            let (value, unit) = (format_number(*value), units.unit(*quantity));
-            Some(match quantity {
-                Quantity::Number => format!("{name} = {value} is implausible: {reason}"),
-                _ => format!("{name} = {value} {unit} is implausible: {reason}; check the units"),
-            })
+        let units = self.units.unwrap_or(Units::Si);
+        let metre = Some(1.0 / units.in_si(Quantity::Length));
+        let warnings: Vec<_> = match self.shape(1.0) {
+            Ok(ShapeParameters::Flat(parameters)) => parameters.warnings(metre).collect(),
+            Ok(ShapeParameters::Ellipse(parameters)) => parameters.warnings(metre).collect(),
+            Err(_) => Vec::new(),
         };
-        PLAUSIBLE.iter().filter_map(warning).collect()
+        let with_value = |text: &CStr| {
+            let text = text.to_string_lossy();
+            let name = text.split(' ').next()?;
+            let (_, values) = self.numbers().into_iter().find(|(known, _)| *known == name)?;
+            let unit = match name {
+                "friction_coefficient" => String::new(),
+                "young_modulus" => format!(" {}", units.unit(Quantity::Pressure)),
+                "normal_force" => format!(" {}", units.unit(Quantity::Force)),
+                _ => format!(" {}", units.unit(Quantity::Length)),
+            };
+            Some(format!("{name} = {}{unit}{}", format_list(&values), &text[name.len()..]))
+        };
+        warnings.into_iter().filter_map(with_value).collect()
     }
 
     /// Adds the parameters of the file that are not given yet.
@@ -271,7 +266,12 @@ impl ContactArgs {
             return Ok(());
         }
         let options = names.iter().map(|name| option_name(name)).collect::<Vec<_>>().join(", ");
-        usage(format!("missing parameters: {}; give them in a parameter file or by {options}", names.join(", ")))
+        let why = if names.contains(&"displacement_reference") {
+            "; displacement_reference is rigid_strip for the contact of a machine, centre_point as in the paper"
+        } else {
+            ""
+        };
+        usage(format!("missing parameters: {}; give them in a parameter file or by {options}{why}", names.join(", ")))
     }
 
     /// The contact, with length and normal force multiplied by the same factor.
@@ -323,7 +323,8 @@ impl ContactArgs {
                 material,
                 displacement_reference: match self.displacement_reference {
                     Some(Reference::RigidStrip) => RIGID_STRIP,
-                    Some(Reference::CentrePoint) | None => CENTRE_POINT,
+                    Some(Reference::CentrePoint) => CENTRE_POINT,
+                    None => Parameters::default().displacement_reference,
                 },
                 layer,
                 springs,
@@ -358,8 +359,9 @@ impl ContactArgs {
                     edge_radius: parameters.edge_radius,
                     length: parameters.length,
                     displacement_reference: match self.displacement_reference {
-                        Some(Reference::RigidStrip) => microslip_fit::DisplacementReference::RigidStrip,
-                        Some(Reference::CentrePoint) | None => microslip_fit::DisplacementReference::CentrePoint,
+                        Some(Reference::CentrePoint) => microslip_fit::DisplacementReference::CentrePoint,
+                        // It is given: missing parameters were reported.
+                        Some(Reference::RigidStrip) | None => microslip_fit::DisplacementReference::RigidStrip,
                     },
                 },
                 normal_force: parameters.normal_force,
@@ -419,9 +421,11 @@ impl ContactArgs {
         let numbers = self.numbers().into_iter().filter(|(_, values)| !values.is_empty());
         let mut options: String =
             numbers.map(|(name, values)| format!(" {} {}", option_name(name), format_list(&values))).collect();
-        if self.displacement_reference == Some(Reference::RigidStrip) {
-            options.push_str(" --displacement-reference rigid_strip");
-        }
+        options.push_str(match self.displacement_reference {
+            Some(Reference::RigidStrip) => " --displacement-reference rigid_strip",
+            Some(Reference::CentrePoint) => " --displacement-reference centre_point",
+            None => "",
+        });
         if let Some(springs) = self.springs {
             options.push_str(&format!(" --springs {springs}"));
         }

@@ -13,15 +13,16 @@ use std::process::{Command, Output};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_microslip");
 
 /// A flat between different bodies; `$FLAT` in the shell.
-const FLAT: &str = "--flat-half-width 5e-5 --edge-radius 5e-3 --length 1e-2 --normal-force 150 --friction-coefficient 0.4 \
+const FLAT: &str = "--displacement-reference centre_point --flat-half-width 5e-5 --edge-radius 5e-3 --length 1e-2 \
+                    --normal-force 150 --friction-coefficient 0.4 \
                     --young-modulus 2e11,114e9 --poisson-ratio 0.3,0.32";
 /// The contact of `microslip example --elliptic`; `$ELLIPSE`.
 const ELLIPSE: &str = "--semi-axis-x 0.2 --semi-axis-y 0.6 --normal-force 400 --friction-coefficient 0.5 --young-modulus 200e3 \
                        --poisson-ratio 0.3 --units mm";
 /// The same flat as a parameter file; `flat.toml`.
 const FLAT_TOML: &str = "flat_half_width = 5e-5\nedge_radius = 0.005\nlength = 0.01\nnormal_force = 150\n\
-                         friction_coefficient = 0.4\n[[material]]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n\
-                         [[material]]\nyoung_modulus = 114e9\npoisson_ratio = 0.32\n";
+                         friction_coefficient = 0.4\ndisplacement_reference = \"centre_point\"\n\
+                         [[material]]\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n[[material]]\nyoung_modulus = 114e9\npoisson_ratio = 0.32\n";
 
 fn material((young_modulus, poisson_ratio): (f64, f64)) -> Material {
     Material { young_modulus, poisson_ratio }
@@ -35,6 +36,7 @@ fn flat_parameters() -> Parameters {
         normal_force: 150.0,
         friction_coefficient: 0.4,
         material: [(2e11, 0.3), (114e9, 0.32)].map(material),
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     }
 }
@@ -737,6 +739,7 @@ fn the_command_in_a_result_repeats_it() {
             "curve contact.toml --force 3",
             "curve contact.toml --displacement -1 --relative",
             "curve flat.toml --displacement-reference rigid_strip",
+            "curve flat.toml",
             "loop contact.toml",
             "stiffness contact.toml",
             "stiffness contact.toml --amplitude 1e-6",
@@ -821,7 +824,6 @@ fn messages_name_the_error_and_what_is_allowed() {
             "curve flat.toml --flat-half-width 0.2",
             "; flat_half_width = 0.2 m is implausible: a flank is at most 0.2 m",
         ),
-        (1, "curve flat.toml --young-modulus 2e11,2e5", "; young_modulus = 2e5 Pa is implausible: "),
         (1, "normal $FLAT --to -1e-6", "--to -1e-6: must be 0 or more"),
         (2, "loop $FLAT --normal-amplitude 10%", "--phase <DEGREES>"),
         (
@@ -835,7 +837,8 @@ fn messages_name_the_error_and_what_is_allowed() {
             "contact ${FLAT%--poi*}",
             "missing parameters: poisson_ratio; give them in a parameter file or by --poisson-ratio",
         ),
-        (2, "contact", "--flat-half-width, --edge-radius, --length, --normal-force, --friction-coefficient, --young"),
+        (2, "contact", "--flat-half-width, --edge-radius, --length, --displacement-reference, --normal-force, --fric"),
+        (2, "contact ${FLAT#* * }", "displacement_reference is rigid_strip for the contact of a machine, centre_point"),
         (2, "contact --semi-axis-x 1", "missing parameters: semi_axis_y, normal_force,"),
         (2, "curve $FLAT --poison-ratio 0.3", "a similar argument exists: '--poisson-ratio'"),
         (2, "curve $FLAT --points 1", "1 is not in 2..="),
@@ -863,12 +866,11 @@ fn messages_name_the_error_and_what_is_allowed() {
         assert!(contact(limit).status.success() && !contact(0.998 * limit).status.success(), "{message}");
     }
     for (options, text, count) in [
-        ("flat.toml --edge-radius 1e-5", "exceeds the radius R = 10.0 µm", 1),
-        ("flat.toml --length 2e-4", "is below 2", 1),
+        ("flat.toml --edge-radius 1e-5", "edge_radius = 1e-5 m is below flat_half_width", 1),
+        ("flat.toml --length 2e-4", "length = 2e-4 m is below two widths", 1),
         ("flat.toml --length 0.1", "", 0),
         // Millimetres as metres, and pascals as megapascals.
-        ("flat.toml --length 20", "length = 20 m is implausible", 1),
-        ("flat.toml --units mm", "young_modulus = 2e11 MPa is implausible", 2),
+        ("flat.toml --units mm", "young_modulus = 2e11,1.14e11 MPa is implausible", 3),
         ("--semi-axis-x 200 ${ELLIPSE#--semi-axis-x 0.2}", "semi_axis_x = 200 mm is implausible", 1),
         ("flat.toml --friction-coefficient 50", "friction_coefficient = 50 is implausible", 1),
     ] {

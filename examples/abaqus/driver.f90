@@ -198,8 +198,8 @@ program driver
   integer(mslip_int) :: status
 
   do directions = 1, 2
-    call mslip_element_init(mslip_parameters(0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, mslip_material(1e9_wp, 0.3_wp)), directions, &
-      MSLIP_INPUT_APPROACH, element, status)
+    call mslip_element_init(mslip_parameters(0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, mslip_material(1e9_wp, 0.3_wp), &
+      displacement_reference=MSLIP_RIGID_STRIP), directions, MSLIP_INPUT_APPROACH, element, status)
     call check_status('directions', status, MSLIP_OK)
     call run(uel_model())
     call test_uel_flags()

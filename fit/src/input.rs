@@ -41,11 +41,10 @@ pub enum Geometry {
 }
 
 /// Reference of the displacement of a flat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DisplacementReference {
     /// The centre of the contact, under a line of uniform traction.
-    #[default]
     CentrePoint,
     /// A rigid strip, corrected to three-dimensional contact mechanics.
     RigidStrip,
@@ -124,7 +123,7 @@ impl TryFrom<ParameterFile> for Contact {
                 flat_half_width: number(file.flat_half_width),
                 edge_radius: number(file.edge_radius),
                 length: number(file.length),
-                displacement_reference: file.displacement_reference.unwrap_or_default(),
+                displacement_reference: file.displacement_reference.unwrap_or(DisplacementReference::RigidStrip),
             }
         };
         let [moduli, ratios] = [young_modulus, poisson_ratio].map(|values| values.unwrap_or([f64::NAN; 2]));
@@ -143,11 +142,11 @@ impl TryFrom<ParameterFile> for Contact {
 /// # Errors
 /// A message if parameters of two shapes are given.
 pub fn missing_parameters(is_given: impl Fn(&str) -> bool) -> Result<Vec<&'static str>, Error> {
-    const FLAT: [&str; 3] = ["flat_half_width", "edge_radius", "length"];
+    const FLAT: [&str; 4] = ["flat_half_width", "edge_radius", "length", "displacement_reference"];
     const ELLIPSE: [&str; 2] = ["semi_axis_x", "semi_axis_y"];
     const COMMON: [&str; 4] = ["normal_force", "friction_coefficient", "young_modulus", "poisson_ratio"];
     let is_ellipse = ELLIPSE.into_iter().any(&is_given);
-    if is_ellipse && (FLAT.into_iter().any(&is_given) || is_given("displacement_reference")) {
+    if is_ellipse && FLAT.into_iter().any(&is_given) {
         return error(
             "parameters of two shapes: flat_half_width, edge_radius, length and displacement_reference define a flat or a \
              cylinder, semi_axis_x and semi_axis_y an ellipse",

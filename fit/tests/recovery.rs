@@ -324,7 +324,7 @@ fn json_has_the_names_of_the_parameter_file() {
     let options = Options { contact_compliance: Some(1.0), ..Options::default() };
     let problem = format!(
         r#"{{"contact": {{"flat_half_width": 1e-4, "edge_radius": 0.05, "length": 0.02, "normal_force": 800,
-        "friction_coefficient": 0.5, "material": [{{"young_modulus": 2e11, "poisson_ratio": 0.3}}, {{"young_modulus": 2e11, "poisson_ratio": 0.3}}]}},
+        "displacement_reference": "centre_point", "friction_coefficient": 0.5, "material": [{{"young_modulus": 2e11, "poisson_ratio": 0.3}}, {{"young_modulus": 2e11, "poisson_ratio": 0.3}}]}},
         "loops": {}, "options": {{"contact_compliance": 1.0}}}}"#,
         serde_json::to_string(&loops).unwrap()
     );

@@ -24,7 +24,7 @@ fn a_tribometer_has_friction_that_one_coefficient_does_not_explain() {
         flat_half_width: 1e-4,
         edge_radius: 5e-2,
         length: 2e-2,
-        displacement_reference: Default::default(),
+        displacement_reference: microslip_fit::DisplacementReference::RigidStrip,
     };
     let material = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
     let contact = Contact { geometry, normal_force: 5.0, friction_coefficient: 0.5, material };

@@ -19,7 +19,7 @@ subroutine contact_init(harmonics)
   p%flat_half_width = 0.2e-3_mslip_real; p%edge_radius = 5e-3_mslip_real; p%length = 10e-3_mslip_real       ! m
   p%normal_force = 150; p%friction_coefficient = 0.4_mslip_real                                             ! N, -
   p%material = mslip_material(114e9_mslip_real, 0.32_mslip_real)                                            ! Pa, -
-  ! The displacement reference stays that of the paper, as in cases/two_dof.nml; for a machine take MSLIP_RIGID_STRIP.
+  p%displacement_reference = MSLIP_RIGID_STRIP                          ! the contact of a machine, in three dimensions
   call mslip_contact_init(p, contact, status)
   if (status /= MSLIP_OK) error stop mslip_status_text(status)
   coefficients = 2*harmonics + 1

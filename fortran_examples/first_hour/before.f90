@@ -2,7 +2,7 @@
 module slider
   implicit none
   integer, parameter :: wp = kind(1.0d0), samples = 128
-  real(wp), parameter :: pi = acos(-1.0_wp), kt = 2.001803e8_wp, mu_n = 60   ! kt: as printed by after
+  real(wp), parameter :: pi = acos(-1.0_wp), kt = 2.171986e8_wp, mu_n = 60   ! kt: as printed by after
   real(wp), allocatable :: basis(:, :)
 end module slider
 

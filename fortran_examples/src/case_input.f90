@@ -190,7 +190,7 @@ contains
 
       law = ' '
       second_direction = with_friction
-      displacement_reference = 'rigid strip'
+      displacement_reference = ' '
       springs = 0
       count = 1
       load_varied = .true.
@@ -218,8 +218,9 @@ contains
         call require(len_trim(name) > 0 .and. all(data%contacts%name /= name), 'name must be given, another for each contact')
         call require(any(law == [character(len=name_length) :: law_microslip, law_slider, law_element]), &
                      'law must be "'//law_microslip//'", "'//law_slider//'" or "'//law_element//'"')
-        call require(any(displacement_reference == [character(len=name_length) :: 'centre point', 'rigid strip']), &
-                     'displacement_reference must be "centre point" or "rigid strip"')
+        call require(any(displacement_reference == [character(len=name_length) :: 'rigid_strip', 'centre_point']) .or. &
+                     len_trim(parameter_file) > 0, &
+                     'displacement_reference must be "rigid_strip", for machines, or "centre_point", as in the paper')
         if (dof(3) == -1) then
           call check_dof(dof(:2), 0)
           call require(dof(1) /= dof(2), 'dof must be two different degrees of freedom; 0 is the ground')
@@ -250,7 +251,7 @@ contains
         c%parameters%material%young_modulus = young_modulus
         c%parameters%material%poisson_ratio = poisson_ratio
         c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
-                                                    displacement_reference == 'rigid strip')
+                                                    displacement_reference == 'rigid_strip')
         c%parameters%springs = springs
         c%parameters%layer = mslip_layer(normal_compliance, tangential_compliance, stiffening_load, reference_load)
         if (len_trim(parameter_file) > 0) call read_parameter_file(parameter_file, c%parameters)

@@ -81,7 +81,8 @@ contains
 
     p = mslip_parameters(flat_half_width=1.0e-4_wp * mod(i, 8), edge_radius=5.0e-3_wp, length=10.0e-3_wp, &
                          normal_force=50.0_wp + mod(i, distinct), friction_coefficient=0.4_wp, &
-                         material=[mslip_material(114.0e9_wp, 0.32_wp), mslip_material(114.0e9_wp, 0.32_wp)])
+                         material=[mslip_material(114.0e9_wp, 0.32_wp), mslip_material(114.0e9_wp, 0.32_wp)], &
+                         displacement_reference=MSLIP_RIGID_STRIP)
     call mslip_contact_init(p, contact, status)
     call require(status)
   end subroutine prepare

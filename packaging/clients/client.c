@@ -19,6 +19,7 @@ int main(void)
     p.normal_force = 800, p.friction_coefficient = 0.5;
     p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
     p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.3;
+    p.displacement_reference = MSLIP_RIGID_STRIP;
     status = mslip_contact_init(&p, &contact);
     if (status != MSLIP_OK) return puts(mslip_status_text(status)), 1;
 

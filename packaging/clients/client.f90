@@ -11,6 +11,7 @@ program client
   p%flat_half_width = 0.5e-3_mslip_real; p%edge_radius = 3e-3_mslip_real; p%length = 20e-3_mslip_real
   p%normal_force = 800; p%friction_coefficient = 0.5_mslip_real
   p%material = mslip_material(2e11_mslip_real, 0.3_mslip_real)
+  p%displacement_reference = MSLIP_RIGID_STRIP
   call mslip_contact_init(p, contact, status)
   if (status /= MSLIP_OK) error stop mslip_status_text(status)
   call mslip_monotonic_force(contact, [2*contact%slip_displacement], status, force)

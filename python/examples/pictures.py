@@ -20,6 +20,7 @@ PARAMETERS = {
     "friction_coefficient": 0.5,
     "young_modulus": 2e11,  # Pa
     "poisson_ratio": 0.3,
+    "displacement_reference": "rigid_strip",
 }
 contact = microslip.Contact(**PARAMETERS)
 slip = contact.slip_displacement

@@ -100,6 +100,7 @@ CONTACT = {
     "friction_coefficient": 0.4,
     "young_modulus": 114e9,
     "poisson_ratio": 0.32,
+    "displacement_reference": "rigid_strip",
 }
 MASS = np.diag([1.0, 0.5])
 DAMPING = np.array([[30.0, -10.0], [-10.0, 10.0]])

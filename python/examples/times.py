@@ -12,6 +12,7 @@ PARAMETERS = {
     "friction_coefficient": 0.5,
     "young_modulus": 2e11,
     "poisson_ratio": 0.3,
+    "displacement_reference": "rigid_strip",
 }
 contact, element = microslip.Contact(**PARAMETERS), microslip.Element(**PARAMETERS)
 slip = contact.slip_displacement

@@ -108,6 +108,7 @@ CONTACT = {
     "friction_coefficient": 0.4,
     "young_modulus": 114e9,
     "poisson_ratio": 0.32,
+    "displacement_reference": "rigid_strip",
 }
 
 

@@ -29,6 +29,7 @@ from ._contact import (
 from ._core import Error, Parameter, Status, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce, StaticDisplacement
 from ._fit import FitError, fit
+from ._law import PlausibilityWarning
 from ._memory import ElementState, ElementWorkspace, State, Workspace
 from ._parameters import read_parameters
 
@@ -39,8 +40,8 @@ CENTRE_POINT = 0
 RIGID_STRIP = 1
 UNIFORM_SAMPLING = 0
 EVENT_DRIVEN = 1
-INPUT_APPROACH = 0
-INPUT_NORMAL_FORCE = 1
+INPUT_APPROACH = 16
+INPUT_NORMAL_FORCE = 17
 
 __all__ = [
     "ABI_VERSION",
@@ -69,6 +70,7 @@ __all__ = [
     "NormalApproach",
     "NormalForce",
     "Parameter",
+    "PlausibilityWarning",
     "Sensitivity",
     "Slip",
     "State",

@@ -105,9 +105,11 @@ class Contact(_Law):
     """A contact under a constant normal force: a flat with rounded edges, or a cylinder if the flat has no width.
 
     Lengths in m, forces in N (totals), Young's modulus in Pa; any other consistent set of units will do. `young_modulus` and
-    `poisson_ratio` are one number for both bodies or a pair. `displacement_reference` is `CENTRE_POINT`, as in the paper, or
-    `RIGID_STRIP`, corrected to three-dimensional contact mechanics; the words "centre_point" and "rigid_strip" will do too. An
-    elliptical contact is made by `Contact.elliptic`. Contacts are equal if their results are.
+    `poisson_ratio` are one number for both bodies or a pair. `displacement_reference` is `RIGID_STRIP`, corrected to
+    three-dimensional contact mechanics, for the contact of a machine, or `CENTRE_POINT`, as in the paper; the words "rigid_strip"
+    and "centre_point" will do too. An elliptical contact is made by `Contact.elliptic`. Contacts do not change, and are equal if
+    their results are. `parameters` are the arguments, each an attribute too. Implausible ones give a `PlausibilityWarning`, which
+    supposes m and Pa, or mm and MPa.
 
     `normal_compliance` and `tangential_compliance` [m/N] are those of a layer in series with the contact under `reference_load` [N],
     at which they were measured (0: `normal_force`). Its stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
@@ -134,11 +136,11 @@ class Contact(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        displacement_reference: Constant,
         normal_compliance: float = 0.0,
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
         reference_load: float = 0.0,
-        displacement_reference: Constant = 0,
     ) -> None:
         self._initialise("", locals())
 
@@ -159,9 +161,6 @@ class Contact(_Law):
     ) -> Contact:
         """An elliptical Hertz contact, of these semi-axes [m] along and across the tangential force; a sphere if they are equal."""
         return cls._new()._initialise("_elliptic", locals())
-
-    def __repr__(self) -> str:
-        return f"<Contact: slip_force {self.slip_force:.6g}, slip_displacement {self.slip_displacement:.6g}>"
 
     def tractions(self, load: float | State, x: ArrayLike) -> Tractions:
         """Pressure and shear traction [Pa] at `x` [m] along the width; 0 outside the contact.

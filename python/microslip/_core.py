@@ -19,7 +19,7 @@ Shape = tuple[Union[int, None], ...]
 Values = Any  # float64 of the shape of an argument; a NumPy scalar if that is one number, as of NumPy's own functions
 
 
-# Constants by their words; the place is the number.
+# Constants by their words, in the order of the numbers.
 REFERENCES = ("centre_point", "rigid_strip")
 RULES = ("uniform_sampling", "event_driven")
 NORMAL_INPUTS = ("approach", "normal_force")
@@ -150,14 +150,14 @@ def integer(value: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
     return number
 
 
-def choice(value: Any, name: str, words: tuple[str, ...]) -> int:
-    """The number of a constant that is given by its number or its word."""
+def choice(value: Any, name: str, words: tuple[str, ...], first: int = 0) -> int:
+    """The number of a constant that is given by its number or its word; the numbers count from `first`."""
     if isinstance(value, str) and value in words:
-        return words.index(value)
+        return first + words.index(value)
     try:
-        return integer(value, name, 0, len(words) - 1)
+        return integer(value, name, first, first + len(words) - 1)
     except (TypeError, ValueError) as reason:
-        options = " or ".join(f"{word!r} ({i})" for i, word in enumerate(words))
+        options = " or ".join(f"{word!r} ({i})" for i, word in enumerate(words, first))
         kind = ValueError if isinstance(value, str) else type(reason)
         raise kind(f"{name} must be {options}, not {reprlib.repr(value)}") from None
 
@@ -274,6 +274,11 @@ class Value:
     def _key(self) -> Any:
         return bytes(self)  # type: ignore[call-overload]
 
+    def __setattr__(self, name: str, value: object) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"{name} of a {type(self).__name__} can only be read: make another one")
+        super().__setattr__(name, value)
+
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if type(other) is type(self) else NotImplemented
 
@@ -296,6 +301,3 @@ class Field(Generic[T]):
     def __get__(self, instance: Any, owner: type) -> T: ...
     def __get__(self, instance: Any, owner: type) -> Field[T] | T:
         return self if instance is None else cast(T, getattr(instance._values, self._name))
-
-    def __set__(self, instance: Any, value: object) -> None:
-        raise AttributeError(f"{self._name} can only be read")

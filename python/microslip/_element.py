@@ -97,21 +97,17 @@ class Element(_Law):
         friction_coefficient: float,
         young_modulus: Pair,
         poisson_ratio: Pair,
+        displacement_reference: Constant,
         normal_compliance: float = 0.0,
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
         reference_load: float = 0.0,
-        displacement_reference: Constant = 0,
         springs: int = 0,
         directions: int = 1,
-        normal_input: Constant = 0,
+        normal_input: Constant = 16,
     ) -> None:
-        more = integer(directions, "directions"), choice(normal_input, "normal_input", NORMAL_INPUTS)
+        more = integer(directions, "directions"), choice(normal_input, "normal_input", NORMAL_INPUTS, 16)
         self._initialise("", locals(), *more)
-
-    @property
-    def _components(self) -> tuple[int, ...]:
-        return (self.directions + 1,)
 
     @classmethod
     def elliptic(
@@ -129,14 +125,11 @@ class Element(_Law):
         reference_load: float = 0.0,
         springs: int = 0,
         directions: int = 1,
-        normal_input: Constant = 0,
+        normal_input: Constant = 16,
     ) -> Element:
         """The element of an elliptical Hertz contact that has these semi-axes [m] under `normal_force` [N]."""
-        more = integer(directions, "directions"), choice(normal_input, "normal_input", NORMAL_INPUTS)
+        more = integer(directions, "directions"), choice(normal_input, "normal_input", NORMAL_INPUTS, 16)
         return cls._new()._initialise("_elliptic", locals(), *more)
-
-    def __repr__(self) -> str:
-        return f"<Element: directions {self.directions}, normal_force {self.normal_force:.6g}>"
 
     def normal_force_at(self, approach: ArrayLike) -> NormalForce:
         """The normal law at approaches [m]: force [N], stiffness [N/m], half-width [m]; 0 where the contact is open."""
@@ -205,10 +198,6 @@ class ElementArray(_LawArray[Element]):
     def directions(self) -> int:
         """Number of tangential directions, 1 or 2."""
         return int(self._c[0].directions) if len(self) else 1
-
-    @property
-    def _components(self) -> tuple[int, ...]:
-        return (self.directions + 1,)
 
     def states(self, n: int | None = None, pieces: int = 32) -> Array:
         """States of n open items (as many as elements by default), one per row."""

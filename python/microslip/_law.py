@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
 from math import prod
+from types import MappingProxyType
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._core import (
+    NORMAL_INPUTS,
     REFERENCES,
     Array,
     Value,
@@ -53,11 +56,23 @@ class HarmonicForce(NamedTuple):
     drift: Values
 
 
-class _Law(Value):
+class PlausibilityWarning(UserWarning):
+    """Parameters are valid but implausible: another unit, an exchanged pair, or a contact for which the model is inaccurate."""
+
+
+class _Components(Value):
+    @property
+    def _components(self) -> tuple[int, ...]:
+        """The shape of a displacement and of a force."""
+        directions = getattr(self, "directions", 0)
+        return (directions + 1,) if directions else ()
+
+
+class _Law(_Components):
     """A contact or an element: initialised once, then only read.
 
-    `_components` is the shape of a displacement and of a force; `_step`, `_path` and `_harmonic` are names of the functions of a
-    step, of many steps and of the harmonic force, for one item and for many.
+    `_step`, `_path` and `_harmonic` are names of the functions of a step, of many steps and of the harmonic force, for one item and
+    for many.
     """
 
     _type: ClassVar[str]
@@ -67,19 +82,35 @@ class _Law(Value):
     _path: ClassVar[str]
     _harmonic: ClassVar[str]
     _c: Any
-
-    @property
-    def _components(self) -> tuple[int, ...]:
-        return ()
+    _parameters: dict[str, Any]
 
     @property
     def _values(self) -> Any:
         return self._c
 
+    @property
+    def parameters(self) -> Mapping[str, Any]:
+        """The arguments by name; each is an attribute too. Empty after `from_bytes`: the bytes do not contain them."""
+        return MappingProxyType(self._parameters)
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self.__dict__["_parameters"][name]
+        except KeyError:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}") from None
+
+    def __repr__(self) -> str:
+        if not self._parameters:
+            return f"<{type(self).__name__} of {ffi.sizeof(self._type)} bytes>"
+        words = {"displacement_reference": REFERENCES, "normal_input": (None,) * 16 + NORMAL_INPUTS}
+        shown = {name: words[name][value] if name in words else value for name, value in self._parameters.items()}
+        maker = type(self).__name__ + (".elliptic" if "semi_axis_x" in shown else "")
+        return f"{maker}({', '.join(f'{name}={value!r}' for name, value in shown.items())})"
+
     @classmethod
-    def _new(cls) -> Any:
+    def _new(cls, parameters: dict[str, Any] | None = None) -> Any:
         new = cls.__new__(cls)
-        new._c = ffi.new(f"{cls._type} *")
+        new._c, new._parameters = ffi.new(f"{cls._type} *"), {} if parameters is None else parameters
         return new
 
     def _initialise(self, shape: str, given: dict[str, Any], *more: int) -> Any:
@@ -87,18 +118,28 @@ class _Law(Value):
         kind = f"mslip{shape}_parameters"
         parameters = ffi.new(f"{kind} *")
         getattr(lib, f"{kind}_default")(parameters)
-        for name in [name for name, _ in ffi.typeof(kind).fields if name in given]:
+        fields, layer = ([name for name, _ in ffi.typeof(one).fields] for one in (kind, "mslip_layer"))
+        checked: dict[str, Any] = {}
+        for name in [name for name in given if name in fields]:
             value = given[name]
             if name == "displacement_reference":
-                checked: float = choice(value, name, REFERENCES)
+                checked[name] = choice(value, name, REFERENCES)
             else:
-                checked = integer(value, name) if name == "springs" else number(value, name)
-            setattr(parameters, name, checked)
-        for name, _ in ffi.typeof("mslip_layer").fields:
-            setattr(parameters.layer, name, number(given[name], name))
-        parameters.material = list(zip(*(pair(given[name], name) for name in ("young_modulus", "poisson_ratio"))))
+                checked[name] = integer(value, name) if name == "springs" else number(value, name)
+            setattr(parameters, name, checked[name])
+        bodies = {name: tuple(pair(given[name], name)) for name in ("young_modulus", "poisson_ratio")}
+        parameters.material = list(zip(*bodies.values()))
+        for name in layer:
+            checked[name] = number(given[name], name)
+            setattr(parameters.layer, name, checked[name])
+        for i in range(2**31 - 1):
+            text = getattr(lib, f"{kind}_warning")(parameters, i)
+            if text == ffi.NULL:
+                break
+            warnings.warn(ffi.string(text).decode(), PlausibilityWarning, stacklevel=3)
         self._c = ffi.new(f"{self._type} *")
         check(getattr(lib, f"{self._type}_init{shape}")(parameters, *more, self._c))
+        self._parameters = checked | bodies | dict(zip(("directions", "normal_input"), more))
         return self
 
     def __bytes__(self) -> bytes:
@@ -106,12 +147,16 @@ class _Law(Value):
         return bytes(ffi.buffer(self._c))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self).from_bytes, (bytes(self),)
+        return type(self)._read, (bytes(self), self._parameters)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Any:
         """The object of these bytes, validated in full; raises `Error` if it is invalid."""
-        new, data = cls._new(), binary(data, "data")
+        return cls._read(data, {})
+
+    @classmethod
+    def _read(cls, data: bytes, parameters: dict[str, Any]) -> Any:
+        new, data = cls._new(parameters), binary(data, "data")
         if len(data) != ffi.sizeof(cls._type):
             raise ValueError(f"data of a {cls.__name__} must be {ffi.sizeof(cls._type)} bytes, not {len(data)}")
         ffi.memmove(new._c, data, len(data))
@@ -164,7 +209,7 @@ def _harmonic_force(name: str, head: list[Any], workspace: Any, displacement: Ar
     return HarmonicForce(force, None if matrix is None else transposed(matrix), dissipated[()], drift[()])
 
 
-class _LawArray(Value, Generic[L]):
+class _LawArray(_Components, Generic[L]):
     """Items of one type, `_item`, for calls with many at once, contiguous in memory."""
 
     _item: type[L]
@@ -174,13 +219,14 @@ class _LawArray(Value, Generic[L]):
         self._c = ffi.new(f"{self._item._type}[]", len(chosen))
         for i, law in enumerate(chosen):
             self._c[i] = law._c[0]
+        self._parameters = [law._parameters for law in chosen]
 
     def __len__(self) -> int:
         return len(self._c)
 
     def __getitem__(self, i: int) -> L:
         place = range(len(self))[integer(i, "i", -(2**31))]
-        law = self._item._new()
+        law = self._item._new(self._parameters[place])
         law._c[0] = self._c[place]
         return law
 
@@ -195,10 +241,6 @@ class _LawArray(Value, Generic[L]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (list(self),)
-
-    @property
-    def _components(self) -> tuple[int, ...]:
-        return ()
 
     def _head(self, n: int, index: ArrayLike | None, active: ArrayLike | None) -> list[Any]:
         if index is None and n > len(self):

@@ -20,6 +20,7 @@ FLAT = {
     "friction_coefficient": 0.5,
     "young_modulus": (2e11, 1.1e11),
     "poisson_ratio": 0.3,
+    "displacement_reference": "centre_point",
 }
 
 
@@ -53,7 +54,7 @@ def column(group: list[dict[str, Any]], name: str) -> np.ndarray:
 
 def flat(row: dict[str, Any], **others: float) -> dict[str, Any]:
     """Parameters of the flat with rounded edges in a row."""
-    parameters = {"flat_half_width": row["a"], "edge_radius": row["R"], "length": row["L"]}
+    parameters = {"flat_half_width": row["a"], "edge_radius": row["R"], "length": row["L"], "displacement_reference": 0}
     if "E1" in row:
         parameters |= {"young_modulus": (row["E1"], row["E2"]), "poisson_ratio": (row["nu1"], row["nu2"])}
     else:

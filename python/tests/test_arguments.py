@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import enum
 import inspect
 import os
+import pickle
 import re
 import threading
 import warnings
@@ -32,8 +34,7 @@ SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 LAYER = {"normal_compliance": 0.0, "tangential_compliance": 0.0, "stiffening_load": 100.0, "reference_load": 50.0}
-REFERENCE = {"displacement_reference": 1}
-DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
+DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": "approach"}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 
@@ -44,7 +45,7 @@ def valid():
         "status_text": {"status": 1},
         "fit": {"loops": [LOOP], "contact": FLAT, "fixed": {"contact_compliance": 1.0}, "shape": "fixed"},
         "read_parameters": {"path": REPOSITORY / "cli" / "example.toml"},
-        "Contact": {**FLAT, **LAYER, **REFERENCE},
+        "Contact": {**FLAT, **LAYER},
         "Contact.elliptic": {**ELLIPSE, **LAYER},
         "Contact.from_bytes": {"data": bytes(contact)},
         "Contact.tractions": {"load": 100.0, "x": [0.0]},
@@ -70,7 +71,7 @@ def valid():
         "ContactArray.complex_stiffness": {"amplitude": [1e-7, 1e-7], **MANY},
         "ContactArray.update": {"states": contacts.states(), "displacement": [0, 0], **MANY, "out": contacts.states()},
         "ContactArray.harmonic_force": {"workspace": workspace, "displacement": np.zeros((2, 3)), "jacobian": True, **MANY},
-        "Element": {**FLAT, **LAYER, **REFERENCE, **DIRECTIONS},
+        "Element": {**FLAT, **LAYER, **DIRECTIONS},
         "Element.elliptic": {**ELLIPSE, **LAYER, **DIRECTIONS},
         "Element.from_bytes": {"data": bytes(element)},
         "Element.normal_force_at": {"approach": [1e-6]},
@@ -164,6 +165,7 @@ def test_every_function_of_the_header_is_called(monkeypatch):
     assert recorder.called == declared - {"mslip_version", "mslip_abi_version"}
 
 
+@pytest.mark.filterwarnings("ignore::microslip.PlausibilityWarning")
 @pytest.mark.parametrize("name", PUBLIC)
 def test_arguments_are_accepted_or_rejected_by_name(name):
     kept = [bytes(x) for x in (contact, element, state, element_state)]
@@ -189,9 +191,11 @@ def test_messages_of_arguments():
         (lambda: microslip.Contact(**FLAT | {"length": "20"}), "length must be real numbers, not str"),
         (lambda: microslip.Contact(**FLAT | {"young_modulus": (1, 2, 3)}), r"young_modulus must be a number or an array of shape"),
         (
-            lambda: microslip.Contact(**FLAT, displacement_reference=-1),
+            lambda: microslip.Contact(**FLAT | {"displacement_reference": -1}),
             r"must be 'centre_point' \(0\) or 'rigid_strip' \(1\), not -1",
         ),
+        (lambda: microslip.Element(**FLAT, normal_input=microslip.Parameter.NORMAL_FORCE), r"\(16\) or 'normal_force' \(17\), not"),
+        (lambda: microslip.Contact(**{name: FLAT[name] for name in FLAT if "ref" not in name}), "'displacement_reference'"),
         (lambda: microslip.Workspace(-1, 8), "harmonics must be between 0 and 2147483647, not -1"),
         (lambda: element.update(state, [0, 0]), "state must be of type ElementState, not State"),
         (lambda: contact.monotonic_force([[1], [2, 3]]), "displacement must be real numbers"),
@@ -212,14 +216,14 @@ def test_messages_of_arguments():
 def test_constants_are_given_by_number_or_word():
     for wanted, word in [(microslip.CENTRE_POINT, "centre_point"), (microslip.RIGID_STRIP, "rigid_strip")]:
         for make in (microslip.Contact, microslip.Element):
-            assert make(**FLAT, displacement_reference=wanted) == make(**FLAT, displacement_reference=word)
+            assert make(**FLAT | {"displacement_reference": wanted}) == make(**FLAT | {"displacement_reference": word})
     assert microslip.Workspace(1, 8, "event_driven").rule == microslip.EVENT_DRIVEN
     assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.INPUT_NORMAL_FORCE
 
 
 def test_numbers_of_numpy_are_numbers():
-    converted = {name: np.float64(value) for name, value in FLAT.items() if name != "young_modulus"}
-    assert microslip.Contact(**converted, young_modulus=np.array([2e11, 1.1e11])) == contact
+    converted = {name: np.float64(value) for name, value in FLAT.items() if isinstance(value, float)}
+    assert microslip.Contact(**FLAT | converted | {"young_modulus": np.array([2e11, 1.1e11])}) == contact
     assert microslip.Workspace(np.int64(1), np.array(8)) == workspace
     assert contact.hysteresis_loop(np.array(1e-7), np.uint8(3)).force.shape == (3,)
 
@@ -263,11 +267,43 @@ def test_states_are_safe_whatever_is_done_to_their_arrays():
                 call()
 
 
-def test_fields_of_workspaces_can_only_be_read():
-    for one in (workspace, element_workspace):
-        for name in ("harmonics", "samples", "rule"):
-            with pytest.raises(AttributeError, match="can only be read"):
+def test_objects_can_only_be_read():
+    for one in (contact, element, contacts, elements, workspace, element_workspace, state):
+        for name in ("harmonics", "samples", "slip_force", "normal_force", "edge_radius", "any"):
+            with pytest.raises(AttributeError, match=f"{name} of a {type(one).__name__} can only be read"):
                 setattr(one, name, 1)
+
+
+def test_parameters_are_shown_and_kept():
+    sphere = microslip.Element.elliptic(**ELLIPSE, directions=2, normal_input="normal_force")
+    copies = element, copy.copy(element), pickle.loads(pickle.dumps(element))
+    many = *microslip.ContactArray([contact]), *microslip.ElementArray(copies)
+    for one in (*many, contact, sphere):
+        assert eval(repr(one), {name: getattr(microslip, name) for name in ("Contact", "Element")}) == one
+        assert all(getattr(one, name) == value for name, value in one.parameters.items())
+    assert (contact.young_modulus, contact.displacement_reference) == (FLAT["young_modulus"], microslip.CENTRE_POINT)
+    with pytest.raises(AttributeError, match="Contact has no attribute 'radius'"):
+        _ = contact.radius
+    from_bytes = microslip.Contact.from_bytes(bytes(contact))
+    assert from_bytes == contact
+    assert not from_bytes.parameters
+    assert "bytes" in repr(from_bytes)
+
+
+def test_warnings_of_implausible_parameters():
+    millimetres = {name: 1e3 * FLAT[name] for name in ("flat_half_width", "edge_radius", "length")}
+    for changes, texts in [
+        ({"friction_coefficient": 45}, ["friction_coefficient is implausible"]),
+        ({"length": 20.0, "friction_coefficient": 45}, ["length is implausible", "friction_coefficient is implausible"]),
+        ({**millimetres, "young_modulus": (2e5, 1.1e5)}, []),
+    ]:
+        for make in (microslip.Contact, microslip.Element):
+            with warnings.catch_warnings(record=True) as found:
+                warnings.simplefilter("always")
+                make(**FLAT | changes)
+            assert len(found) == len(texts)
+            assert all(str(one.message).startswith(text) for one, text in zip(found, texts))
+            assert all((one.category, one.filename) == (microslip.PlausibilityWarning, __file__) for one in found)
 
 
 def test_values_are_equal_and_shown():

@@ -14,6 +14,7 @@ TRUTH = {
     "normal_force": 800.0,
     "friction_coefficient": 0.5,
     "young_modulus": 2e11,
+    "displacement_reference": "centre_point",
     "poisson_ratio": 0.3,
 }
 contact = microslip.Contact(**TRUTH)

@@ -57,11 +57,11 @@ def test_harmonic_balance_is_the_steady_state_of_a_time_integration():
     """In gross slip, where a motion from rest is steady after 30 periods. The steps are those of the adapter of tmdsimpy."""
     idata = two_masses({"type": "microslip", "dirs": [0], "law": contact}, [300.0, 900.0])
     idata["system"] |= {"nh": 15, "nti": 1024}
-    frequencies = np.array([750.0, 785.0])
+    frequencies = np.array([750.0, 770.0])
     coefficients = response_at(Maestro(idata), frequencies)
     expected = coefficients[:, :, 1] + 1j * coefficients[:, :, 2]
     coarse, fine = (np.array([first_harmonic(f, steps) for f in frequencies]) for steps in (192, 384))
-    # Newmark's method is of second order: 384 steps err by up to 1.1e-3. Extrapolated, what is left is that reversals and the onset
+    # Newmark's method is of second order: 384 steps err by up to 2.7e-4. Extrapolated, what is left is that reversals and the onset
     # of gross slip are met within a step only, and 1e-4 of harmonics above 15.
     difference = (abs((4 * fine - coarse) / 3 - expected) / abs(expected)).max()
     assert difference < 4e-4

@@ -135,7 +135,7 @@ def test_harmonic_force(row):
 
 @pytest.mark.parametrize("group", groups("normal_law", "contact"))
 def test_normal_law(group):
-    element = element_of(group, column(group, "N").max(), 0)
+    element = element_of(group, column(group, "N").max(), "approach")
     force, approach = column(group, "N"), column(group, "u_n")
     at_force, at_approach = element.approach_at(force), element.normal_force_at(approach)
     assert_allclose(at_force.approach, approach, rtol=CLOSE)
@@ -160,7 +160,7 @@ def element_of(group, normal_force, normal_input):
 def test_varying_load(group):
     by_force = group[0]["control"] == "N"
     normal_force = column(group, "N").max()
-    element = element_of(group, normal_force, int(by_force))
+    element = element_of(group, normal_force, "normal_force" if by_force else "approach")
     displacement = np.column_stack([column(group, "delta"), column(group, "N" if by_force else "u_n")])
     path = element.update(microslip.ElementState(1, 64), displacement)
     slip_force = element.friction_coefficient * normal_force

@@ -474,6 +474,7 @@ mod tests {
             normal_force: 2.26849e3,
             friction_coefficient: 0.647,
             material: [titanium; 2],
+            displacement_reference: crate::parameters::CENTRE_POINT,
             ..Parameters::default()
         })
         .unwrap();

@@ -371,6 +371,7 @@ pub(crate) mod tests {
             normal_force: 150.0,
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
+            displacement_reference: crate::parameters::CENTRE_POINT,
             ..Parameters::default()
         }
     }

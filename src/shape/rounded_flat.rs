@@ -321,7 +321,7 @@ fn set(series: &mut Series, k: usize, value: f64) {
 }
 
 /// Half-width b, and the punch in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
-fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, RoundedPunch), Error> {
+pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, RoundedPunch), Error> {
     let Parameters { flat_half_width: flat, edge_radius, length, normal_force, .. } = *parameters;
     in_range(&[length], &[])?;
     in_range(&[length, modulus], &[])?;

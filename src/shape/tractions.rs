@@ -155,6 +155,7 @@ mod tests {
                 normal_force,
                 friction_coefficient: 0.4,
                 material: [body; 2],
+                displacement_reference: crate::parameters::CENTRE_POINT,
                 ..Parameters::default()
             };
             let contact = Contact::rounded_flat(&parameters).unwrap();

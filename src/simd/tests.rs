@@ -141,6 +141,7 @@ fn an_element() {
             normal_force: 60.0,
             friction_coefficient: 0.5,
             material,
+            displacement_reference: crate::parameters::CENTRE_POINT,
             ..Parameters::default()
         };
         let [one, two] = [Directions::One, Directions::Two]

@@ -274,7 +274,7 @@ pub fn contacts() -> &'static [Law; 3] {
         let law = |is_elliptic, (memory, bytes): (Memory, Vec<u8>)| {
             let c: &mslip_contact = &memory.values()[0];
             let (half_width, force, displacement) = (c.half_width, c.slip_force, c.slip_displacement);
-            let (rule, directions, normal_input) = (MSLIP_UNIFORM_SAMPLING, 1, 0);
+            let (rule, directions, normal_input) = (MSLIP_UNIFORM_SAMPLING, 1, MSLIP_INPUT_APPROACH);
             let [normal, approach, normal_force] = [0.0; 3];
             Law {
                 bytes,

@@ -120,7 +120,8 @@ contains
     type(mslip_parameters) :: flat
 
     flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=800.0_wp, &
-      friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)])
+      friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)], &
+      displacement_reference=MSLIP_CENTRE_POINT)
   end function flat_parameters
 
   pure function ellipse_parameters() result(ellipse)
@@ -413,7 +414,7 @@ contains
     integer(mslip_int) :: ok
     integer :: input, i
 
-    do input = 0, 1
+    do input = MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE
       call set_up()
       do i = 1, size(elements)
         call mslip_element_init(flat_parameters(), directions, int(input, mslip_int), elements(i), ok)
@@ -546,9 +547,9 @@ contains
     call mslip_contact_init_elliptic(ellipse, contact, status)
     call check_status('an unset ellipse', status, MSLIP_BAD_SEMI_AXIS_X)
     parameters = flat_parameters()
-    parameters%displacement_reference = 7
+    parameters%displacement_reference = unset%displacement_reference
     call mslip_contact_init(parameters, contact, status)
-    call check_status('displacement reference', status, MSLIP_BAD_DISPLACEMENT_REFERENCE)
+    call check_status('an unset displacement reference', status, MSLIP_BAD_DISPLACEMENT_REFERENCE)
     parameters = flat_parameters()
     parameters%springs = 13
     call mslip_contact_init(parameters, contact, status)

@@ -42,7 +42,8 @@ contains
     type(mslip_parameters) :: p
 
     p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=5.0e-3_wp, length=3.67e-2_wp, normal_force=2268.49_wp, &
-      friction_coefficient=0.647_wp, material=[mslip_material(1.14e11_wp, 0.29_wp), mslip_material(1.14e11_wp, 0.29_wp)])
+      friction_coefficient=0.647_wp, material=[mslip_material(1.14e11_wp, 0.29_wp), mslip_material(1.14e11_wp, 0.29_wp)], &
+      displacement_reference=MSLIP_CENTRE_POINT)
   end function cylinder_parameters
 
   function flat_parameters() result(p)
@@ -54,6 +55,7 @@ contains
     p%length = 2.0e-2_wp
     p%normal_force = 800.0_wp
     p%friction_coefficient = 0.5_wp
+    p%displacement_reference = MSLIP_CENTRE_POINT
     p%material(1) = mslip_material(young_modulus=1.14e11_wp, poisson_ratio=0.32_wp)
     p%material(2) = mslip_material(young_modulus=2.0e11_wp, poisson_ratio=0.29_wp)
   end function flat_parameters
@@ -62,6 +64,15 @@ contains
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
+    p = cylinder_parameters()
+    call check('no warning', mslip_parameters_warning(p, 1_mslip_int) == '' .and. mslip_parameters_warning(p, 0_mslip_int) == '')
+    p%friction_coefficient = 45
+    p%length = 1.0e-3_wp*p%length
+    call check('warnings', index(mslip_parameters_warning(p, 1_mslip_int), 'length is implausible') == 1 .and. &
+      index(mslip_parameters_warning(p, 2_mslip_int), 'friction_coefficient is implausible') == 1 .and. &
+      mslip_parameters_warning(p, 3_mslip_int) == '')
+    call check('warning of an ellipse', index(mslip_elliptic_parameters_warning(mslip_elliptic_parameters(1.0_wp, 1e-3_wp, 1.0_wp, &
+      0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2)), 1_mslip_int), 'semi_axis_x is implausible') == 1)
     call mslip_contact_init(cylinder_parameters(), cylinder, status)
     call check_status('initialise the cylinder', status, MSLIP_OK)
     call mslip_contact_init(flat_parameters(), flat, status)
@@ -688,7 +699,8 @@ contains
     integer(mslip_int) :: status
 
     p = mslip_parameters(flat_half_width=1.75081e-4_wp, edge_radius=8.63e-3_wp, length=1.23e-3_wp, normal_force=17.0_wp, &
-      friction_coefficient=0.35_wp, material=spread(mslip_material(6.2e11_wp, 0.22_wp), 1, 2))
+      friction_coefficient=0.35_wp, material=spread(mslip_material(6.2e11_wp, 0.22_wp), 1, 2), &
+      displacement_reference=MSLIP_CENTRE_POINT)
     call mslip_element_init(p, 1_mslip_int, normal_input, element, status)
     call check_status('initialise an element', status, MSLIP_OK)
   end function element_of

@@ -52,7 +52,8 @@ pub fn table(name: &str) -> Vec<Row> {
 /// The flat with rounded edges of a row, without load and material.
 pub fn geometry(row: &Row) -> Parameters {
     let [flat_half_width, edge_radius, length] = ["a", "R", "L"].map(|name| row[name]);
-    Parameters { flat_half_width, edge_radius, length, ..Parameters::default() }
+    let displacement_reference = microslip::parameters::CENTRE_POINT;
+    Parameters { flat_half_width, edge_radius, length, displacement_reference, ..Parameters::default() }
 }
 
 /// The contact of a row of `contacts`.

@@ -209,6 +209,7 @@ static mslip_parameters flat_parameters(void)
     p.length = 2e-2;
     p.normal_force = 10.0;
     p.friction_coefficient = 0.4;
+    p.displacement_reference = MSLIP_CENTRE_POINT;
     p.material[0] = p.material[1] = steel;
     return p;
 }

@@ -36,7 +36,7 @@ end
 % The contact of fortran_examples/cases/two_dof.nml.
 function p = parameters()
     p = struct('flat_half_width', 0.2e-3, 'edge_radius', 5e-3, 'length', 10e-3, 'normal_force', 150, ...
-               'friction_coefficient', 0.4, 'young_modulus', 114e9, 'poisson_ratio', 0.32);
+               'friction_coefficient', 0.4, 'young_modulus', 114e9, 'poisson_ratio', 0.32, 'displacement_reference', 1);
 end
 
 % The harmonic forces of tests/golden, computed in multi-precision; the tolerance is that of the interface for C.
@@ -50,7 +50,8 @@ function forces()
         values = contacts(contacts(:,1) == row(2), :);
         p = struct('flat_half_width', values(column('a')), 'edge_radius', values(column('R')), 'length', values(column('L')), ...
                    'normal_force', values(column('N')), 'friction_coefficient', values(column('mu')), ...
-                   'young_modulus', values([column('E1'), column('E2')]), 'poisson_ratio', values([column('nu1'), column('nu2')]));
+                   'young_modulus', values([column('E1'), column('E2')]), 'poisson_ratio', values([column('nu1'), column('nu2')]), ...
+                   'displacement_reference', 0);
         contact = microslip('contact', p);
         force = microslip('harmonic_force', contact, row(3), row(4:10));
         worst = max(worst, max(abs(force - row(11:17)))/microslip('fields', contact).slip_force);

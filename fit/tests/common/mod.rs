@@ -33,6 +33,7 @@ pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
         normal_force,
         friction_coefficient,
         material,
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     }
 }

@@ -8,10 +8,12 @@ use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
+use core::ffi::{CStr, c_char};
+use core::ptr;
 use libc::size_t;
 
-/// Sets all parameters to NaN, so that an omitted one is rejected by its own status code, and the displacement reference to
-/// MSLIP_CENTRE_POINT. NULL is ignored.
+/// Sets all parameters to NaN and the displacement reference to -1, so that an omitted one is rejected by its own status code, and
+/// the layer to none. NULL is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
@@ -27,6 +29,32 @@ pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParam
         // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
         unsafe { p.write_unaligned(EllipticParameters::default()) }
     }
+}
+
+/// Text of a warning, NULL without one. Parameters are unset or invalid, and misaligned: they have no status.
+unsafe fn text_of<P: Copy, W: Iterator<Item = &'static CStr>>(
+    p: *const P,
+    i: i32,
+    warnings: fn(&P, Option<f64>) -> W,
+) -> *const c_char {
+    let Some(i) = usize::try_from(i).ok().filter(|_| !p.is_null()) else { return ptr::null() };
+    // SAFETY: valid by the function's contract.
+    let parameters = unsafe { p.read_unaligned() };
+    warnings(&parameters, None).nth(i).map_or(ptr::null(), CStr::as_ptr)
+}
+
+/// Warning i >= 0 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the model is
+/// inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa if
+/// both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_parameters_warning(p: *const Parameters, i: i32) -> *const c_char {
+    text_of(p, i, Parameters::warnings)
+}
+
+/// Warning i >= 0 of the parameters of an elliptical contact, as mslip_parameters_warning.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_elliptic_parameters_warning(p: *const EllipticParameters, i: i32) -> *const c_char {
+    text_of(p, i, EllipticParameters::warnings)
 }
 
 /// Initialises a contact with a constructor.

@@ -119,8 +119,9 @@ fn interface(prototype: &Prototype) -> Result<Vec<String>, String> {
     let (name, base) = (*name, *base);
     let short = name.replacen("mslip_", "c_", 1);
 
-    // Without pointers there are no side effects, and the result may dimension an array.
-    let prefix = if base != "void" && arguments.iter().all(|argument| !argument.pointer) { "pure " } else { "" };
+    // Without pointers there are no side effects, nor in a function that returns a text: the result may dimension a variable.
+    let is_pure = base == "char" || base != "void" && arguments.iter().all(|argument| !argument.pointer);
+    let prefix = if is_pure { "pure " } else { "" };
     let unit = if base == "void" { "subroutine" } else { "function" };
     let names: Vec<&str> = arguments.iter().map(|argument| argument.name).collect();
     let names = names.join(", ");

@@ -241,12 +241,14 @@ mod tests {
     use crate::interface::{Header, functions};
 
     /// Those that cannot fail.
-    const WITHOUT_STATUS: [&str; 10] = [
+    const WITHOUT_STATUS: [&str; 12] = [
         "mslip_version",
         "mslip_abi_version",
         "mslip_status_text",
         "mslip_parameters_default",
         "mslip_elliptic_parameters_default",
+        "mslip_parameters_warning",
+        "mslip_elliptic_parameters_warning",
         "mslip_state_length",
         "mslip_stiffness_table_length",
         "mslip_harmonic_workspace_length",

@@ -77,7 +77,7 @@ pub fn at_approach(case: &ElementCase, approach: f64, range: &'static str, tally
 /// Displacements and normal inputs of a history.
 fn history(case: &ElementCase, sampler: &mut Sampler, steps: usize) -> (Vec<[f64; 2]>, &'static str) {
     let ElementCase { element, .. } = case;
-    let by_force = element.normal_input == 1;
+    let by_force = element.normal_input == microslip::ffi::MSLIP_INPUT_NORMAL_FORCE;
     let mu = element.friction_coefficient;
     let (pattern, range) = match sampler.below(7) {
         0 => (0, "constant load"),

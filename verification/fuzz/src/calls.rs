@@ -512,7 +512,8 @@ impl Memory {
             valid,
             defined,
         };
-        let [directions, normal_input, rule] = [code(step.codes[0], 1), code(step.codes[1], 0), code(step.codes[2], 0)];
+        let [directions, normal_input, rule] =
+            [code(step.codes[0], 1), code(step.codes[1], MSLIP_INPUT_APPROACH), code(step.codes[2], 0)];
         let rule = if self.of_elements && step.codes[2] < 100 { MSLIP_UNIFORM_SAMPLING } else { rule };
         let sizes = [step.sizes[0] % 10, step.sizes[1] % 256].map(|size| size as usize);
         check_lengths(step.sizes, directions, rule);

@@ -74,6 +74,7 @@ impl Case {
             normal_force,
             friction_coefficient: friction,
             material: [material; 2],
+            displacement_reference: microslip::parameters::CENTRE_POINT,
             ..Parameters::default()
         };
         let contact = Contact::rounded_flat(&parameters).expect("a contact of the paper");

@@ -37,6 +37,7 @@ fn contact() -> Contact {
         friction_coefficient: FRICTION,
         // E* = 2: b² = 4 N R/(pi E* L).
         material: [Material { young_modulus: 4.0, poisson_ratio: 0.0 }; 2],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     };
     Contact::rounded_flat(&parameters).expect("a contact")

@@ -101,6 +101,7 @@ impl Shape {
             normal_force,
             friction_coefficient: self.friction_coefficient(),
             material: [self.material(); 2],
+            displacement_reference: microslip::parameters::CENTRE_POINT,
             ..Parameters::default()
         }
     }

@@ -84,6 +84,7 @@ fn paths() -> Vec<Path> {
                     normal_force: load,
                     friction_coefficient: value(5),
                     material: [body; 2],
+                    displacement_reference: microslip::parameters::CENTRE_POINT,
                     ..Parameters::default()
                 };
                 paths.push(Path { shape, name, parameters, rows: vec![row] });

@@ -43,6 +43,7 @@ fn row(line: &str) -> String {
         normal_force: given[3],
         friction_coefficient: given[4],
         material: [body(5), body(7)],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
     }));
     let values: Vec<Real> = match (task, arguments) {
